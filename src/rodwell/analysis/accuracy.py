@@ -1,0 +1,51 @@
+"""Degree, tolerances and first meshes: the numerical choices, in one place."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.errors import InputError
+from rodwell.numerics.spaces import SplineSpace, graded_mesh
+from rodwell.problem import Problem
+
+DEGREE = 9
+"""Spline degree. The contact pressure takes three derivatives and converges with order degree − 2; against
+degree 7 this needs half the elements for eight digits of it."""
+
+RTOL = 1e-8
+"""Default relative tolerance of every reported number."""
+
+LOWEST_RTOL, HIGHEST_RTOL = 1e-11, 1e-2
+MOST_ELEMENTS = 40_000
+ELEMENTS_PER_RADIAN = 0.55
+
+
+def checked_rtol(rtol: float) -> float:
+    """Return a tolerance that double precision can meet, or raise."""
+    if not LOWEST_RTOL <= rtol <= HIGHEST_RTOL:
+        raise InputError(
+            "rtol", rtol, f"must be from {LOWEST_RTOL:g} (what double precision allows) to {HIGHEST_RTOL:g}"
+        )
+    return rtol
+
+
+def first_space(problem: Problem, compression: float, tension: float = 0.0) -> SplineSpace:
+    """Spline space graded by the local wavenumber of (64) over a range of end forces.
+
+    Every solution of the linear equation with frozen coefficients, k⁴ + N(s) k² + wₗ/Δ = 0, has
+    |k| ≤ √|N(s)| + (wₗ/Δ)^¼. That covers half waves, decay lengths and the layers at clamped ends under
+    tension; it is largest where the axial weight adds most.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    compression, tension
+        Most compressive (lowest) and most tensile (highest) end force to be resolved, tension positive.
+    """
+    s = np.linspace(0.0, 1.0, 257)
+    weight = problem.axial_weight * (s - 1.0)
+    axial = np.maximum(np.abs(compression + weight), np.abs(tension + weight))
+    foundation = abs(problem.foundation) / problem.clearance
+    wavenumber = np.sqrt(axial) + foundation**0.25 + 2.0 * np.pi * (1 + abs(problem.turns))
+    return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE)

@@ -1,0 +1,204 @@
+"""Critical loads and buckling modes of the straight rod."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.accuracy import ELEMENTS_PER_RADIAN, MOST_ELEMENTS, RTOL, checked_rtol, first_space
+from rodwell.analysis.families import CLAMPED, parameters
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics import eigen
+from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
+from rodwell.physics.linear import second_variation
+from rodwell.problem import Problem
+
+MOST_MODES = 200
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A buckling mode of the straight rod.
+
+    Attributes
+    ----------
+    number
+        1 for the mode met first as compression grows.
+    force
+        Critical end force F at s = 1 in B/L², tension positive.
+    error
+        Estimate of its error, in B/L²: the difference between two nested meshes, plus round-off.
+    parity
+        1 if y(1−s) = y(s), −1 if y(1−s) = −y(s), 0 if the mode has no symmetry (inclined cylinder).
+    wavenumber
+        √(∫y''²/∫y'²), in rad/L.
+    space, coefficients
+        The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch.
+    """
+
+    number: int
+    force: float
+    error: float
+    parity: int
+    wavenumber: float
+    space: SplineSpace
+    coefficients: FloatArray
+
+    def shape(self, s: FloatArray) -> FloatArray:
+        """Mode y(s) at ``s`` (m,), scaled to a largest deflection of 1."""
+        y = self.space.evaluate(self.coefficients, np.asarray(s, dtype=float), 1)[0]
+        fine = self.space.evaluate(self.coefficients, np.linspace(0.0, 1.0, 2001), 1)[0]
+        return np.asarray(y / np.max(np.abs(fine)))
+
+
+class CriticalLoads(tuple[Mode, ...]):
+    """Modes in the order in which they are met as compression grows."""
+
+    __slots__ = ()
+
+    @property
+    def forces(self) -> FloatArray:
+        """Critical end forces, (n,), falling (tension positive)."""
+        return np.array([mode.force for mode in self])
+
+    @property
+    def errors(self) -> FloatArray:
+        """Error estimates, (n,)."""
+        return np.array([mode.error for mode in self])
+
+
+def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:
+    """Critical end forces of the straight rod and its buckling modes, from (64) with clamped ends (65).
+
+    Parameters
+    ----------
+    problem
+        The rod. ``twist`` does not enter (paper, section 4.2).
+    count
+        How many, 1 to 200.
+    rtol
+        Relative tolerance; the error is judged against |F| + γ cos α.
+
+    Returns
+    -------
+    CriticalLoads
+        Modes in the order in which they are met as compression grows: force falling, tension positive.
+
+    Raises
+    ------
+    InputError
+        If ``count`` or ``rtol`` is out of range, or ``problem.turns`` is not 0 (a coiled rod is not straight).
+    NotConvergedError
+        If the tolerance cannot be met.
+    """
+    rtol = checked_rtol(rtol)
+    if isinstance(count, bool) or int(count) != count or not 1 <= count <= MOST_MODES:
+        raise InputError("modes", count, f"must be a whole number from 1 to {MOST_MODES}")
+    if problem.turns != 0:
+        raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    space = _starting_space(problem, count)
+    values, vectors = _solve(problem, space, count, None)
+    while True:
+        finer = space.refined()
+        up = Prolongation(space, finer)
+        start = np.array([up(v) for v in vectors])
+        better, shapes = _solve(problem, finer, count, start)
+        size = np.abs(better[:count]) + problem.axial_weight
+        error = np.abs(better - values)[:count] + 8.0 * np.finfo(float).eps * size
+        if np.all(error <= rtol * size):
+            break
+        if 2 * finer.elements > MOST_ELEMENTS:
+            raise NotConvergedError(
+                f"critical loads are known to {np.max(error / size):.1e} only, rtol is {rtol:g}: "
+                "ask for fewer modes or a larger rtol"
+            )
+        space, values, vectors = finer, better, shapes
+    shapes = _with_symmetry(problem, finer, better[:count], shapes)
+    return CriticalLoads(
+        _mode(problem, finer, i + 1, -better[i], error[i], shapes[i]) for i in range(int(count))
+    )
+
+
+def _starting_space(problem: Problem, count: int) -> SplineSpace:
+    """Mesh for the first ``count`` modes, from the load that the uniform rod under its mean force would take."""
+    foundation = max(problem.foundation, 0.0) / problem.clearance
+    waves = np.pi * (count + 1)
+    buckling = 2.0 * np.sqrt(foundation) + waves**2 + problem.axial_weight
+    space = first_space(problem, -buckling)
+    if space.elements * space.degree < 4 * count / ELEMENTS_PER_RADIAN:
+        space = space.refined()
+    return space
+
+
+def _solve(
+    problem: Problem, space: SplineSpace, count: int, start: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
+    factors = second_variation(space.points, parameters(problem))
+    inner = slice(CLAMPED, space.size - CLAMPED)
+    stiffness, gram = _clamped(space.form(factors)), _clamped(space.slope_gram)
+
+    def full(block: FloatArray) -> FloatArray:
+        out = np.zeros((len(block), space.size))
+        out[:, inner] = block
+        return out
+
+    def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
+        fields = np.array([space.at_points(v) for v in full(block)])
+        weighted = factors * space.weights
+        k = np.einsum("idq,dq,jdq->ij", fields, weighted, fields, optimize=True)
+        g = np.einsum("iq,q,jq->ij", fields[:, 1], space.weights, fields[:, 1], optimize=True)
+        return k, g
+
+    # ∫φ² ≤ ∫φ'²/π² for functions that vanish at both ends bounds what a negative foundation can do
+    below = -problem.axial_weight + min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    try:
+        values, vectors = eigen.lowest(
+            stiffness, gram, quadrature, count, below, None if start is None else start[:, inner]
+        )
+    except eigen.EigenError as problem_found:
+        raise NotConvergedError(f"critical loads: {problem_found}") from None
+    return values, full(vectors)
+
+
+def _clamped(band: FloatArray) -> FloatArray:
+    """Rows and columns of the free unknowns; couplings to held ones set to zero."""
+    inner = band[CLAMPED : band.shape[0] - CLAMPED].copy()
+    n, width = inner.shape
+    for k in range(1, min(width, n)):
+        inner[n - k :, k] = 0.0
+    return inner
+
+
+def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric."""
+    if problem.axial_weight != 0.0:
+        return vectors
+    out = vectors[: len(values)].copy()
+    i = 0
+    while i < len(values):
+        j = i + 1
+        while j < len(values) and values[j] - values[i] < 1e-6 * (abs(values[i]) + 1.0):
+            j += 1
+        slopes = np.array([space.at_points(v)[1] for v in out[i:j]])
+        mirrored = np.array([space.at_points(v[::-1])[1] for v in out[i:j]])
+        reflection = (slopes * space.weights) @ mirrored.T
+        _, turn = np.linalg.eigh(0.5 * (reflection + reflection.T))
+        out[i:j] = turn.T @ out[i:j]
+        i = j
+    return out
+
+
+def _mode(
+    problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray
+) -> Mode:
+    parity = 0
+    if problem.axial_weight == 0.0:
+        parity = 1 if vector @ vector[::-1] > 0.0 else -1
+        vector = 0.5 * (vector + parity * vector[::-1])
+    if space.evaluate(vector, np.array([1.0]), 3)[2, 0] < 0.0:
+        vector = -vector
+    _, slope, bend = space.at_points(vector)
+    wavenumber = np.sqrt((space.weights @ bend**2) / (space.weights @ slope**2))
+    return Mode(number, float(force), float(error), parity, float(wavenumber), space, vector)

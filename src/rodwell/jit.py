@@ -1,0 +1,43 @@
+"""How kernels are compiled, and the functions through which numerics and physics meet.
+
+``numerics`` knows no rod and ``physics`` knows no solver: compiled numerics calls the functions below on a
+*model*, a named tuple whose type selects the implementation at compile time. A model comes with
+``@numba.extending.overload(density)`` and, where contact is looked at, ``@overload(contact)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numba
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel(function: F) -> F:
+    """Compile ``function`` with Numba and keep the machine code on disk for the next start.
+
+    Where no folder for the cache can be written (a read-only installation without a home folder), the
+    function is compiled anew in each process instead.
+    """
+    try:
+        compiled = numba.njit(cache=True, error_model="numpy")(function)
+    except RuntimeError:  # Numba: "no locator available"
+        compiled = numba.njit(error_model="numpy")(function)
+    return compiled  # type: ignore[no-any-return]
+
+
+def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
+    """Energy density of ``model`` and its derivatives at one place ``s``; returns the energy per length.
+
+    ``u`` (3 nf,) holds field f, derivative d at index ``3 f + d``. Written: ``gradient`` (3 nf,), ``hessian``
+    (3 nf, 3 nf) and ``mixed`` (3 nf,), the derivative of the gradient along ``rates``, a direction in the
+    space of the ``parameters``.
+    """
+    raise NotImplementedError("density is implemented per model, by numba.extending.overload")
+
+
+def contact(model, s, u, parameters):  # type: ignore[no-untyped-def]
+    """Contact pressure of ``model`` at one place from ``u``, the fields and three derivatives."""
+    raise NotImplementedError("contact is implemented per model, by numba.extending.overload")

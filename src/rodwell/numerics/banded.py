@@ -1,0 +1,79 @@
+"""Symmetric banded matrices: factorisation with inertia, solution, product.
+
+Storage: ``band[j, k] = A[j+k, j]``, the lower triangle column by column, so the inner loops run over
+consecutive memory. For half-bandwidth 2::
+
+        ⎡a00            ⎤            j  k=0  k=1  k=2
+        ⎢a10 a11   sym. ⎥            0  a00  a10  a20
+    A = ⎢a20 a21 a22    ⎥     band:  1  a11  a21  a31
+        ⎢    a31 a32 a33⎥            2  a22  a32   ·
+        ⎣        a42 …  ⎦            3  a33   ·    ·
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.jit import kernel
+
+PIVOT_FLOOR = 1e-30
+"""Smallest pivot, relative to the largest diagonal entry, before it is replaced."""
+
+
+@kernel
+def factorise(band):
+    """Factorise A = L D Lᵀ in place, without pivoting; return the number of negative pivots.
+
+    By Sylvester's law of inertia that is the number of negative eigenvalues of A, the stability index
+    if A is the Hessian of an energy. A pivot that vanishes to round-off is replaced by a tiny positive
+    one: the factors are then those of a matrix that differs from A in the last digit.
+    """
+    n, width = band.shape
+    largest = 0.0
+    for j in range(n):
+        largest = max(largest, abs(band[j, 0]))
+    floor = PIVOT_FLOOR * largest
+    negative = 0
+    for j in range(n):
+        pivot = band[j, 0]
+        if abs(pivot) <= floor:
+            pivot = floor
+            band[j, 0] = floor
+        if pivot < 0.0:
+            negative += 1
+        reach = min(width, n - j)
+        for k in range(1, reach):
+            multiplier = band[j, k] / pivot
+            for r in range(k, reach):
+                band[j + k, r - k] -= multiplier * band[j, r]
+        for k in range(1, reach):
+            band[j, k] /= pivot
+    return negative
+
+
+@kernel
+def solve(factors, x):
+    """Solve L D Lᵀ x = b in place: ``x`` (n,) holds b on entry and the solution on return."""
+    n, width = factors.shape
+    for j in range(n):
+        xj = x[j]
+        for k in range(1, min(width, n - j)):
+            x[j + k] -= factors[j, k] * xj
+    for j in range(n - 1, -1, -1):
+        total = x[j] / factors[j, 0]
+        for k in range(1, min(width, n - j)):
+            total -= factors[j, k] * x[j + k]
+        x[j] = total
+
+
+@kernel
+def multiply(band, x):
+    """Return A x."""
+    n, width = band.shape
+    out = np.zeros(n)
+    for j in range(n):
+        out[j] += band[j, 0] * x[j]
+        for k in range(1, min(width, n - j)):
+            out[j + k] += band[j, k] * x[j]
+            out[j] += band[j, k] * x[j + k]
+    return out

@@ -1,0 +1,115 @@
+"""B-spline basis functions on a knot vector: values, derivatives, knot insertion.
+
+Knots ``t`` (n + p + 1,) are open (the end knots stand p + 1 times); element ``e`` is the knot span
+``[t[e+p], t[e+p+1])`` and carries the basis functions e … e+p. The matrix form of the recurrence is that
+of T. Lyche and K. Mørken, *Spline Methods* (2018), section 2.4; the derivative formula is (2.7) of
+L. Piegl and W. Tiller, *The NURBS Book* (1997).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.jit import kernel
+
+
+@kernel
+def blossom(knots, span, degree, places, out):
+    """Write to ``out`` (≥ degree+1,) the weights of the polar form on the span [t[span], t[span+1]).
+
+    ``f(x₁, …, x_k) = Σ_a out[a] c[span−degree+a]`` with the arguments ``places`` (≥ degree,). All
+    arguments equal to s: the values at s of the basis functions. Consecutive knots of a finer mesh: the
+    weights of knot insertion (the Oslo algorithm).
+    """
+    out[0] = 1.0
+    for k in range(1, degree + 1):
+        x = places[k - 1]
+        out[k] = 0.0
+        for j in range(k - 1, -1, -1):
+            left = knots[span - k + 1 + j]
+            share = (x - left) / (knots[span + 1 + j] - left)
+            out[j + 1] += share * out[j]
+            out[j] *= 1.0 - share
+
+
+@kernel
+def basis_derivatives(knots, span, degree, s, out):
+    """Write to ``out`` (orders, degree+1) the derivatives 0 … orders−1 at ``s`` of the basis functions.
+
+    Each row starts from the values of the lower degree and is raised by
+    ``N'_{i,q} = q N_{i,q−1}/(t_{i+q}−t_i) − q N_{i+1,q−1}/(t_{i+q+1}−t_{i+1})``.
+    """
+    places = np.full(degree, s)
+    for order in range(out.shape[0]):
+        row = out[order]
+        blossom(knots, span, degree - order, places, row)
+        for q in range(degree - order + 1, degree + 1):
+            first = span - q
+            row[q] = 0.0
+            for j in range(q - 1, -1, -1):
+                slope = q * row[j] / (knots[first + 1 + j + q] - knots[first + 1 + j])
+                row[j + 1] += slope
+                row[j] = -slope
+
+
+@kernel
+def find_span(knots, degree, s):
+    """Index of the knot span that holds ``s``; the last one for the right end."""
+    low, high = degree, knots.size - degree - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if s < knots[middle]:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+@kernel
+def tabulate(knots, degree, places, per_element, orders):
+    """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
+
+    One place more than that counts as the right end of the last element.
+    """
+    table = np.empty((places.size, orders, degree + 1))
+    for q in range(places.size):
+        span = min(degree + q // per_element, knots.size - degree - 2)
+        basis_derivatives(knots, span, degree, places[q], table[q])
+    return table
+
+
+@kernel
+def evaluate(knots, degree, coefficients, places, orders):
+    """Derivatives 0 … orders−1 of the spline at ``places`` (m,), anywhere: (orders, m)."""
+    values = np.zeros((orders, places.size))
+    basis = np.empty((orders, degree + 1))
+    for q in range(places.size):
+        span = find_span(knots, degree, places[q])
+        basis_derivatives(knots, span, degree, places[q], basis)
+        for order in range(orders):
+            for a in range(degree + 1):
+                values[order, q] += basis[order, a] * coefficients[span - degree + a]
+    return values
+
+
+@kernel
+def insertion_weights(coarse, fine, degree):
+    """Weights (n_fine, degree+1) and first indices (n_fine,) that carry coefficients to nested finer knots."""
+    n = fine.size - degree - 1
+    weights = np.empty((n, degree + 1))
+    first = np.empty(n, np.int64)
+    for i in range(n):
+        span = find_span(coarse, degree, fine[i])
+        blossom(coarse, span, degree, fine[i + 1 : i + 1 + degree], weights[i])
+        first[i] = span - degree
+    return first, weights
+
+
+@kernel
+def insert(first, weights, coefficients):
+    """Apply the weights of :func:`insertion_weights`."""
+    out = np.zeros(first.size)
+    for i in range(first.size):
+        for a in range(weights.shape[1]):
+            out[i] += weights[i, a] * coefficients[first[i] + a]
+    return out

@@ -1,0 +1,118 @@
+"""Newton's method for equilibria on a hyperplane: the compiled heart of continuation.
+
+Equilibria g(c, λ) = ∂E/∂c = 0 depend on one number λ, with parameters ``p(λ) = p₀ + λ rates``. A hyperplane
+``row·c + row_λ λ = target`` picks one of them; ``row = 0, row_λ = 1`` means "at this λ". With the Hessian H
+and m = ∂g/∂λ each iteration solves the bordered system
+
+    ⎡ H    m   ⎤ ⎡δc⎤      ⎡        g        ⎤
+    ⎢          ⎥ ⎢  ⎥ = −  ⎢                 ⎥      by  δc = a − δλ b,  H a = −g,  H b = m.
+    ⎣row  row_λ⎦ ⎣δλ⎦      ⎣row·c + … − target⎦
+
+The tangent follows from b, the stability index from the pivots of H: one factorisation gives all three.
+Only the unknowns ``first … last−1`` vary; the others are held by the end conditions. A ``parity`` of ±1 keeps
+increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
+which a nearly singular H would blow up near a symmetry-breaking bifurcation.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.jit import kernel
+from rodwell.numerics.assembly import assemble
+from rodwell.numerics.banded import factorise, multiply, solve
+
+CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
+
+
+@kernel
+def symmetrise(x, parity):
+    """Replace ``x`` by its even (parity 1) or odd (−1) part about the middle; 0 leaves it."""
+    if parity != 0:
+        n = x.size
+        for i in range((n + 1) // 2):
+            part = 0.5 * (x[i] + parity * x[n - 1 - i])
+            x[i] = part
+            x[n - 1 - i] = parity * part
+
+
+@kernel
+def correct(
+    model, table, points, weights, first, last, parity,
+    c, lam, base, rates, row, row_lam, target, scale_c, scale_lam, tolerance, most,
+    tangent,
+):  # fmt: skip
+    """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
+
+    ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
+    the first step below ``tolerance`` (convergence is quadratic: the error left is about its square) and
+    fails after ``most`` steps, or as soon as a step is not smaller than the one before it. Written:
+    ``tangent`` (n,), dc/dλ.
+
+    Returns
+    -------
+    status, λ, negative pivots of H, energy, size of the last step, number of steps
+    """
+    n = c.size
+    gradient, mixed = np.empty(n), np.empty(n)
+    band = np.empty((n, table.shape[2]))
+    a, b = np.zeros(n), np.zeros(n)
+    parameters = np.empty(base.size)
+    previous = np.inf
+    negative, energy, step = -1, np.nan, np.inf
+    for iteration in range(1, most + 1):
+        parameters[:] = base + lam * rates
+        energy = assemble(model, table, points, weights, 1, c, parameters, rates, gradient, mixed, band)
+        if not np.isfinite(energy):
+            return OUT_OF_RANGE, lam, negative, energy, step, iteration
+        inner = band[first:last].copy()
+        for j in range(last - first):  # couplings to held unknowns drop out
+            for k in range(last - first - j, inner.shape[1]):
+                inner[j, k] = 0.0
+        negative = factorise(inner)
+        a[first:last] = -gradient[first:last]
+        b[first:last] = mixed[first:last]
+        solve(inner, a[first:last])
+        solve(inner, b[first:last])
+        symmetrise(a, parity)
+        symmetrise(b, parity)
+        gap, lever = target - row_lam * lam, row_lam
+        for i in range(n):
+            gap -= row[i] * (c[i] + a[i])
+            lever -= row[i] * b[i]
+        dlam = gap / lever
+        step = abs(dlam) / scale_lam
+        for i in range(first, last):
+            dc = a[i] - dlam * b[i]
+            c[i] += dc
+            step = max(step, abs(dc) / scale_c)
+        lam += dlam
+        for i in range(n):
+            tangent[i] = -b[i]
+        if not np.isfinite(step):
+            return DIVERGED, lam, negative, energy, step, iteration
+        if step <= tolerance:
+            return CONVERGED, lam, negative, energy, step, iteration
+        if iteration > 1 and step > previous:
+            return DIVERGED, lam, negative, energy, step, iteration
+        previous = step
+    return NOT_CONVERGED, lam, negative, energy, step, most
+
+
+@kernel
+def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
+    """Covector of a tangent in the metric ``weight_c cᵀ G c + weight_λ λ²``: normalises the tangent in place.
+
+    Returns ``row`` (n,), ``row_λ`` and the normalised λ component; ``tangent_c`` is scaled with it.
+    """
+    row = multiply(gram, tangent_c)
+    square = weight_lam * tangent_lam * tangent_lam
+    for i in range(row.size):
+        row[i] *= weight_c
+        square += row[i] * tangent_c[i]
+    length = np.sqrt(square)
+    for i in range(row.size):
+        row[i] /= length
+        tangent_c[i] /= length
+    tangent_lam /= length
+    return row, weight_lam * tangent_lam, tangent_lam

@@ -1,0 +1,144 @@
+"""One-parameter families of equilibria on one spline space, and states of them.
+
+A family holds everything that stays fixed along a branch: the model, the direction in parameter space,
+the space, the end conditions, the symmetry to keep, and the metric
+
+    ‖(c, λ)‖² = ∫ y'² ds / slope_scale² + λ²/λ_scale²
+
+in which arclength, step lengths and angles are measured. It is stated here and nowhere else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from rodwell.numerics import corrector
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+
+
+class Outcome(Enum):
+    """What came of a solve; the value says what to do about it."""
+
+    CONVERGED = "converged"
+    NOT_CONVERGED = "Newton's method did not settle: start nearer, or take a smaller step"
+    DIVERGED = "Newton's method diverged: start nearer, or take a smaller step"
+    OUT_OF_RANGE = "the rod turned across the cylinder (|η| = 90°): the load is beyond the theory's range"
+
+
+_OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
+
+
+@dataclass(frozen=True)
+class State:
+    """An equilibrium: coefficients ``c`` on ``space`` at parameter λ, with tangent and stability index.
+
+    ``tangent`` (n,) and ``tangent_lam`` have length one in the metric of the family; ``row`` (n,) and ``row_lam``
+    are their covector. ``index`` is the number of negative eigenvalues of the Hessian.
+    """
+
+    space: SplineSpace
+    c: FloatArray
+    lam: float
+    tangent: FloatArray
+    tangent_lam: float
+    row: FloatArray
+    row_lam: float
+    index: int
+    energy: float
+
+    def reversed(self) -> State:
+        """Return the same state with the opposite direction of travel."""
+        return replace(
+            self, tangent=-self.tangent, tangent_lam=-self.tangent_lam, row=-self.row, row_lam=-self.row_lam
+        )
+
+    def along(self, other: State) -> float:
+        """Return the distance to ``other`` along the tangent of this state (same space)."""
+        return float(self.row @ (other.c - self.c) + self.row_lam * (other.lam - self.lam))
+
+
+@dataclass(frozen=True)
+class Family:
+    """Equilibria of ``model`` at ``base + λ rates`` with given end values: see the module's text.
+
+    ``held`` is the number of coefficients held at each end (2 clamped, 1 pinned, 0 free); ``parity`` 1 or −1
+    keeps increments even or odd about the middle, 0 leaves them.
+    """
+
+    model: Any
+    base: FloatArray
+    rates: FloatArray
+    space: SplineSpace
+    held: tuple[int, int]
+    parity: int
+    scale_c: float
+    slope_scale: float
+    lam_scale: float
+    tolerance: float = 1e-8
+    most_steps: int = 8
+
+    def on(self, space: SplineSpace) -> Family:
+        """Return the same family on another space."""
+        return replace(self, space=space)
+
+    @property
+    def _metric(self) -> tuple[float, float]:
+        return self.slope_scale**-2, self.lam_scale**-2
+
+    def parameters(self, lam: float) -> FloatArray:
+        """Return all parameters of the model at λ."""
+        return self.base + lam * self.rates
+
+    def covector(self, tangent: FloatArray, tangent_lam: float) -> tuple[FloatArray, float, FloatArray, float]:
+        """Return row, row_λ and the tangent, normalised in the metric."""
+        unit = tangent.copy()
+        row, row_lam, unit_lam = corrector.hyperplane(self.space.slope_gram, *self._metric, unit, tangent_lam)
+        return row, row_lam, unit, unit_lam
+
+    def state(self, c: FloatArray, lam: float, tangent: FloatArray, tangent_lam: float, index: int) -> State:
+        """Return a state from parts that are known to solve the equations (the straight rod)."""
+        row, row_lam, unit, unit_lam = self.covector(tangent, tangent_lam)
+        return State(self.space, c, lam, unit, unit_lam, row, row_lam, index, 0.0)
+
+    def correct(
+        self, c: FloatArray, lam: float, row: FloatArray, row_lam: float, target: float
+    ) -> tuple[Outcome, State | None, int]:
+        """Newton from ``(c, λ)`` to the equilibrium with ``row·c + row_λ λ = target``.
+
+        Returns the outcome, the state (None unless converged; its tangent points towards growing
+        ``row·c + row_λ λ``) and the number of Newton steps.
+        """
+        space = self.space
+        c = c.copy()
+        tangent = np.empty_like(c)
+        last = space.size - self.held[1]
+        status, lam, index, energy, _, steps = corrector.correct(
+            self.model, space.table, space.points, space.weights, self.held[0], last, self.parity,
+            c, lam, self.base, self.rates, row, row_lam, target, self.scale_c, self.lam_scale,
+            self.tolerance, self.most_steps, tangent,
+        )  # fmt: skip
+        if status != corrector.CONVERGED:
+            return _OUTCOMES[status], None, steps
+        sign = 1.0 if row @ tangent + row_lam >= 0.0 else -1.0
+        new_row, new_row_lam, unit, unit_lam = self.covector(sign * tangent, sign)
+        return Outcome.CONVERGED, State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy), steps
+
+    def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
+        """Newton from ``c`` at fixed λ."""
+        return self.correct(c, lam, np.zeros_like(c), 1.0, lam)
+
+    def step(
+        self, state: State, length: float, bend: tuple[FloatArray, float] | None = None
+    ) -> tuple[Outcome, State | None, int]:
+        """One pseudo-arclength step from ``state`` along its tangent, which turns at the rate ``bend``."""
+        c = state.c + length * state.tangent
+        lam = state.lam + length * state.tangent_lam
+        if bend is not None:
+            c += 0.5 * length**2 * bend[0]
+            lam += 0.5 * length**2 * bend[1]
+        target = float(state.row @ state.c) + state.row_lam * state.lam + length
+        return self.correct(c, lam, state.row, state.row_lam, target)

@@ -1,0 +1,144 @@
+"""Two nested meshes: every state is solved on both, and the difference bounds the error.
+
+A :class:`Ladder` pairs a family on a coarse mesh, which carries the continuation steps, with the same family
+on the mesh with each element halved, which gives the values reported. The difference of the two bounds the
+error of the finer one, which is smaller by the order of the method. Where a measured number is not known
+to the tolerance, the meshes are refined where they resolve least; where that no longer helps (round-off),
+the point says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.numerics.families import Family, Outcome, State
+from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
+
+Measure = Callable[[Family, State], tuple[FloatArray, FloatArray]]
+"""Numbers to report of a state and the scales, (k,) each, against which their errors are judged."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """One equilibrium on both meshes, with the measured numbers and their errors.
+
+    ``excess`` is the largest error in units of what the tolerance allows: at most 1 if the point is
+    converged to the tolerance.
+    """
+
+    coarse: State
+    fine: State
+    values: FloatArray
+    error: FloatArray
+    excess: float
+
+    @property
+    def lam(self) -> float:
+        """Parameter λ, from the finer mesh."""
+        return self.fine.lam
+
+    @property
+    def accurate(self) -> bool:
+        """Whether every measured number meets the tolerance."""
+        return self.excess <= 1.0
+
+
+class Ladder:
+    """A family on a coarse mesh and on the mesh with each of its elements halved.
+
+    Parameters
+    ----------
+    family
+        The family, on the coarse mesh.
+    measure
+        What is reported of a state, and must meet the tolerance.
+    rtol
+        Relative tolerance.
+    most_elements
+        Limit to the elements of the finer mesh.
+    floor
+        Excess below which refinement was found not to help (round-off).
+    """
+
+    def __init__(
+        self, family: Family, measure: Measure, rtol: float, most_elements: int = 20_000, floor: float = 1.0
+    ) -> None:
+        self.coarse = family
+        self.fine = family.on(family.space.refined())
+        self.up = Prolongation(self.coarse.space, self.fine.space)
+        self.measure, self.rtol, self.most_elements, self.floor = measure, rtol, most_elements, floor
+
+    def lift(self, coarse: State) -> tuple[Outcome, State | None]:
+        """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent."""
+        return _carry(coarse, self.up, self.fine)
+
+    def point(self, coarse: State, fine: State) -> Point:
+        """Measure a pair of states."""
+        values, scales = self.measure(self.fine, fine)
+        other, _ = self.measure(self.coarse, coarse)
+        error = np.abs(values - other)
+        return Point(coarse, fine, values, error, float(np.max(error / scales)) / self.rtol)
+
+    def resolve(self, coarse: State) -> tuple[Outcome, Ladder, Point | None]:
+        """Complete a coarse state to a point within the tolerance, refining as often as that takes.
+
+        Returns the outcome, the ladder on which the point stands, and the point (None if a solve failed).
+        """
+        outcome, fine = self.lift(coarse)
+        if fine is None:
+            return outcome, self, None
+        ladder, point = self, self.point(coarse, fine)
+        while point.excess > ladder.floor:
+            finer = ladder._refined(point)
+            if finer is None:
+                break
+            outcome, better = finer.adopt(ladder, point)
+            if better is None:
+                return outcome, ladder, None
+            if better.excess > 1.0 and better.excess > 0.5 * point.excess:
+                ladder.floor = 10.0 * point.excess  # round-off: a finer mesh does not help
+                break
+            ladder, point = finer, better
+        return Outcome.CONVERGED, ladder, point
+
+    def adopt(self, other: Ladder, point: Point) -> tuple[Outcome, Point | None]:
+        """Solve a point of ``other``, a ladder on coarser nested meshes, on this one."""
+        outcome, coarse = _carry(
+            point.coarse, Prolongation(other.coarse.space, self.coarse.space), self.coarse
+        )
+        if coarse is None:
+            return outcome, None
+        outcome, fine = self.lift(coarse)
+        return outcome, None if fine is None else self.point(coarse, fine)
+
+    def _refined(self, point: Point) -> Ladder | None:
+        """Return a ladder with smaller elements where ``point`` is least resolved, or None at the limit."""
+        marked = _least_resolved(self.coarse.space, point.coarse, self.fine.space, point.fine)
+        space = self.coarse.space.refined(marked)
+        if 2 * space.elements > self.most_elements:
+            return None
+        return Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements)
+
+
+def _carry(state: State, up: Prolongation, family: Family) -> tuple[Outcome, State | None]:
+    """Solve on a finer space, on the hyperplane through ``state`` normal to its tangent."""
+    c, tangent = up(state.c), up(state.tangent)
+    if not c.any():  # the trivial solution, known exactly; its Hessian may be singular
+        return Outcome.CONVERGED, family.state(c, state.lam, tangent, state.tangent_lam, state.index)
+    row, row_lam, _, _ = family.covector(tangent, state.tangent_lam)
+    outcome, solved, _ = family.correct(c, state.lam, row, row_lam, float(row @ c) + row_lam * state.lam)
+    return outcome, solved
+
+
+def _least_resolved(coarse: SplineSpace, state: State, fine: SplineSpace, better: State) -> np.ndarray:
+    """Mark the coarse elements in which the third derivatives of the two states differ most, (elements,)."""
+    grid, _ = coarse.samples
+    gap = np.abs(fine.evaluate(better.c, grid, 4)[3] - coarse.evaluate(state.c, grid, 4)[3])
+    largest = gap[:-1].reshape(coarse.elements, -1).max(axis=1)
+    marked = largest > largest.max() * 0.5 ** (coarse.degree - 2)
+    if marked.mean() > 0.5:
+        marked[:] = True
+    return np.asarray(marked)

@@ -1,0 +1,160 @@
+"""Locating zeros between two points of a branch, on both meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.spaces import FloatArray
+
+if TYPE_CHECKING:
+    from rodwell.numerics.ladder import Measure
+
+PLACE_TOLERANCE = 1e-12
+"""Width, as a part of the span, to which a zero is bracketed."""
+
+
+class LocationError(RuntimeError):
+    """A zero known to lie between two points could not be located; a shorter step is needed."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """The stretch of a branch between two states of one family, in t from 0 to 1 along the first's tangent."""
+
+    family: Family
+    first: State
+    last: State
+
+    def __call__(self, t: float) -> State:
+        """Return the equilibrium at ``t``: Newton from the cubic Hermite interpolant."""
+        a, b = self.first, self.last
+        length = a.along(b)
+        rate = float(a.row @ b.tangent + a.row_lam * b.tangent_lam)
+        if t == 0.0:
+            return a
+        if t == 1.0:
+            return b
+        h0, h1 = (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * t * (3.0 - 2.0 * t)
+        s0, s1 = length * t * (1.0 - t) ** 2, length / rate * t * t * (t - 1.0)
+        c = h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent
+        lam = h0 * a.lam + h1 * b.lam + s0 * a.tangent_lam + s1 * b.tangent_lam
+        target = float(a.row @ a.c) + a.row_lam * a.lam + t * length
+        outcome, state, _ = self.family.correct(c, lam, a.row, a.row_lam, target)
+        if state is None:
+            raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
+        return state
+
+
+def bracketed_root(
+    function: Callable[[float], float], low: float, high: float, f_low: float, f_high: float
+) -> float:
+    """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.
+
+    T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic
+    interpolation, whichever is safe.
+    """
+    a, b, c = high, low, high
+    fa, fb, fc = f_high, f_low, f_high
+    t = 0.5
+    for _ in range(200):
+        x = a + t * (b - a)
+        fx = function(x)
+        if (fx < 0.0) == (fa < 0.0):
+            c, fc = a, fa
+        else:
+            c, b, fc, fb = b, a, fb, fa
+        a, fa = x, fx
+        best, f_best = (a, fa) if abs(fa) < abs(fb) else (b, fb)
+        share = PLACE_TOLERANCE / max(abs(b - a), PLACE_TOLERANCE)
+        if share >= 0.5 or f_best == 0.0:
+            return best
+        xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+        if phi**2 < xi and (1.0 - phi) ** 2 < 1.0 - xi:
+            t = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+        else:
+            t = 0.5
+        t = min(max(t, share), 1.0 - share)
+    return best
+
+
+def locate(
+    coarse: Span,
+    fine: Span,
+    measure: Measure,
+    function: Callable[[float, FloatArray], float],
+    ends: tuple[float, float],
+) -> tuple[float, State, State, float]:
+    """Zero of an event function of λ and the measured numbers on both meshes.
+
+    ``ends`` are its values, of opposite sign, at the ends of the fine span. Returns the place t, the states
+    on the coarse and the fine mesh, each at its own zero, and the error of λ.
+    """
+
+    def value(span: Span, t: float) -> float:
+        state = span(t)
+        return function(state.lam, measure(span.family, state)[0])
+
+    place = bracketed_root(lambda t: value(fine, t), 0.0, 1.0, *ends)
+    other = _near(lambda t: value(coarse, t), place, ends[1] > ends[0])
+    states = coarse(other), fine(place)
+    return place, *states, abs(states[0].lam - states[1].lam)
+
+
+def _near(function: Callable[[float], float], place: float, rising: bool) -> float:
+    """Zero of ``function`` close to ``place``, where a function that differs little from it has one."""
+    middle = function(place)
+    if middle == 0.0:
+        return place
+    width = 1e-6
+    direction = -1.0 if (middle > 0.0) == rising else 1.0
+    near, f_near = place, middle
+    while width < 1.0:
+        far = place + direction * width
+        f_far = function(far)
+        if (f_far < 0.0) != (middle < 0.0):
+            return bracketed_root(function, near, far, f_near, f_far)
+        near, f_near, width = far, f_far, 4.0 * width
+    raise LocationError("an event was found on the finer mesh only")
+
+
+def index_crossings(
+    coarse: Span, fine: Span
+) -> list[tuple[float, State, State, tuple[int, int], float, bool]]:
+    """All places where the stability index changes, by bisection of every stretch whose ends differ in it.
+
+    Each item: place t, states on both meshes, index before and after, error of λ, and whether the place is a
+    fold (λ turns back there) rather than a branch point.
+    """
+    out = []
+    for place, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
+        offset = 1e-5
+        fold = fine(place - offset).tangent_lam * fine(place + offset).tangent_lam < 0.0
+        other = _same_crossing(coarse, place, before, after)
+        states = coarse(other), fine(place)
+        out.append((place, *states, (before, after), abs(states[0].lam - states[1].lam), fold))
+    return out
+
+
+def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, int, int]]:
+    """Crossings of the index in [low, high] as (place, before, after)."""
+    if at_low == at_high:
+        return []
+    middle = 0.5 * (low + high)
+    if high - low < PLACE_TOLERANCE:
+        return [(middle, at_low, at_high)]
+    here = span(middle).index
+    return _bisect(span, low, middle, at_low, here) + _bisect(span, middle, high, here, at_high)
+
+
+def _same_crossing(span: Span, place: float, before: int, after: int) -> float:
+    """Place on the other mesh where the index changes from ``before`` to ``after``, near ``place``."""
+    width = 1e-8
+    while width < 1.0:
+        low, high = place - width, place + width
+        if span(low).index == before and span(high).index == after:
+            return _bisect(span, low, high, before, after)[0][0]
+        width *= 8.0
+    raise LocationError("a change of stability was found on the finer mesh only")

@@ -1,0 +1,125 @@
+"""Spline spaces: a mesh, a degree, the quadrature on it, and the way to a finer mesh."""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rodwell.numerics import assembly, bsplines
+
+FloatArray = NDArray[np.float64]
+
+SAMPLES_PER_ELEMENT = 3
+
+
+@lru_cache
+def _gauss(count: int) -> tuple[FloatArray, FloatArray]:
+    return np.polynomial.legendre.leggauss(count)
+
+
+class SplineSpace:
+    """Splines of one degree and maximal smoothness on a mesh of [0, 1].
+
+    Parameters
+    ----------
+    breaks
+        Mesh points, increasing from 0 to 1, shape (elements + 1,).
+    degree
+        Polynomial degree p; the splines have p − 1 continuous derivatives.
+
+    Attributes
+    ----------
+    size
+        Number of coefficients, elements + degree.
+    points, weights
+        Gauss quadrature, ``degree`` points in each element in turn, shape (elements · degree,).
+    """
+
+    def __init__(self, breaks: FloatArray, degree: int) -> None:
+        self.breaks = np.ascontiguousarray(breaks, dtype=float)
+        self.degree = degree
+        self.elements = self.breaks.size - 1
+        self.size = self.elements + degree
+        self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
+        nodes, weights = _gauss(degree)
+        half = 0.5 * np.diff(self.breaks)[:, None]
+        self.points: FloatArray = (self.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
+        self.weights: FloatArray = (half * weights).ravel()
+
+    @cached_property
+    def table(self) -> FloatArray:
+        """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
+        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.degree, 3))
+
+    @cached_property
+    def samples(self) -> tuple[FloatArray, FloatArray]:
+        """Places (k,), a few in each element and both ends, and basis table (k, 4, degree + 1) there."""
+        share = np.arange(SAMPLES_PER_ELEMENT) / SAMPLES_PER_ELEMENT
+        grid = np.append((self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * share).ravel(), 1.0)
+        return grid, np.asarray(bsplines.tabulate(self.knots, self.degree, grid, SAMPLES_PER_ELEMENT, 4))
+
+    @cached_property
+    def slope_gram(self) -> FloatArray:
+        """Band (size, degree + 1) of ∫ φᵢ' φⱼ' ds."""
+        return self.form(np.array([0.0, 1.0, 0.0]))
+
+    def form(self, density: FloatArray) -> FloatArray:
+        """Band of Σ_d ∫ density[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds; ``density`` is (3,) or (3, m) at the quadrature points."""
+        full = np.ascontiguousarray(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)))
+        return np.asarray(assembly.assemble_form(self.table, self.weights, self.elements, full))
+
+    def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
+        """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
+        points = np.ascontiguousarray(places, dtype=float)
+        return np.asarray(bsplines.evaluate(self.knots, self.degree, coefficients, points, orders))
+
+    def at_points(self, coefficients: FloatArray) -> FloatArray:
+        """Values and two derivatives at the quadrature points, shape (3, m)."""
+        local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1)
+        table = self.table.reshape(self.elements, self.degree, 3, self.degree + 1)
+        return np.einsum("eqda,ea->deq", table, local).reshape(3, -1)
+
+    def refined(self, marked: NDArray[np.bool_] | None = None) -> SplineSpace:
+        """Return the space with the ``marked`` elements (all, by default) halved."""
+        middles = 0.5 * (self.breaks[:-1] + self.breaks[1:])
+        new = middles if marked is None else middles[marked]
+        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree)
+
+    def coarsened(self) -> SplineSpace:
+        """Return the space with every second mesh point left out."""
+        keep = np.append(self.breaks[:-1:2], 1.0)
+        return SplineSpace(keep, self.degree)
+
+
+class Prolongation:
+    """Exact transfer of splines to a space on a finer, nested mesh."""
+
+    def __init__(self, coarse: SplineSpace, fine: SplineSpace) -> None:
+        self.coarse, self.fine = coarse, fine
+        self._first, self._weights = bsplines.insertion_weights(coarse.knots, fine.knots, coarse.degree)
+
+    def __call__(self, coefficients: FloatArray) -> FloatArray:
+        return np.asarray(bsplines.insert(self._first, self._weights, coefficients))
+
+
+def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, least: int = 8) -> FloatArray:
+    """Mesh points whose density follows a local wavenumber.
+
+    Parameters
+    ----------
+    wavenumber, places
+        Local wavenumber k(s) > 0 at ``places``, both (m,), from s = 0 to s = 1.
+    per_radian
+        Elements per radian of ∫ k ds.
+    least
+        Smallest number of elements.
+    """
+    steps = 0.5 * (wavenumber[1:] + wavenumber[:-1]) * np.diff(places)
+    phase = np.concatenate([[0.0], np.cumsum(steps)])
+    count = max(least, int(np.ceil(per_radian * phase[-1])))
+    count += count % 2  # a mesh point at s = 1/2 where the wavenumber is symmetric
+    mesh = np.interp(np.linspace(0.0, phase[-1], count + 1), phase, places)
+    mesh[0], mesh[-1] = 0.0, 1.0
+    return np.asarray(mesh)

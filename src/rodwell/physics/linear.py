@@ -1,0 +1,24 @@
+"""The linear problem (64): second variation of the energy at the straight rod."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rodwell.physics._kernels import rod_density
+
+FloatArray = NDArray[np.float64]
+
+
+def second_variation(places: FloatArray, parameters: FloatArray) -> FloatArray:
+    """Factors (3, m) of y², y'², y''² in the second variation at y = 0, at ``places`` (m,).
+
+    They are wₗ/Δ, N(s) = F + wₐ(s − 1) and 1: those of (64), read off the Hessian of the one energy density. The
+    twisting moment and the curvature ω₃ do not enter.
+    """
+    gradient, mixed, hessian = np.empty(3), np.empty(3), np.empty((3, 3))
+    out = np.empty((3, places.size))
+    for i, s in enumerate(places):
+        rod_density(s, np.zeros(3), parameters, np.zeros_like(parameters), gradient, hessian, mixed)
+        out[:, i] = np.diag(hessian)
+    return out

@@ -1,0 +1,47 @@
+"""The rod on a cylinder as a model that compiled numerics can call: see :mod:`rodwell.jit`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from numba import types
+from numba.extending import overload
+
+from rodwell.jit import contact, density
+from rodwell.physics._kernels import rod_density
+from rodwell.physics.strand import contact_pressure
+
+
+class RodOnCylinder(NamedTuple):
+    """A heavy rod kept on a cylinder: one field, y = Δ ξ₂."""
+
+    fields: int = 1
+
+
+def _is_rod(model: Any) -> bool:
+    return isinstance(model, types.BaseNamedTuple) and model.instance_class is RodOnCylinder
+
+
+@overload(density)
+def _density(  # type: ignore[no-untyped-def]
+    model, s, u, parameters, rates, gradient, hessian, mixed
+) -> Callable[..., float] | None:
+    if not _is_rod(model):
+        return None
+
+    def rod(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
+        return rod_density(s, u, parameters, rates, gradient, hessian, mixed)
+
+    return rod
+
+
+@overload(contact)
+def _contact(model, s, u, parameters) -> Callable[..., float] | None:  # type: ignore[no-untyped-def]
+    if not _is_rod(model):
+        return None
+
+    def rod(model, s, u, parameters):  # type: ignore[no-untyped-def]
+        return contact_pressure(s, u[0], u[1], u[2], u[3], parameters)
+
+    return rod

@@ -1,0 +1,62 @@
+"""Forces, moments and contact of the rod (the first strand), place by place.
+
+Plain formulas in y(s) and its derivatives: the same functions serve compiled kernels (numbers) and
+reconstruction (arrays). Components refer to the braid frame {t₁, d₁, u₁} of the rod. Units B = L = 1;
+tension is positive; contact pressure p < 0 pushes the rod inward, away from the wall of a surrounding
+cylinder.
+
+The one integral is avoided: without friction the cylinder carries no axial force (h = 0), so the axial
+resultant of the rod alone is ``F⁽¹⁾·t₂ = N(s) = F + wₐ(s − 1)``, and the tension ``F₁⁽¹⁾`` follows from it and
+from the shear ``F₃⁽¹⁾`` because ``t₂ = cos η t₁ − sin η u₁``.
+"""
+
+# ruff: noqa: D103
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rodwell.jit import kernel
+from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
+
+
+@kernel
+def axial_resultant(s: Any, parameters: Any) -> Any:
+    """N(s) = F + wₐ (s − 1): axial component of the braid force, (22)–(24)."""
+    return parameters[FORCE] + parameters[AXIAL_WEIGHT] * (s - 1.0)
+
+
+@kernel
+def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
+    """cos η, ω₁, ω₂, ω₃ (20) and ω₂' = −η''."""
+    cos_eta = np.sqrt(1.0 - y1 * y1)
+    eta1 = y2 / cos_eta
+    eta2 = (y3 + y1 * eta1 * eta1) / cos_eta
+    return cos_eta, -y1 * cos_eta / clearance, -eta1, y1 * y1 / clearance, -eta2
+
+
+@kernel
+def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
+    """Rod force components F₁⁽¹⁾, F₂⁽¹⁾, F₃⁽¹⁾, (52)–(54), from moment balance with M⁽¹⁾ = (−T₁, ω₂, ω₃), (47)."""
+    twist = parameters[TWIST]
+    cos_eta, omega1, omega2, omega3, omega2_rate = curvatures(y1, y2, y3, parameters[CLEARANCE])
+    f2 = -omega2 * (3.0 * omega1 + twist)
+    f3 = omega2_rate - omega3 * twist - omega1 * omega3
+    f1 = (axial_resultant(s, parameters) + f3 * y1) / cos_eta
+    return f1, f2, f3
+
+
+@kernel
+def contact_pressure(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
+    """Contact pressure p = p₂⁽¹⁾ on the rod along d₁ (towards the axis), (55): force balance (48) along d₁.
+
+    ``p = dF₂⁽¹⁾/ds + ω₃ F₁⁽¹⁾ − ω₁ F₃⁽¹⁾ − wₗ cos ξ₂`` with ``dF₂⁽¹⁾/ds = −ω₂'(3ω₁ + T₁) − 3 cos 2η ω₂²/Δ``.
+    Contact with a surrounding cylinder holds while p < 0.
+    """
+    clearance = parameters[CLEARANCE]
+    _, omega1, omega2, omega3, omega2_rate = curvatures(y1, y2, y3, clearance)
+    f1, _, f3 = strand_force(s, y1, y2, y3, parameters)
+    cos_2eta = 1.0 - 2.0 * y1 * y1
+    f2_rate = -omega2_rate * (3.0 * omega1 + parameters[TWIST]) - 3.0 * cos_2eta * omega2 * omega2 / clearance
+    return f2_rate + omega3 * f1 - omega1 * f3 - parameters[LATERAL_WEIGHT] * np.cos(y / clearance)
