@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rodwell.numerics.families import Outcome, State
-from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
 from rodwell.numerics.location import LocationError, Span, index_crossings, locate
 from rodwell.numerics.spaces import FloatArray
 
@@ -31,10 +31,11 @@ class Event:
 
 @dataclass(frozen=True)
 class Found:
-    """A located zero: name, point there, error of its λ, stability index on either side."""
+    """A located zero: name, point and its ladder, error of its λ, stability index on either side."""
 
     name: str
     point: Point
+    ladder: Ladder
     lam_error: float
     index_before: int
     index_after: int
@@ -143,19 +144,22 @@ def _events_between(
     ladder: Ladder, before: Point, after: Point, events: Sequence[Event], first: bool
 ) -> list[Found]:
     """All events between two points on one ladder, in order; up to the first that stops the branch."""
-    spans = Span(ladder.coarse, before.coarse, after.coarse), Span(ladder.fine, before.fine, after.fine)
+    spans = (
+        Span(ladder.coarse.sharp(), before.coarse, after.coarse),
+        Span(ladder.fine.sharp(), before.fine, after.fine),
+    )
     crossings: list[tuple[float, Found]] = []
     if not first:  # the index of the straight rod is not that of the branch which leaves it
         for place, coarse, fine, indices, error, fold in index_crossings(*spans):
             point = ladder.point(coarse, fine)
-            crossings.append((place, Found(INDEX, point, error, *indices, fold)))
+            crossings.append((place, Found(INDEX, point, ladder, error / CLAIMED_GAIN, *indices, fold)))
     for event in events:
         ends = event.function(before.lam, before.values), event.function(after.lam, after.values)
         if ends[0] == 0.0 or (ends[0] < 0.0) == (ends[1] < 0.0):
             continue
         place, coarse, fine, error = locate(*spans, ladder.measure, event.function, ends)
         index = fine.index if not first else after.fine.index
-        crossings.append((place, Found(event.name, ladder.point(coarse, fine), error, index, index)))
+        crossings.append((place, Found(event.name, ladder.point(coarse, fine), ladder, error / CLAIMED_GAIN, index, index)))
     crossings.sort(key=lambda item: item[0])
     stops = {e.name for e in events if e.stop}
     out: list[Found] = []

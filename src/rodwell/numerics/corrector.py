@@ -40,14 +40,15 @@ def symmetrise(x, parity):
 def correct(
     model, table, points, weights, first, last, parity,
     c, lam, base, rates, row, row_lam, target, scale_c, scale_lam, tolerance, most,
-    tangent,
+    extra, tangent,
 ):  # fmt: skip
     """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
 
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
     the first step below ``tolerance`` (convergence is quadratic: the error left is about its square) and
-    fails after ``most`` steps, or as soon as a step is not smaller than the one before it. Written:
-    ``tangent`` (n,), dc/dλ.
+    fails after ``most`` steps, or as soon as a step is not smaller than the one before it. ``extra`` steps
+    follow convergence: pivots and tangent belong to the iterate before the last step, and locating a change of
+    the index takes them at the solution itself. Written: ``tangent`` (n,), dc/dλ.
 
     Returns
     -------
@@ -59,8 +60,8 @@ def correct(
     a, b = np.zeros(n), np.zeros(n)
     parameters = np.empty(base.size)
     previous = np.inf
-    negative, energy, step = -1, np.nan, np.inf
-    for iteration in range(1, most + 1):
+    negative, energy, step, settled = -1, np.nan, np.inf, 0
+    for iteration in range(1, most + extra + 1):
         parameters[:] = base + lam * rates
         energy = assemble(model, table, points, weights, 1, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
@@ -91,9 +92,11 @@ def correct(
             tangent[i] = -b[i]
         if not np.isfinite(step):
             return DIVERGED, lam, negative, energy, step, iteration
-        if step <= tolerance:
-            return CONVERGED, lam, negative, energy, step, iteration
-        if iteration > 1 and step > previous:
+        if step <= tolerance or settled > 0:
+            settled += 1
+            if settled > extra:
+                return CONVERGED, lam, negative, energy, step, iteration
+        elif iteration > 1 and step > previous:
             return DIVERGED, lam, negative, energy, step, iteration
         previous = step
     return NOT_CONVERGED, lam, negative, energy, step, most

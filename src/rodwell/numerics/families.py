@@ -80,10 +80,15 @@ class Family:
     lam_scale: float
     tolerance: float = 1e-8
     most_steps: int = 8
+    extra_steps: int = 0
 
     def on(self, space: SplineSpace) -> Family:
         """Return the same family on another space."""
         return replace(self, space=space)
+
+    def sharp(self) -> Family:
+        """Return the same family with tangents and index taken at the converged state, at the cost of a step."""
+        return replace(self, extra_steps=1)
 
     @property
     def _metric(self) -> tuple[float, float]:
@@ -119,7 +124,7 @@ class Family:
         status, lam, index, energy, _, steps = corrector.correct(
             self.model, space.table, space.points, space.weights, self.held[0], last, self.parity,
             c, lam, self.base, self.rates, row, row_lam, target, self.scale_c, self.lam_scale,
-            self.tolerance, self.most_steps, tangent,
+            self.tolerance, self.most_steps, self.extra_steps, tangent,
         )  # fmt: skip
         if status != corrector.CONVERGED:
             return _OUTCOMES[status], None, steps

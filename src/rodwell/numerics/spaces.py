@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.numerics import assembly, bsplines
+from rodwell.numerics import assembly, banded, bsplines
 
 FloatArray = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class SplineSpace:
     size
         Number of coefficients, elements + degree.
     points, weights
-        Gauss quadrature, ``degree`` points in each element in turn, shape (elements · degree,).
+        Gauss quadrature, degree − 2 points in each element in turn: enough for the order of the method.
     """
 
     def __init__(self, breaks: FloatArray, degree: int) -> None:
@@ -43,7 +43,7 @@ class SplineSpace:
         self.elements = self.breaks.size - 1
         self.size = self.elements + degree
         self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
-        nodes, weights = _gauss(degree)
+        nodes, weights = _gauss(degree - 2)
         half = 0.5 * np.diff(self.breaks)[:, None]
         self.points: FloatArray = (self.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
         self.weights: FloatArray = (half * weights).ravel()
@@ -51,7 +51,7 @@ class SplineSpace:
     @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
-        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.degree, 3))
+        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.degree - 2, 3))
 
     @cached_property
     def samples(self) -> tuple[FloatArray, FloatArray]:
@@ -78,8 +78,7 @@ class SplineSpace:
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m)."""
         local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1)
-        table = self.table.reshape(self.elements, self.degree, 3, self.degree + 1)
-        return np.einsum("eqda,ea->deq", table, local).reshape(3, -1)
+        return np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1)
 
     def refined(self, marked: NDArray[np.bool_] | None = None) -> SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""
@@ -87,10 +86,29 @@ class SplineSpace:
         new = middles if marked is None else middles[marked]
         return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree)
 
-    def coarsened(self) -> SplineSpace:
-        """Return the space with every second mesh point left out."""
-        keep = np.append(self.breaks[:-1:2], 1.0)
-        return SplineSpace(keep, self.degree)
+    def project(self, values: FloatArray, held: int) -> FloatArray:
+        """Coefficients of the L² projection of a function known at the quadrature points, (m,).
+
+        ``held`` coefficients at each end stay zero (2 for a function with vanishing ends and end slopes).
+        """
+        local = np.einsum("eqa,eq->ea", self._element_table[:, :, 0], self._by_element(self.weights * values))
+        load = np.zeros(self.size)
+        for a in range(self.degree + 1):
+            load[a : a + self.elements] += local[:, a]
+        inner = slice(held, self.size - held)
+        mass = self.form(np.array([1.0, 0.0, 0.0]))[inner].copy()
+        banded.factorise(mass)
+        out = np.zeros(self.size)
+        out[inner] = load[inner]
+        banded.solve(mass, out[inner])
+        return out
+
+    @property
+    def _element_table(self) -> FloatArray:
+        return self.table.reshape(self.elements, -1, 3, self.degree + 1)
+
+    def _by_element(self, values: FloatArray) -> FloatArray:
+        return values.reshape(self.elements, -1)
 
 
 class Prolongation:

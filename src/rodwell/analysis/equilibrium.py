@@ -1,0 +1,78 @@
+"""A single state at a given end force, found by minimising the energy: coiled rods, or buckled ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.accuracy import MOST_ELEMENTS, RTOL, checked_rtol, first_space
+from rodwell.analysis.families import CLAMPED, force_family
+from rodwell.analysis.measures import measure
+from rodwell.analysis.solution import Solution
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.families import Family
+from rodwell.numerics.ladder import Ladder
+from rodwell.numerics.minimise import minimise
+from rodwell.numerics.spaces import FloatArray
+from rodwell.problem import Problem
+
+MOST_STEPS = 500
+
+
+def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
+    """Stable state of a coiled rod (``problem.turns`` ≠ 0) at an end force, by minimising its energy.
+
+    The search starts from the even winding y = 2πnΔ (s − sin 2πs/2π) and goes downhill: the state found is a
+    minimum under dead loads among states on the wall. Without turns, that is the straight rod.
+
+    Parameters
+    ----------
+    problem
+        The rod; ``turns`` sets how often its end is carried around the cylinder.
+    force
+        End force F at s = 1 in B/L², tension positive.
+    rtol
+        Relative tolerance.
+
+    Raises
+    ------
+    InputError
+        If ``force`` is not finite, or a straight rod is asked for.
+    NotConvergedError
+        If no minimum was found, with the reason.
+    """
+    rtol = checked_rtol(rtol)
+    if not np.isfinite(force):
+        raise InputError("force", force, "must be a finite end force in B/L², tension positive")
+    if problem.turns == 0:
+        raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
+    space = first_space(problem, min(force, 0.0), max(force, 0.0))
+    wavenumber = 2.0 * np.pi * abs(problem.turns)
+    family = force_family(
+        problem,
+        space,
+        parity=-1 if problem.axial_weight == 0.0 else 0,
+        wavenumber=wavenumber,
+        force_scale=max(abs(force), wavenumber**2),
+    )
+    c = _winding(problem, family)
+    status, _ = minimise(
+        family.model, space.table, space.points, space.weights, space.slope_gram, CLAMPED,
+        space.size - CLAMPED, family.parity, c, family.parameters(force), family.scale_c, 1e-8, MOST_STEPS,
+    )  # fmt: skip
+    outcome, coarse, _ = family.at(c, force)
+    if status != 0 or coarse is None:
+        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
+    outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS).resolve(coarse)
+    if point is None:
+        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
+    return Solution(problem, point, ladder)
+
+
+def _winding(problem: Problem, family: Family) -> FloatArray:
+    """Coefficients of the even winding with clamped ends: 2πnΔ at s = 1, level at both ends."""
+    space = family.space
+    end = 2.0 * np.pi * problem.turns * problem.clearance
+    s = space.points
+    ramp = np.concatenate([np.zeros(CLAMPED), np.full(space.size - CLAMPED, end)])
+    gap = end * (s - np.sin(2.0 * np.pi * s) / (2.0 * np.pi)) - space.at_points(ramp)[0]
+    return ramp + space.project(gap, CLAMPED)

@@ -1,0 +1,93 @@
+"""The numbers that every state of a branch is measured by, and the scales of their errors."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+
+from rodwell.jit import kernel
+from rodwell.numerics.extrema import contact_maxima
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.spaces import FloatArray
+from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT
+
+NEAR_THE_TOP = 0.05
+"""Sampled maxima of the contact pressure within this part of its range from the highest are refined."""
+
+
+class Measured(IntEnum):
+    """Position of each measured number. Units B = L = 1; signs as in the nomenclature."""
+
+    P_MAX = 0  # largest contact pressure p₂⁽¹⁾ over s, (55)
+    ENERGY = 1  # relative to the straight rod
+    SHORTENING = 2  # 1 − z(1), (44)
+    OMEGA2_0 = 3  # ω₂(0), (20)₂
+    OMEGA2_1 = 4
+    ANGLE_MID = 5  # y(½)/Δ = ξ₂(½) − ξ₂ of the straight rod
+    TORQUE_0 = 6  # T₂(0), (33): what the support of the cylinder at s = 0 must provide
+
+
+@kernel
+def _totals(table, weights, elements, c, clearance, lateral_weight):
+    """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, max |ξ₂|."""
+    per_element = weights.size // elements
+    shortening = torque = bending = torque_size = steepest = widest = 0.0
+    for q in range(weights.size):
+        start = q // per_element
+        y = y1 = y2 = 0.0
+        for a in range(table.shape[2]):
+            y += table[q, 0, a] * c[start + a]
+            y1 += table[q, 1, a] * c[start + a]
+            y2 += table[q, 2, a] * c[start + a]
+        cos_eta = np.sqrt(1.0 - y1 * y1)
+        omega2 = y2 / cos_eta
+        lateral = clearance * lateral_weight * np.sin(y / clearance)
+        w = weights[q]
+        shortening += w * y1 * y1 / (1.0 + cos_eta)
+        torque -= w * lateral
+        bending += 0.5 * w * omega2 * omega2
+        torque_size += w * abs(lateral)
+        steepest = max(steepest, abs(omega2))
+        widest = max(widest, abs(y / clearance))
+    return shortening, torque, bending, torque_size, steepest, widest
+
+
+def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
+    """Return the :class:`Measured` numbers of a state and the scales of their errors, (7,) each."""
+    space = state.space
+    p = family.parameters(state.lam)
+    clearance = p[CLEARANCE]
+    shortening, torque, bending, torque_size, steepest, widest = _totals(
+        space.table, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT]
+    )
+    places, values, lowest = pressure_maxima(family, state)
+    ends = space.evaluate(state.c, np.array([0.0, 0.5, 1.0]), 3)
+    highest = values.max()
+    omega2 = -ends[2] / np.sqrt(1.0 - ends[1] ** 2)
+    numbers = np.array(
+        [highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque]
+    )
+    scales = np.array(
+        [
+            max(abs(highest), abs(lowest)),
+            max(abs(state.energy), bending),
+            shortening,
+            steepest,
+            steepest,
+            widest,
+            torque_size,
+        ]
+    )
+    scales[scales == 0.0] = 1.0  # numbers that vanish identically: the straight rod, no lateral weight
+    return numbers, scales
+
+
+def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
+    """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
+    space = state.space
+    grid, table = space.samples
+    places, values, lowest = contact_maxima(
+        family.model, space.knots, space.degree, grid, table, state.c, family.parameters(state.lam), NEAR_THE_TOP
+    )
+    return places, values, float(lowest)

@@ -1,0 +1,133 @@
+"""One equilibrium: every field of rod and cylinder, with error estimates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rodwell.analysis.families import parameters
+from rodwell.analysis.measures import Measured, pressure_maxima
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.physics import braid
+from rodwell.problem import Problem
+
+GRID = 401
+"""Places along the rod at which fields are reported by default."""
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """An equilibrium of ``problem`` at one end force.
+
+    Created by :func:`rodwell.follow` and :func:`rodwell.equilibrium`; all numbers are in units B = L = 1.
+    """
+
+    problem: Problem
+    point: Point
+    ladder: Ladder
+
+    @property
+    def force(self) -> float:
+        """End force F at s = 1 in B/L², tension positive."""
+        return self.point.lam
+
+    @property
+    def stability_index(self) -> int:
+        """Number of negative eigenvalues of the energy's second variation under dead loads F and T₁."""
+        return self.point.fine.index
+
+    @property
+    def stable(self) -> bool:
+        """Whether the state is a minimum of the energy among states on the wall, under dead loads."""
+        return self.stability_index == 0
+
+    @property
+    def converged(self) -> bool:
+        """Whether every measured number meets the tolerance asked for."""
+        return self.point.accurate
+
+    def number(self, which: Measured) -> tuple[float, float]:
+        """Return a measured number and its error estimate."""
+        return float(self.point.values[which]), float(self.point.error[which])
+
+    @cached_property
+    def highest_pressure(self) -> tuple[float, float, tuple[float, ...]]:
+        """Largest contact pressure max p (negative: in contact everywhere), its error, and where.
+
+        More than one place if they agree to within the error (or to eight digits).
+        """
+        places, values, lowest = pressure_maxima(self.ladder.fine, self.point.fine)
+        top, error = self.number(Measured.P_MAX)
+        within = max(2.0 * error, 1e-8 * max(abs(top), abs(lowest)))
+        return top, error, tuple(float(s) for s in places[values >= top - within])
+
+    def fields(self, s: FloatArray | int = GRID) -> dict[str, FloatArray]:
+        """Fields along the rod at ``s`` (m,), or at that many evenly spaced places; names as in nomenclature."""
+        places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
+        return _fields(self.problem, self.ladder.fine, self.point.fine, places)
+
+    def field_errors(self, s: FloatArray | int = GRID) -> dict[str, float]:
+        """Error estimate of each field, the largest over ``s``: from the two nested meshes."""
+        places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
+        fine = _fields(self.problem, self.ladder.fine, self.point.fine, places)
+        coarse = _fields(self.problem, self.ladder.coarse, self.point.coarse, places)
+        return {k: float(np.max(np.abs(fine[k] - coarse[k]))) / CLAIMED_GAIN for k in fine}
+
+    @cached_property
+    def certificate(self) -> float:
+        """Largest disagreement of independent routes to the same force or moment, scaled by its size.
+
+        Two routes to T₂ (distributed torque, and moment balance of the whole braid), and axial against
+        tangential force balance of the rod: near zero for a true solution, whatever the mesh.
+        """
+        f = self.fields()
+        torque = np.max(np.abs(f["T2"] - f["T2_by_moments"]))
+        shear = self.problem.clearance * np.max(np.abs(f["braid_F3"] - f["rod_F3"]))
+        scale = np.max(np.abs(f["T2"])) + shear + _TINY
+        balance = np.max(np.abs(f["tangential_balance"]))
+        return float(max(torque / scale, balance / (np.max(np.abs(f["rod_F1"])) + _TINY)))
+
+
+_TINY = 1e-300
+
+
+def _fields(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:
+    p = family.parameters(state.lam)
+    space, c = state.space, state.c
+    u = space.evaluate(c, s, 4)
+    end = braid.end_force(space.evaluate(c, np.array([1.0]), 4)[:, 0], p)
+
+    def rates(places: FloatArray) -> FloatArray:
+        values = space.evaluate(c, places, 4)
+        return braid.rates(places, values, p, problem.torsional_stiffness, end)
+
+    from_left, from_right = _running_integrals(rates, s, space)
+    out = braid.reconstruct(s, u, from_left, from_right, p, end)
+    if problem.on_top:
+        out["xi2"] = out["xi2"] + np.pi
+    return out
+
+
+def _running_integrals(rates, s: FloatArray, space: SplineSpace) -> tuple[FloatArray, FloatArray]:  # type: ignore[no-untyped-def]
+    """Integrals from 0 to ``s`` and from ``s`` to 1: Gauss quadrature between grid points and mesh points."""
+    nodes = np.union1d(np.union1d(space.breaks, s), [0.0, 1.0])
+    half = 0.5 * np.diff(nodes)
+    places = (nodes[:-1, None] + half[:, None] * (_NODES + 1.0)).ravel()
+    values = rates(places).reshape(-1, half.size, _NODES.size)
+    pieces = np.einsum("kpq,q,p->kp", values, _WEIGHTS, half)
+    start = np.zeros((pieces.shape[0], 1))
+    left = np.concatenate([start, np.cumsum(pieces, axis=1)], axis=1)
+    right = np.concatenate([np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], start], axis=1)
+    where = np.searchsorted(nodes, s)
+    return left[:, where], right[:, where]
+
+
+def straight_pressure(problem: Problem) -> float:
+    """Contact pressure −wₗ cos ξ₂ of the straight rod, the same everywhere (force per length)."""
+    return -float(parameters(problem)[2])
