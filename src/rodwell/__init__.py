@@ -1,1 +1,58 @@
-"""stub"""
+"""rodwell: slender rods inside cylinders.
+
+When a heavy rod (drill string, coiled tubing, guidewire, pipe robot) pushed into a borehole, vessel or pipe
+buckles, what shape it takes, when it lifts off the wall, and what the wall must bear.
+
+>>> import rodwell
+>>> problem = rodwell.Problem(weight=15, alpha=90)        # γ = mg L³/B, horizontal cylinder
+>>> branch = rodwell.follow(problem, mode=1, until=-200)  # end force in B/L², tension positive
+>>> round(branch.lift_off.force, 6)
+-123.173074
+
+Names are loaded when first used, so ``import rodwell`` itself is quick.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "Branch": "rodwell.analysis.branches",
+    "Case": "rodwell.practice.case",
+    "CaseResult": "rodwell.analysis.run",
+    "CriticalLoads": "rodwell.analysis.critical",
+    "InputError": "rodwell.errors",
+    "Mode": "rodwell.analysis.critical",
+    "NotConvergedError": "rodwell.errors",
+    "Problem": "rodwell.problem",
+    "RodwellError": "rodwell.errors",
+    "Solution": "rodwell.analysis.solution",
+    "SpecialPoint": "rodwell.analysis.branches",
+    "critical_loads": "rodwell.analysis.critical",
+    "equilibrium": "rodwell.analysis.equilibrium",
+    "follow": "rodwell.analysis.branches",
+}
+
+__all__ = sorted(_HOME)  # noqa: PLE0605 - a list, of names served by __getattr__
+
+if TYPE_CHECKING:
+    from rodwell.analysis.branches import Branch, SpecialPoint, follow
+    from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
+    from rodwell.analysis.equilibrium import equilibrium
+    from rodwell.analysis.solution import Solution
+    from rodwell.errors import InputError, NotConvergedError, RodwellError
+    from rodwell.practice.case import Case
+    from rodwell.problem import Problem
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'rodwell' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

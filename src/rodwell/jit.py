@@ -1,8 +1,8 @@
 """How kernels are compiled, and the functions through which numerics and physics meet.
 
 ``numerics`` knows no rod and ``physics`` knows no solver: compiled numerics calls the functions below on a
-*model*, a named tuple whose type selects the implementation at compile time. A model comes with
-``@numba.extending.overload(density)`` and, where contact is looked at, ``@overload(contact)``.
+*model*, a named tuple whose type selects the implementation at compile time, with one entry for each field. A model
+comes with ``@numba.extending.overload(density)`` and, where contact is looked at, ``@overload(contact)``.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numba
+from numba.extending import register_jitable
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -26,6 +27,11 @@ def kernel(function: F) -> F:
     except RuntimeError:  # Numba: "no locator available"
         compiled = numba.njit(error_model="numpy")(function)
     return compiled  # type: ignore[no-any-return]
+
+
+def formula(function: F) -> F:
+    """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it."""
+    return register_jitable(function)  # type: ignore[no-any-return]
 
 
 def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]

@@ -10,6 +10,7 @@ from rodwell.analysis.accuracy import ELEMENTS_PER_RADIAN, MOST_ELEMENTS, RTOL, 
 from rodwell.analysis.families import CLAMPED, parameters
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics import eigen
+from rodwell.numerics.corrector import held_out
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
 from rodwell.problem import Problem
@@ -137,7 +138,9 @@ def _solve(
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
     factors = second_variation(space.points, parameters(problem))
     inner = slice(CLAMPED, space.size - CLAMPED)
-    stiffness, gram = _clamped(space.form(factors)), _clamped(space.slope_gram)
+    stiffness, gram = (
+        held_out(band, CLAMPED, space.size - CLAMPED) for band in (space.form(factors), space.slope_gram)
+    )
 
     def full(block: FloatArray) -> FloatArray:
         out = np.zeros((len(block), space.size))
@@ -160,15 +163,6 @@ def _solve(
     except eigen.EigenError as problem_found:
         raise NotConvergedError(f"critical loads: {problem_found}") from None
     return values, full(vectors)
-
-
-def _clamped(band: FloatArray) -> FloatArray:
-    """Rows and columns of the free unknowns; couplings to held ones set to zero."""
-    inner = band[CLAMPED : band.shape[0] - CLAMPED].copy()
-    n, width = inner.shape
-    for k in range(1, min(width, n)):
-        inner[n - k :, k] = 0.0
-    return inner
 
 
 def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray) -> FloatArray:

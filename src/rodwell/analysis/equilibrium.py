@@ -56,7 +56,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     )
     c = _winding(problem, family)
     status, _ = minimise(
-        family.model, space.table, space.points, space.weights, space.slope_gram, CLAMPED,
+        family.model, space.local_tag, space.table, space.points, space.weights, space.slope_gram, CLAMPED,
         space.size - CLAMPED, family.parity, c, family.parameters(force), family.scale_c, 1e-8, MOST_STEPS,
     )  # fmt: skip
     outcome, coarse, _ = family.at(c, force)

@@ -52,7 +52,7 @@ _FIELDS = (
     ("omega1", "ω₁", "curvature", "(20)", "braid curvature along t₁"),
     ("omega2", "ω₂", "curvature", "(20)", "geodesic curvature, −η'"),
     ("omega3", "ω₃", "curvature", "(20)", "curvature forced by the wall, sin²η/Δ"),
-    ("contact_pressure", "p", "force_per_length", "(55)", "contact force on the rod per length along d₁, inward; p < 0: pressed on the wall from inside"),
+    ("contact_pressure", "p", "force_per_length", "(55)", "contact pressure: the wall pushes the rod along d₁ (inward) with −p per length; p < 0 is contact from inside"),
     ("rod_F1", "F₁⁽¹⁾", "force", "(52)", "axial force in the rod, along t₁, tension positive"),
     ("rod_F2", "F₂⁽¹⁾", "force", "(53)", "shear force in the rod along d₁, towards the cylinder axis"),
     ("rod_F3", "F₃⁽¹⁾", "force", "(54)", "shear force in the rod along u₁, in the tangent plane"),

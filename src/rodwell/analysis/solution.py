@@ -13,12 +13,13 @@ from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics import braid
+from rodwell.physics.strand import contact_pressure
 from rodwell.problem import Problem
 
-GRID = 401
+GRID = 201
 """Places along the rod at which fields are reported by default."""
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 @dataclass(frozen=True)
@@ -74,10 +75,19 @@ class Solution:
 
     def field_errors(self, s: FloatArray | int = GRID) -> dict[str, float]:
         """Error estimate of each field, the largest over ``s``: from the two nested meshes."""
+        return self.fields_with_errors(s)[1]
+
+    def fields_with_errors(self, s: FloatArray | int = GRID) -> tuple[dict[str, FloatArray], dict[str, float]]:
+        """Return :meth:`fields` and :meth:`field_errors` together."""
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
-        fine = _fields(self.problem, self.ladder.fine, self.point.fine, places)
-        coarse = _fields(self.problem, self.ladder.coarse, self.point.coarse, places)
-        return {k: float(np.max(np.abs(fine[k] - coarse[k]))) / CLAIMED_GAIN for k in fine}
+        coarse, fine = (_fields(self.problem, f, state, places) for f, state in _levels(self))
+        return fine, {k: float(np.max(np.abs(fine[k] - coarse[k]))) / CLAIMED_GAIN for k in fine}
+
+    @cached_property
+    def total_wall_force(self) -> tuple[float, float]:
+        """∫|p| ds, the contact force with all directions added, and its error estimate."""
+        totals = [_total(f, state) for f, state in _levels(self)]
+        return totals[1], abs(totals[1] - totals[0]) / CLAIMED_GAIN
 
     @cached_property
     def certificate(self) -> float:
@@ -95,6 +105,18 @@ class Solution:
 
 
 _TINY = 1e-300
+
+
+def _levels(solution: Solution) -> tuple[tuple[Family, State], tuple[Family, State]]:
+    ladder, point = solution.ladder, solution.point
+    return (ladder.coarse, point.coarse), (ladder.fine, point.fine)
+
+
+def _total(family: Family, state: State) -> float:
+    space = state.space
+    u = space.evaluate(state.c, space.points, 4)
+    pressure = contact_pressure(space.points, u[0], u[1], u[2], u[3], family.parameters(state.lam))
+    return float(space.weights @ np.abs(pressure))
 
 
 def _fields(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:

@@ -13,14 +13,15 @@ from rodwell.jit import density, kernel
 
 
 @kernel
-def assemble(model, table, points, weights, fields, c, parameters, rates, gradient, mixed, band):
+def assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band):
     """Energy of the fields with coefficients ``c``; write ``gradient``, ``mixed`` (n,) and ``band`` (n, width).
 
-    ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space. The
+    ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space; ``local_tag`` is a
+    tuple of p + 1 zeros, whose length the compiler knows, so that the inner loops are unrolled. The
     element matrices K[f, e] = Σ_q w Bᵀ h[f, e] B, with B (3, p+1) the basis at a point, are summed with the
     innermost loop over memory that lies together.
     """
-    local = table.shape[2]
+    local, fields = len(local_tag), len(model)
     elements = c.size // fields - local + 1
     per_element = points.size // elements
     size = 3 * fields
@@ -74,6 +75,29 @@ def _scatter(matrix, start, fields, band):
                     value = matrix[f, e, a, b] if e <= f else matrix[e, f, b, a]
                     j = start + b * fields + e
                     band[j, i - j] += value
+
+
+@kernel
+def variation(model, table, points, weights, c, parameters, rates, v):
+    """Second variation of the energy at ``c`` along ``v``, and ∫ v'² ds; one field, sums of pointwise squares."""
+    local = table.shape[2]
+    per_element = points.size // (c.size - local + 1)
+    u, du, g, m = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
+    h = np.empty((3, 3))
+    total = square = 0.0
+    for q in range(points.size):
+        start = q // per_element
+        for d in range(3):
+            u[d] = du[d] = 0.0
+            for a in range(local):
+                u[d] += table[q, d, a] * c[start + a]
+                du[d] += table[q, d, a] * v[start + a]
+        density(model, points[q], u, parameters, rates, g, h, m)
+        for d in range(3):
+            for e in range(3):
+                total += weights[q] * du[d] * h[d, e] * du[e]
+        square += weights[q] * du[1] * du[1]
+    return total, square
 
 
 @kernel

@@ -14,6 +14,17 @@ from rodwell.jit import kernel
 
 
 @kernel
+def _step(knots, span, k, x, row):
+    """Turn weights of degree k−1 in ``row`` into weights of degree k, with the argument ``x``."""
+    row[k] = 0.0
+    for j in range(k - 1, -1, -1):
+        left = knots[span - k + 1 + j]
+        share = (x - left) / (knots[span + 1 + j] - left)
+        row[j + 1] += share * row[j]
+        row[j] *= 1.0 - share
+
+
+@kernel
 def blossom(knots, span, degree, places, out):
     """Write to ``out`` (≥ degree+1,) the weights of the polar form on the span [t[span], t[span+1]).
 
@@ -23,33 +34,34 @@ def blossom(knots, span, degree, places, out):
     """
     out[0] = 1.0
     for k in range(1, degree + 1):
-        x = places[k - 1]
-        out[k] = 0.0
-        for j in range(k - 1, -1, -1):
-            left = knots[span - k + 1 + j]
-            share = (x - left) / (knots[span + 1 + j] - left)
-            out[j + 1] += share * out[j]
-            out[j] *= 1.0 - share
+        _step(knots, span, k, places[k - 1], out)
 
 
 @kernel
 def basis_derivatives(knots, span, degree, s, out):
     """Write to ``out`` (orders, degree+1) the derivatives 0 … orders−1 at ``s`` of the basis functions.
 
-    Each row starts from the values of the lower degree and is raised by
-    ``N'_{i,q} = q N_{i,q−1}/(t_{i+q}−t_i) − q N_{i+1,q−1}/(t_{i+q+1}−t_{i+1})``.
+    Row d first gets the values of degree p − d, on the way of the recurrence up to degree p; it is then
+    raised d times by ``N'_{i,q} = q N_{i,q−1}/(t_{i+q}−t_i) − q N_{i+1,q−1}/(t_{i+q+1}−t_{i+1})``.
     """
-    places = np.full(degree, s)
-    for order in range(out.shape[0]):
-        row = out[order]
-        blossom(knots, span, degree - order, places, row)
+    orders = out.shape[0]
+    row = out[orders - 1]
+    row[0] = 1.0
+    for k in range(1, degree - orders + 2):
+        _step(knots, span, k, s, row)
+    for order in range(orders - 2, -1, -1):
+        k = degree - order
+        for j in range(k):
+            out[order, j] = out[order + 1, j]
+        _step(knots, span, k, s, out[order])
+    for order in range(1, orders):
         for q in range(degree - order + 1, degree + 1):
             first = span - q
-            row[q] = 0.0
+            out[order, q] = 0.0
             for j in range(q - 1, -1, -1):
-                slope = q * row[j] / (knots[first + 1 + j + q] - knots[first + 1 + j])
-                row[j + 1] += slope
-                row[j] = -slope
+                slope = q * out[order, j] / (knots[first + 1 + j + q] - knots[first + 1 + j])
+                out[order, j + 1] += slope
+                out[order, j] = -slope
 
 
 @kernel

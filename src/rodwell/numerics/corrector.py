@@ -16,10 +16,12 @@ which a nearly singular H would blow up near a symmetry-breaking bifurcation.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from rodwell.jit import kernel
-from rodwell.numerics.assembly import assemble
+from rodwell.numerics.assembly import assemble, variation
 from rodwell.numerics.banded import factorise, multiply, solve
 
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
@@ -37,8 +39,43 @@ def symmetrise(x, parity):
 
 
 @kernel
+def held_out(band, first, last):
+    """Rows and columns ``first … last−1`` of a banded matrix: couplings to held unknowns drop out."""
+    inner = band[first:last].copy()
+    for j in range(last - first):
+        for k in range(last - first - j, inner.shape[1]):
+            inner[j, k] = 0.0
+    return inner
+
+
+@kernel
+def nearest_curvature(model, local_tag, table, points, weights, gram, first, last, parameters, rates, c, v, iterations):
+    """Eigenvalue of H v = μ G v nearest to zero, by inverse iteration from ``v`` (n,), which becomes its vector.
+
+    The value is the Rayleigh quotient formed by quadrature of the second variation: unlike a tiny pivot of
+    the factorisation, it is not drowned by the round-off of entries that grow like h⁻³.
+    """
+    n = c.size
+    gradient, mixed = np.empty(n), np.empty(n)
+    band = np.empty((n, table.shape[2]))
+    assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
+    inner = held_out(band, first, last)
+    factorise(inner)
+    for _ in range(iterations):
+        w = multiply(gram, v)[first:last]
+        solve(inner, w)
+        largest = 0.0
+        for i in range(w.size):
+            largest = max(largest, abs(w[i]))
+        for i in range(n):
+            v[i] = w[i - first] / largest if first <= i < last else 0.0
+    above, below = variation(model, table, points, weights, c, parameters, rates, v)
+    return above / below
+
+
+@kernel
 def correct(
-    model, table, points, weights, first, last, parity,
+    model, local_tag, table, points, weights, first, last, parity,
     c, lam, base, rates, row, row_lam, target, scale_c, scale_lam, tolerance, most,
     extra, tangent,
 ):  # fmt: skip
@@ -63,13 +100,10 @@ def correct(
     negative, energy, step, settled = -1, np.nan, np.inf, 0
     for iteration in range(1, most + extra + 1):
         parameters[:] = base + lam * rates
-        energy = assemble(model, table, points, weights, 1, c, parameters, rates, gradient, mixed, band)
+        energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
             return OUT_OF_RANGE, lam, negative, energy, step, iteration
-        inner = band[first:last].copy()
-        for j in range(last - first):  # couplings to held unknowns drop out
-            for k in range(last - first - j, inner.shape[1]):
-                inner[j, k] = 0.0
+        inner = held_out(band, first, last)
         negative = factorise(inner)
         a[first:last] = -gradient[first:last]
         b[first:last] = mixed[first:last]
@@ -119,3 +153,9 @@ def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
         tangent_c[i] /= length
     tangent_lam /= length
     return row, weight_lam * tangent_lam, tangent_lam
+
+
+def compiled_before() -> bool:
+    """Whether compiled kernels lie on disk from an earlier run (if not, the first use takes some seconds)."""
+    folder = Path(correct.stats.cache_path)  # type: ignore[attr-defined]
+    return any(folder.glob("corrector.correct-*.nbc"))

@@ -15,7 +15,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rodwell.jit import kernel
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.spaces import FloatArray
 
@@ -30,18 +29,17 @@ class EigenError(RuntimeError):
     """The eigenvalues could not be confirmed."""
 
 
-@kernel
-def count_below(stiffness, gram, sigma):
+def count_below(stiffness: FloatArray, gram: FloatArray, sigma: float) -> int:
     """Number of eigenvalues of K v = λ G v below ``sigma``."""
-    return factorise(stiffness - sigma * gram)
+    return int(factorise(stiffness - sigma * gram))
 
 
-@kernel
-def _solve_block(factors, gram, block):
-    for i in range(block.shape[0]):
-        x = multiply(gram, block[i])
-        solve(factors, x)
-        block[i] = x
+def _inverse_step(factors: FloatArray, gram: FloatArray, block: FloatArray) -> FloatArray:
+    """(K − σG)⁻¹ G applied to each vector of a block."""
+    out = np.array([multiply(gram, vector) for vector in block])
+    for vector in out:
+        solve(factors, vector)
+    return out
 
 
 def lowest(
@@ -83,8 +81,7 @@ def lowest(
         block[: min(size, len(start))] = start[:size]
     previous, last_change = np.full(count, np.inf), np.inf
     for _ in range(MOST_ITERATIONS):
-        _solve_block(factors, gram, block)
-        values, block = _rayleigh_ritz(block, quadrature)
+        values, block = _rayleigh_ritz(_inverse_step(factors, gram, block), quadrature)
         change = np.max(np.abs(values[:count] - previous) / (np.abs(values[:count] - shift)))
         previous = values[:count].copy()
         settled = change < 1e-13 or (change < 1e-10 and change > 0.5 * last_change)

@@ -41,6 +41,7 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
     per_element = (m - 1) // (c.size - degree)
     basis, u = np.empty((4, degree + 1)), np.empty(4)
     sample = np.empty(m)
+    highest, lowest = -np.inf, np.inf
     for j in range(m):
         first = min(j // per_element, c.size - degree - 1)
         for d in range(4):
@@ -49,7 +50,7 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
                 total += table[j, d, a] * c[first + a]
             u[d] = total
         sample[j] = contact(model, grid[j], u, parameters)
-    highest, lowest = sample.max(), sample.min()
+        highest, lowest = max(highest, sample[j]), min(lowest, sample[j])
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
@@ -70,7 +71,10 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
                 f[k] = _contact_at(model, knots, degree, c, parameters, place + (k - 2) * delta, basis, u)
             slope = (8.0 * (f[3] - f[1]) - (f[4] - f[0])) / (12.0 * delta)
             bend = (16.0 * (f[3] + f[1]) - 30.0 * f[2] - (f[4] + f[0])) / (12.0 * delta * delta)
-            target = place - slope / bend if bend < 0.0 else place + np.sign(slope) * (high - low)
+            if bend < 0.0:
+                target = place - slope / bend
+            else:
+                target = high if slope > 0.0 else low
             target = min(max(target, low), high)
             step = abs(target - place)
             place = target

@@ -122,7 +122,7 @@ class Family:
         tangent = np.empty_like(c)
         last = space.size - self.held[1]
         status, lam, index, energy, _, steps = corrector.correct(
-            self.model, space.table, space.points, space.weights, self.held[0], last, self.parity,
+            self.model, space.local_tag, space.table, space.points, space.weights, self.held[0], last, self.parity,
             c, lam, self.base, self.rates, row, row_lam, target, self.scale_c, self.lam_scale,
             self.tolerance, self.most_steps, self.extra_steps, tangent,
         )  # fmt: skip
@@ -131,6 +131,16 @@ class Family:
         sign = 1.0 if row @ tangent + row_lam >= 0.0 else -1.0
         new_row, new_row_lam, unit, unit_lam = self.covector(sign * tangent, sign)
         return Outcome.CONVERGED, State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy), steps
+
+    def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> float:
+        """Eigenvalue of the Hessian (against ∫v'²) nearest to zero; ``vector`` (n,) is the start and the result."""
+        space = self.space
+        return float(
+            corrector.nearest_curvature(
+                self.model, space.local_tag, space.table, space.points, space.weights, space.slope_gram, self.held[0],
+                space.size - self.held[1], self.parameters(state.lam), self.rates, state.c, vector, iterations,
+            )
+        )  # fmt: skip
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
         """Newton from ``c`` at fixed λ."""

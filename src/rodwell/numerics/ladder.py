@@ -10,7 +10,7 @@ the point says so.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -103,8 +103,12 @@ class Ladder:
             outcome, better = finer.adopt(ladder, point)
             if better is None:
                 return outcome, ladder, None
-            if better.excess > 1.0 and better.excess > 0.5 * point.excess:
-                ladder.floor = 10.0 * point.excess  # round-off: a finer mesh does not help
+            if better.excess > 1.0 and better.excess > 0.25 * point.excess:
+                # round-off: a finer mesh does not help, and no gain may be claimed
+                ladder.floor = 10.0 * point.excess
+                point = replace(
+                    point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess
+                )
                 break
             ladder, point = finer, better
         return Outcome.CONVERGED, ladder, point

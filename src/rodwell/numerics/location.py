@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.spaces import FloatArray
 
@@ -123,38 +125,63 @@ def _near(function: Callable[[float], float], place: float, rising: bool) -> flo
 def index_crossings(
     coarse: Span, fine: Span
 ) -> list[tuple[float, State, State, tuple[int, int], float, bool]]:
-    """All places where the stability index changes, by bisection of every stretch whose ends differ in it.
+    """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
+
+    A change by one that stands alone is then located as a zero of the eigenvalue that crosses, which is
+    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
 
     Each item: place t, states on both meshes, index before and after, error of λ, and whether the place is a
     fold (λ turns back there) rather than a branch point.
     """
     out = []
-    for place, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
-        offset = 1e-5
-        fold = fine(place - offset).tangent_lam * fine(place + offset).tangent_lam < 0.0
-        other = _same_crossing(coarse, place, before, after)
+    for low, high, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
+        place = _crossing(fine, low, high)
+        fold = fine(place - FOLD_OFFSET).tangent_lam * fine(place + FOLD_OFFSET).tangent_lam < 0.0
+        other = _near(_Crossing(coarse, place), place, rising=after < before) if high > low else place
         states = coarse(other), fine(place)
         out.append((place, *states, (before, after), abs(states[0].lam - states[1].lam), fold))
     return out
 
 
-def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, int, int]]:
-    """Crossings of the index in [low, high] as (place, before, after)."""
+ALONE = 1e-2
+"""Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
+
+FOLD_OFFSET = 1e-5
+
+
+def _bisect(
+    span: Span, low: float, high: float, at_low: int, at_high: int
+) -> list[tuple[float, float, int, int]]:
+    """Brackets of the changes of the index in [low, high]: (low, high, before, after)."""
     if at_low == at_high:
         return []
+    width = high - low
+    if width < PLACE_TOLERANCE:
+        middle = 0.5 * (low + high)
+        return [(middle, middle, at_low, at_high)]
+    if abs(at_high - at_low) == 1 and width < ALONE and _Crossing(span, low)(low) * _Crossing(span, high)(high) < 0.0:
+        return [(low, high, at_low, at_high)]
     middle = 0.5 * (low + high)
-    if high - low < PLACE_TOLERANCE:
-        return [(middle, at_low, at_high)]
     here = span(middle).index
     return _bisect(span, low, middle, at_low, here) + _bisect(span, middle, high, here, at_high)
 
 
-def _same_crossing(span: Span, place: float, before: int, after: int) -> float:
-    """Place on the other mesh where the index changes from ``before`` to ``after``, near ``place``."""
-    width = 1e-8
-    while width < 1.0:
-        low, high = place - width, place + width
-        if span(low).index == before and span(high).index == after:
-            return _bisect(span, low, high, before, after)[0][0]
-        width *= 8.0
-    raise LocationError("a change of stability was found on the finer mesh only")
+class _Crossing:
+    """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``."""
+
+    def __init__(self, span: Span, near: float) -> None:
+        self.span = span
+        state = span(near)
+        self.vector = np.random.default_rng(0).standard_normal(state.c.size)
+        span.family.nearest_curvature(state, self.vector, 8)
+
+    def __call__(self, t: float) -> float:
+        return self.span.family.nearest_curvature(self.span(t), self.vector, 3)
+
+
+def _crossing(span: Span, low: float, high: float) -> float:
+    """Place of a single change of the index in a bracket; a bracket of no width is the place."""
+    if low == high:
+        return low
+    eigenvalue = _Crossing(span, low)
+    return bracketed_root(eigenvalue, low, high, eigenvalue(low), eigenvalue(high))

@@ -7,12 +7,12 @@ import numpy as np
 from rodwell.jit import kernel
 from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, solve
-from rodwell.numerics.corrector import CONVERGED, NOT_CONVERGED, OUT_OF_RANGE, symmetrise
+from rodwell.numerics.corrector import CONVERGED, NOT_CONVERGED, OUT_OF_RANGE, held_out, symmetrise
 
 
 @kernel
 def minimise(
-    model, table, points, weights, gram, first, last, parity, c, parameters, scale_c, tolerance, most
+    model, local_tag, table, points, weights, gram, first, last, parity, c, parameters, scale_c, tolerance, most
 ):  # fmt: skip
     """Move ``c`` (n,) in place to a local minimum of the energy at fixed ``parameters``.
 
@@ -32,16 +32,13 @@ def minimise(
     step = np.zeros(n)
     trial = np.empty(n)
     sigma = 0.0
-    energy = assemble(model, table, points, weights, 1, c, parameters, rates, gradient, mixed, band)
+    energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
     if not np.isfinite(energy):
         return OUT_OF_RANGE, 0
     for iteration in range(1, most + 1):
         sigma = 0.0 if sigma < 1e-3 else 0.1 * sigma
         while True:
-            inner = band[first:last] + sigma * gram[first:last]
-            for j in range(last - first):
-                for k in range(last - first - j, inner.shape[1]):
-                    inner[j, k] = 0.0
+            inner = held_out(band + sigma * gram, first, last)
             if factorise(inner) == 0:
                 break
             sigma = max(1.0, 4.0 * sigma)
@@ -55,7 +52,7 @@ def minimise(
         length = 1.0
         while True:
             trial[:] = c + length * step
-            new = assemble(model, table, points, weights, 1, trial, parameters, rates, gradient, mixed, band)
+            new = assemble(model, local_tag, table, points, weights, trial, parameters, rates, gradient, mixed, band)
             if np.isfinite(new) and (new <= energy + 1e-4 * length * slope or size < 1e-6):
                 break
             length *= 0.5

@@ -42,6 +42,7 @@ class SplineSpace:
         self.degree = degree
         self.elements = self.breaks.size - 1
         self.size = self.elements + degree
+        self.local_tag = (0,) * (degree + 1)  # its length tells compiled loops the number of local functions
         self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
         nodes, weights = _gauss(degree - 2)
         half = 0.5 * np.diff(self.breaks)[:, None]

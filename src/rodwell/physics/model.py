@@ -14,9 +14,9 @@ from rodwell.physics.strand import contact_pressure
 
 
 class RodOnCylinder(NamedTuple):
-    """A heavy rod kept on a cylinder: one field, y = Δ ξ₂."""
+    """A heavy rod kept on a cylinder: one field, y = Δ ξ₂. The entry only counts."""
 
-    fields: int = 1
+    y: int = 0
 
 
 def _is_rod(model: Any) -> bool:

@@ -2,32 +2,31 @@
 
 Plain formulas in y(s) and its derivatives: the same functions serve compiled kernels (numbers) and
 reconstruction (arrays). Components refer to the braid frame {t₁, d₁, u₁} of the rod. Units B = L = 1;
-tension is positive; contact pressure p < 0 pushes the rod inward, away from the wall of a surrounding
-cylinder.
+tension is positive. The sign of the contact pressure is the paper's, (48): the wall pushes the rod along d₁
+(towards the axis) with −p per length, so p < 0 is contact with a surrounding cylinder.
 
 The one integral is avoided: without friction the cylinder carries no axial force (h = 0), so the axial
 resultant of the rod alone is ``F⁽¹⁾·t₂ = N(s) = F + wₐ(s − 1)``, and the tension ``F₁⁽¹⁾`` follows from it and
 from the shear ``F₃⁽¹⁾`` because ``t₂ = cos η t₁ − sin η u₁``.
 """
 
-# ruff: noqa: D103
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.jit import formula
 from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 
 
-@kernel
+@formula
 def axial_resultant(s: Any, parameters: Any) -> Any:
     """N(s) = F + wₐ (s − 1): axial component of the braid force, (22)–(24)."""
     return parameters[FORCE] + parameters[AXIAL_WEIGHT] * (s - 1.0)
 
 
-@kernel
+@formula
 def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
     """cos η, ω₁, ω₂, ω₃ (20) and ω₂' = −η''."""
     cos_eta = np.sqrt(1.0 - y1 * y1)
@@ -36,7 +35,7 @@ def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
     return cos_eta, -y1 * cos_eta / clearance, -eta1, y1 * y1 / clearance, -eta2
 
 
-@kernel
+@formula
 def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     """Rod force components F₁⁽¹⁾, F₂⁽¹⁾, F₃⁽¹⁾, (52)–(54), from moment balance with M⁽¹⁾ = (−T₁, ω₂, ω₃), (47)."""
     twist = parameters[TWIST]
@@ -47,9 +46,9 @@ def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     return f1, f2, f3
 
 
-@kernel
+@formula
 def contact_pressure(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
-    """Contact pressure p = p₂⁽¹⁾ on the rod along d₁ (towards the axis), (55): force balance (48) along d₁.
+    """Contact pressure p = p₂⁽¹⁾, (55): force balance of the rod (48) along d₁.
 
     ``p = dF₂⁽¹⁾/ds + ω₃ F₁⁽¹⁾ − ω₁ F₃⁽¹⁾ − wₗ cos ξ₂`` with ``dF₂⁽¹⁾/ds = −ω₂'(3ω₁ + T₁) − 3 cos 2η ω₂²/Δ``.
     Contact with a surrounding cylinder holds while p < 0.

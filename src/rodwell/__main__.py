@@ -1,0 +1,5 @@
+"""``python -m rodwell``."""
+
+from rodwell.cli.main import main
+
+main()

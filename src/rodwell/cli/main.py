@@ -1,0 +1,63 @@
+"""Entry point of the command ``rodwell``: heavy modules are imported by the commands that need them."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")  # threads slow small banded systems; must be set before NumPy loads
+
+import click
+
+import rodwell
+from rodwell.cli.quick import critical, liftoff
+from rodwell.cli.run import run
+from rodwell.errors import InputError, RodwellError
+
+INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(rodwell.__version__, prog_name="rodwell")
+def cli() -> None:
+    """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
+
+    Forces are those at the end s = 1 (the upper end of an inclined cylinder), tension positive; both ends
+    clamped. Start with:  rodwell run examples/drill-string.toml
+    """
+
+
+for command in (run, critical, liftoff):
+    cli.add_command(command)
+
+
+def main() -> None:
+    """Run the command line; turn every expected error into one message and an exit code."""
+    try:
+        cli.main(standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as problem:
+        click.echo(problem.format_message())
+        sys.exit(INPUT_ERROR)
+    except click.ClickException as problem:
+        problem.show()
+        sys.exit(problem.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("rodwell: interrupted; nothing was written", err=True)
+        sys.exit(INTERRUPTED)
+    except InputError as problem:
+        click.echo(f"rodwell: error: {problem}", err=True)
+        sys.exit(INPUT_ERROR)
+    except RodwellError as problem:
+        click.echo(f"rodwell: not converged: {problem}", err=True)
+        sys.exit(COMPUTATION_ERROR)
+    except BrokenPipeError:  # the reader of a pipe has left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(COMPUTATION_ERROR)
+    except OSError as problem:
+        click.echo(f"rodwell: error: {problem}", err=True)
+        sys.exit(COMPUTATION_ERROR)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+"""``rodwell run``: from a case file to an answer, a report, figures and data."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from rodwell.practice.answer import Answer, Progress
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option(
+    "--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-OF-THE-CASE]"
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
+@click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
+def run(case: Path, out: Path | None, as_json: bool, quiet: bool) -> None:
+    """Compute CASE, a TOML file, and write report, figures and data."""
+    from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+    read = Case.read(case)
+    folder = Path("results") / case.stem if out is None else out
+    check_writable(folder)
+
+    from rodwell.practice.answer import answer  # noqa: PLC0415
+    from rodwell.report.write import write_results  # noqa: PLC0415
+
+    with _progress(show=not quiet and not as_json) as tell:
+        result = answer(read, tell)
+        tell("figures, report and data", 1.0)
+        write_results(result, folder)
+    if as_json:
+        click.echo(json.dumps(result.as_dict(), indent=2, ensure_ascii=False))
+    elif not quiet:
+        _summary(result, folder)
+
+
+@contextmanager
+def _progress(show: bool) -> Iterator[Progress]:
+    """A progress bar on standard error, where that is a terminal."""
+    if not show or not sys.stderr.isatty():
+        yield lambda _what, _done: None
+        return
+    from rich.console import Console  # noqa: PLC0415
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
+    from rodwell.numerics.corrector import compiled_before  # noqa: PLC0415
+
+    first = "" if compiled_before() else " (first run: compiling once, some seconds)"
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("critical loads" + first, total=1.0)
+        yield lambda what, done: bar.update(task, description=what + first, completed=done)
+
+
+def _summary(answer: Answer, folder: Path) -> None:
+    """What a person reads in ten seconds, then the key figures."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.panel import Panel  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+
+    from rodwell.practice.meaning import sentences  # noqa: PLC0415
+    from rodwell.report.html import rows  # noqa: PLC0415
+    from rodwell.report.write import FILES  # noqa: PLC0415
+
+    console = Console(highlight=False)
+    text = sentences(answer)
+    body = f"[bold]{text[0]}[/bold]\n\n" + "\n".join(f"• {line}" for line in text[1:])
+    console.print(Panel(body, title=answer.case.title, title_align="left", border_style="blue"))
+    problem = answer.case.problem
+    console.print(
+        f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
+        f"both ends clamped   forces at s = 1, tension positive"
+    )
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("")
+    physical = answer.case.scales is not None
+    if physical:
+        table.add_column("physical", justify="right")
+    table.add_column("B = L = 1", justify="right")
+    table.add_column("± error", justify="right")
+    table.add_column("")
+    for row in rows(answer):
+        cells = [row["label"], *([row["physical"]] if physical else []), row["plain"], row["error"], row["note"]]
+        table.add_row(*cells)
+    console.print(table)
+    if not answer.converged:
+        console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
+    console.print(f"\nWritten to [bold]{folder}[/bold]: " + ", ".join(FILES) + ", figures as PNG")

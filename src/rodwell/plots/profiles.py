@@ -1,0 +1,111 @@
+"""Shapes and contact pressure along the rod."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+
+from rodwell.analysis.branches import Branch
+from rodwell.analysis.critical import CriticalLoads
+from rodwell.analysis.solution import Solution
+from rodwell.plots.style import GREY, INK, MODES, WARN, minus, new_axes
+from rodwell.plots.units import axis
+from rodwell.practice.scales import Scales
+
+SHOWN = 5
+"""States between buckling and lift-off of which the contact pressure is drawn."""
+
+
+def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = None, most: int = 4) -> Any:
+    """Draw the buckling modes y(s), each scaled to a largest deflection of 1; return the axes."""
+    ax = new_axes() if ax is None else ax
+    s = np.linspace(0.0, 1.0, 601)
+    fs, us = axis("z", scales, 1.0)
+    forces = critical.forces[:most]
+    ff, uf = axis("force", scales, float(np.max(np.abs(forces))))
+    for mode in critical[:most]:
+        ax.plot(
+            s * fs, mode.shape(s), color=MODES[mode.number - 1], lw=2.2 if mode.number == 1 else 1.3,
+            label=minus(f"mode {mode.number}: F = {mode.force * ff:.4g} {uf}"),
+        )  # fmt: skip
+    ax.axhline(0.0, color=INK, lw=0.8)
+    ax.set_xlim(0.0, fs)
+    ax.set_ylim(-1.25, 1.55)
+    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_ylabel("sideways deflection y, scaled")
+    ax.legend(loc="upper center", ncols=2)
+    return ax
+
+
+def states_to_lift_off(branch: Branch, count: int = SHOWN) -> list[Solution]:
+    """States of a branch from buckling to lift-off, evenly spread in load; to its end if it has no lift-off."""
+    lift = branch.lift_off
+    if lift is None or branch.lift_off_at_buckling:
+        picks = np.linspace(1, len(branch) - 1, min(count, len(branch) - 1)).round().astype(int)
+        return [branch[int(i)] for i in dict.fromkeys(picks)]
+    start = branch.force[0]
+    forces = start + (lift.force - start) * np.linspace(0.0, 1.0, count)
+    inner = [branch.at(float(f)) for f in forces[1:-1]]
+    return [branch[0], *inner, lift.solution]
+
+
+def plot_contact_pressure(
+    branch: Branch, scales: Scales | None = None, ax: Any = None, states: Sequence[Solution] | None = None
+) -> Any:
+    """Draw the contact pressure p along the rod at several loads, from buckling to lift-off; return the axes."""
+    ax = new_axes() if ax is None else ax
+    states = states_to_lift_off(branch) if states is None else states
+    s = np.linspace(0.0, 1.0, 601)
+    pressures = [state.fields(s)["contact_pressure"] for state in states]
+    fs, us = axis("z", scales, 1.0)
+    fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
+    ff, uf = axis("force", scales, max(abs(state.force) for state in states))
+    shades = mpl.colormaps["viridis"](np.linspace(0.85, 0.0, len(states)))
+    for state, pressure, color in zip(states, pressures, shades, strict=True):
+        label = minus(f"F = {state.force * ff:.4g} {uf}")
+        ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
+    _lift_off_marks(ax, branch, fs)
+    low, high = ax.get_ylim()
+    high = max(high, -0.12 * low)
+    ax.axhspan(0.0, 10.0 * abs(low) + 10.0 * high, color=WARN, alpha=0.07, lw=0)
+    ax.axhline(0.0, color=WARN, lw=1.0)
+    ax.set_ylim(low, high)
+    ax.set_xlim(0.0, fs)
+    ax.text(0.995 * fs, 0.5 * high, "the wall would have to pull", color=WARN, ha="right", va="center", fontsize=8.5)
+    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_ylabel(f"contact pressure p, pressed on the wall if below 0  [{up}]", fontsize=8.5)
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
+    return ax
+
+
+def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
+    lift = branch.lift_off
+    if lift is None or branch.lift_off_at_buckling:
+        return
+    for s in lift.s:
+        ax.plot([s * fs], [0.0], "o", color=WARN, mec="white", ms=7, zorder=6)
+        ax.annotate(
+            "lift-off", (s * fs, 0.0), xytext=(0, 9), textcoords="offset points", ha="center", color=WARN, fontsize=8.5
+        )
+
+
+def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: Any = None) -> Any:
+    """Draw the twisting moment T₂ in the cylinder along its length (paper, Fig. 4(b)); return the axes."""
+    ax = new_axes() if ax is None else ax
+    s = np.linspace(0.0, 1.0, 601)
+    curves = [state.fields(s)["T2"] for state in states]
+    fs, us = axis("z", scales, 1.0)
+    ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
+    ff, uf = axis("force", scales, max(abs(state.force) for state in states))
+    shades = mpl.colormaps["viridis"](np.linspace(0.85, 0.0, len(states)))
+    for state, curve, color in zip(states, curves, shades, strict=True):
+        ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {state.force * ff:.4g} {uf}"))
+    ax.axhline(0.0, color=GREY, lw=0.8)
+    ax.set_xlim(0.0, fs)
+    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_ylabel(f"twisting moment T₂ in the cylinder  [{ut}]")
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
+    return ax

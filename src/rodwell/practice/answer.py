@@ -1,0 +1,265 @@
+"""The answer to a case: critical loads, branches, lift-off, wall loads, and what they mean."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+import rodwell
+from rodwell.analysis.branches import Branch, SpecialPoint, follow
+from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
+from rodwell.analysis.measures import Measured
+from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
+from rodwell.analysis.solution import Solution
+from rodwell.errors import NotConvergedError
+from rodwell.practice.case import Case
+
+Progress = Callable[[str, float], None]
+"""Called with what is being done and how much of the whole is done (0 to 1)."""
+
+STRAIGHT_AT = 1e-6
+"""A torque below this part of the largest torque in the cylinder counts as none."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A number of the answer: value and error estimate in units B = L = 1, and what it is."""
+
+    name: str
+    label: str
+    value: float
+    error: float
+    dimension: str
+    note: str = ""
+
+    def physical(self, case: Case) -> tuple[float, float, str] | None:
+        """Value, error and unit in SI, or None for a case without dimensions."""
+        if case.scales is None:
+            return None
+        factor = case.scales.factor(self.dimension)
+        return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
+
+    def as_dict(self, case: Case) -> dict[str, Any]:
+        """Everything about the number, for JSON."""
+        out: dict[str, Any] = {
+            "label": self.label, "value": self.value, "error": self.error, "unit": UNITS[self.dimension],
+        }  # fmt: skip
+        physical = self.physical(case)
+        if physical is not None:
+            out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
+        if self.note:
+            out["note"] = self.note
+        return out
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was computed for a case.
+
+    Attributes
+    ----------
+    case
+        The case.
+    critical
+        Critical loads and modes of the straight rod.
+    branches
+        Buckled branches of the modes met before ``until``; the first is that of mode 1.
+    until
+        End force in B/L² to which they were followed.
+    """
+
+    case: Case
+    critical: CriticalLoads
+    branches: tuple[Branch, ...]
+    until: float
+
+    @property
+    def first(self) -> Branch:
+        """The branch of the first mode."""
+        return self.branches[0]
+
+    @property
+    def lift_off(self) -> SpecialPoint | None:
+        """Lift-off of the first mode."""
+        return self.first.lift_off
+
+    @cached_property
+    def at_lift_off(self) -> Solution | None:
+        """The state of the first mode at lift-off, None where lift-off coincides with buckling."""
+        if self.lift_off is None or self.first.lift_off_at_buckling:
+            return None
+        return self.lift_off.solution
+
+    @property
+    def converged(self) -> bool:
+        """Whether every reported number meets the tolerance."""
+        return all(branch.converged for branch in self.branches)
+
+    @cached_property
+    def worst_certificate(self) -> float:
+        """Largest disagreement of independent routes to the same force or moment, over the states shown."""
+        states = [branch[-1] for branch in self.branches]
+        if self.at_lift_off is not None:
+            states.append(self.at_lift_off)
+        return max(state.certificate for state in states)
+
+    @cached_property
+    def figures(self) -> dict[str, Figure]:
+        """The key figures by name."""
+        out = [_critical_figure(mode) for mode in self.critical]
+        lift = self.lift_off
+        if lift is not None:
+            note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
+            if self.first.lift_off_at_buckling:
+                note = "coincides with buckling: no lateral weight presses the rod to the wall"
+            label = "Lift-off load, end force at s = 1"
+            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", note))
+        if self.at_lift_off is not None:
+            out += _state_figures(self.at_lift_off)
+        return {figure.name: figure for figure in out}
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the answer as plain data, for JSON."""
+        case, problem = self.case, self.case.problem
+        lift = self.lift_off
+        return {
+            "title": case.title,
+            "rodwell_version": rodwell.__version__,
+            "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; both ends clamped",
+            "problem": {
+                "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
+                "poisson": problem.poisson, "twist": problem.twist,
+            },  # fmt: skip
+            "critical_loads": [float(f) for f in self.critical.forces],
+            "critical_errors": [float(e) for e in self.critical.errors],
+            "lift_off": None
+            if lift is None
+            else {
+                "force": lift.force, "error": lift.error, "s": list(lift.s),
+                "coincides_with_buckling": self.first.lift_off_at_buckling,
+            },  # fmt: skip
+            "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
+            "branches": [_branch_dict(branch) for branch in self.branches],
+            "converged": self.converged,
+            "certificate": self.worst_certificate,
+            "rtol": case.rtol,
+        }
+
+
+def _critical_figure(mode: Mode) -> Figure:
+    symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
+    label = f"Critical load of mode {mode.number}, end force at s = 1"
+    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", symmetry)
+
+
+def _state_figures(state: Solution) -> list[Figure]:
+    """Wall and support loads of one state."""
+    fields, errors = state.fields_with_errors()
+    torque, torque_error = state.number(Measured.TORQUE_0)
+    shortening, shortening_error = state.number(Measured.SHORTENING)
+    weight_scale = float(np.max(np.abs(fields["T2"])))
+
+    def largest(name: str, field: str, label: str) -> Figure:
+        value = float(np.max(np.abs(fields[field])))
+        return Figure(name, label, value, errors[field], QUANTITIES[field].dimension)
+
+    pressure = -fields["contact_pressure"]
+    s = np.linspace(0.0, 1.0, pressure.size)
+    total, total_error = state.total_wall_force
+    self_balanced = abs(torque) <= STRAIGHT_AT * weight_scale
+    return [
+        Figure("largest_wall_force", "Largest contact force on the wall per length, outward",
+               float(pressure.max()), errors["contact_pressure"], "force_per_length",
+               f"at s/L = {s[int(np.argmax(pressure))]:.4g}"),
+        Figure("total_wall_force", "Total contact force on the wall, all directions added",
+               total, total_error, "force"),
+        largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|"),
+        Figure("support_torque", "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
+               0.0 if self_balanced else torque, torque_error, "moment",
+               "none: the twisting moment balances itself" if self_balanced else ""),
+        largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|"),
+        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length"),
+    ]  # fmt: skip
+
+
+def _branch_dict(branch: Branch) -> dict[str, Any]:
+    return {
+        "mode": branch.mode.number if branch.mode else None,
+        "points": len(branch),
+        "reached_end": branch.reached_end,
+        "ended_because": branch.ended_because,
+        "special_points": [
+            {
+                "kind": p.kind, "force": p.force, "error": p.error,
+                "index_before": p.index_before, "index_after": p.index_after, "s": list(p.s),
+            }
+            for p in branch.special_points
+        ],
+    }  # fmt: skip
+
+
+def answer(case: Case, progress: Progress | None = None) -> Answer:
+    """Compute a case: critical loads, the branch of each mode, lift-off of the first.
+
+    Parameters
+    ----------
+    case
+        The case.
+    progress
+        Called with what is being done and how much is done.
+
+    Raises
+    ------
+    NotConvergedError
+        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
+        to ``load.until``; the message says why and how far it got.
+    """
+    tell = progress or (lambda _what, _done: None)
+    problem = case.problem
+    tell("critical loads", 0.0)
+    critical = critical_loads(problem, case.modes, rtol=case.rtol)
+    tell("lift-off", 0.1)
+    to_lift_off = follow(problem, critical[0], rtol=case.rtol)
+    until = _reach(case, critical, to_lift_off)
+    branches = []
+    followed = [mode for mode in critical if mode.force > until]
+    for number, mode in enumerate(followed):
+        share = (0.9 / len(followed), 0.1 + 0.9 * number / len(followed))
+
+        def report(force: float, mode: Mode = mode, share: tuple[float, float] = share) -> None:
+            part = (mode.force - force) / (mode.force - until)
+            tell(f"mode {mode.number} at F = {force:.4g} B/L²", share[1] + share[0] * min(max(part, 0.0), 1.0))
+
+        branches.append(follow(problem, mode, until=until, rtol=case.rtol, progress=report))
+    _check_reached(case, branches[0], until)
+    tell("done", 1.0)
+    return Answer(case, critical, tuple(branches), until)
+
+
+def _reach(case: Case, critical: CriticalLoads, to_lift_off: Branch) -> float:
+    """End force to follow branches to: as asked, if it buckles the rod; otherwise past lift-off and all modes."""
+    first = critical[0].force
+    if case.until is not None and case.until < first:
+        return case.until
+    lift = to_lift_off.lift_off
+    beyond = [1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2]
+    if lift is not None:
+        beyond.append(1.3 * (first - lift.force))
+    return float(first - max(beyond))
+
+
+def _check_reached(case: Case, branch: Branch, until: float) -> None:
+    if branch.reached_end or case.until is None:
+        return
+    unit = "B/L²"
+    factor = 1.0
+    if case.scales is not None:
+        unit, factor = "N", case.scales.factor("force")
+    raise NotConvergedError(
+        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 ends at "
+        f"{branch.force[-1] * factor:.6g} {unit} ({branch.ended_because}); give a load.until above that"
+    )

@@ -1,0 +1,138 @@
+"""What an answer means, in sentences: end, sign, unit and condition stated wherever a force stands."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.practice.answer import Answer
+from rodwell.practice.units import readable
+
+ASSUMPTIONS = (
+    "both ends clamped (y and y′ held), end force and end torque dead loads at s = 1",
+    "rod inextensible, unshearable, linearly elastic, straight when free",
+    "cylinder rigid and straight; contact without friction",
+    "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
+)
+
+
+def force_text(answer: Answer, value: float, error: float | None = None) -> str:
+    """A force in the reader's units: SI first where the case has dimensions."""
+    plain = f"{value:.6g} B/L²".replace("-", "−")
+    if error is not None:
+        plain = f"{value:.10g} ± {error:.1e} B/L²".replace("-", "−")
+    if answer.case.scales is None:
+        return plain
+    return f"{readable(value * answer.case.scales.factor('force'), 'N')} ({plain})"
+
+
+def place_text(answer: Answer, s: float) -> str:
+    """A place along the rod."""
+    if answer.case.scales is None:
+        return f"s/L = {s:.6g}"
+    return f"{s * answer.case.scales.length:.4g} m from the end s = 0 (s/L = {s:.6g})"
+
+
+def sentences(answer: Answer) -> list[str]:
+    """What the numbers mean, most important first."""
+    out = [_verdict(answer), _mode(answer)]
+    out += _applied(answer)
+    out += [_lift_off(answer), _stability(answer), _wall(answer)]
+    return [sentence for sentence in out if sentence]
+
+
+def _verdict(answer: Answer) -> str:
+    first = answer.critical[0]
+    if first.force > 0.0:
+        return (
+            "The rod buckles under its own weight: it stays straight only if the end s = 1 is held in tension of at "
+            f"least {force_text(answer, first.force)}."
+        )
+    return (
+        f"The straight rod is stable until the compression at the end s = 1 reaches "
+        f"{force_text(answer, -first.force)}."
+    )
+
+
+def _mode(answer: Answer) -> str:
+    first = answer.critical[0]
+    y = first.shape(np.linspace(0.0, 1.0, 2001))[1:-1]
+    waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
+    shape = {1: "symmetric", -1: "antisymmetric", 0: "unsymmetric (inclination)"}[first.parity]
+    plural = "" if waves == 1 else "s"
+    text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
+    if len(answer.critical) > 1:
+        gap = abs(answer.critical[1].force - first.force) / max(abs(first.force), 1e-300)
+        if gap < 0.05:
+            text += f" The second mode follows within {100.0 * gap:.2g} %: imperfections may favour either."
+    return text
+
+
+def _applied(answer: Answer) -> list[str]:
+    until = answer.case.until
+    if until is None:
+        return []
+    first = answer.critical[0].force
+    if until >= first:
+        return [
+            f"At the end force asked for, {force_text(answer, until)} at s = 1, the straight rod is stable; the "
+            "diagrams go beyond it to show what follows."
+        ]
+    return []
+
+
+def _lift_off(answer: Answer) -> str:
+    lift = answer.lift_off
+    if lift is None:
+        return (
+            f"The first mode does not lift off the wall down to the end force {force_text(answer, answer.until)} at s = 1."
+        )
+    if answer.first.lift_off_at_buckling:
+        return (
+            "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "
+            "as soon as it buckles."
+        )
+    places = " and ".join(place_text(answer, s) for s in lift.s)
+    return (
+        f"The buckled rod stays on the wall until the end force at s = 1 is {force_text(answer, lift.force)}; there it "
+        f"lifts off at {places}."
+    )
+
+
+def _stability(answer: Answer) -> str:
+    branch, lift = answer.first, answer.lift_off
+    end = lift.force if lift is not None and not branch.lift_off_at_buckling else answer.until
+    index = branch.stability_index[1:][branch.force[1:] >= end]
+    if index.size == 0:
+        index = branch.stability_index[1:2]
+    what = "up to lift-off" if lift is not None and not branch.lift_off_at_buckling else "over the range shown"
+    if branch.lift_off_at_buckling:
+        what += ", if kept on the wall"
+    if np.all(index == 0):
+        return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
+    return f"The buckled shape of mode 1 is not stable everywhere {what}: the rod snaps to another shape."
+
+
+def _wall(answer: Answer) -> str:
+    if answer.at_lift_off is None:
+        return ""
+    figures = answer.figures
+    scales = answer.case.scales
+
+    def text(name: str, unit: str) -> str:
+        figure = figures[name]
+        physical = figure.physical(answer.case)
+        if physical is None or scales is None:
+            return f"{figure.value:.4g} {unit}"
+        return readable(physical[0], physical[2])
+
+    torque = figures["support_torque"]
+    support = (
+        "the cylinder's supports need no torque"
+        if torque.value == 0.0
+        else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')}"
+    )
+    return (
+        f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
+        f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "
+        f"{text('largest_torque', 'B/L')}, and {support}."
+    )

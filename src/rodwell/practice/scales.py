@@ -1,0 +1,35 @@
+"""From units B = L = 1 to SI and back, for one rod."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Length L in m and bending stiffness B in N m² of the rod: they carry every unit."""
+
+    length: float
+    stiffness: float
+
+    def factor(self, dimension: str) -> float:
+        """SI value of one dimensionless unit of ``dimension`` (see ``nomenclature.UNITS``)."""
+        powers = {
+            "1": (0, 0),
+            "angle": (0, 0),
+            "length": (0, 1),
+            "curvature": (0, -1),
+            "force": (1, -2),
+            "force_per_length": (1, -3),
+            "moment": (1, -1),
+            "energy": (1, -1),
+        }
+        stiffness, length = powers[dimension]
+        return float(self.stiffness**stiffness * self.length**length)
+
+    def of(self, name: str) -> tuple[float, str]:
+        """SI factor and unit of a quantity of the nomenclature."""
+        dimension = QUANTITIES[name].dimension
+        return self.factor(dimension), SI_UNITS[dimension]

@@ -1,0 +1,119 @@
+"""What a case file may hold. Each value is checked on its own here; how they fit together, in ``case``."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from rodwell.practice.units import to_si
+
+
+def _quantity(kind: str, *, above: float | None = None, least: float | None = None) -> Any:
+    def parse(text: object) -> float:
+        value = to_si(text, kind)
+        if above is not None and not value > above:
+            raise ValueError("must be above 0")
+        if least is not None and not value >= least:
+            raise ValueError("must not be negative")
+        return value
+
+    return Annotated[float, BeforeValidator(parse)]
+
+
+def _plain(text: object) -> object:
+    if isinstance(text, str):
+        raise ValueError("must be a plain number, without quotes or unit")  # noqa: TRY004 - pydantic needs ValueError
+    if isinstance(text, bool):
+        raise ValueError("must be a number")  # noqa: TRY004
+    return text
+
+
+def _finite(value: float) -> float:
+    if not math.isfinite(value):
+        raise ValueError("must be finite")
+    return value
+
+
+Length = _quantity("length", above=0.0)
+InnerLength = _quantity("length", least=0.0)
+Angle = _quantity("angle")
+Force = _quantity("force")
+Moment = _quantity("moment")
+Stress = _quantity("stress", above=0.0)
+Density = _quantity("density", above=0.0)
+ForcePerLength = _quantity("force per length", least=0.0)
+Stiffness = _quantity("bending stiffness", above=0.0)
+Acceleration = _quantity("acceleration", least=0.0)
+Number = Annotated[float, BeforeValidator(_plain)]
+
+
+class Section(BaseModel):
+    """Base of all sections: unknown keys are refused, values are not changed after reading."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Rod(Section):
+    """[rod]: the pipe, rod or wire."""
+
+    length: Length
+    outer_diameter: Length | None = None
+    inner_diameter: InnerLength | None = None
+    youngs_modulus: Stress | None = None
+    bending_stiffness: Stiffness | None = None
+    density: Density | None = None
+    weight_per_length: ForcePerLength | None = None
+    poisson: Number = 0.3
+
+
+class Hole(Section):
+    """[hole]: the borehole, vessel or pipe around it."""
+
+    diameter: Length | None = None
+    clearance: Length | None = None
+    angle_from_vertical: Angle | None = None
+    angle_from_horizontal: Angle | None = None
+    gravity: Acceleration = 9.80665
+
+
+class Dimensionless(Section):
+    """[dimensionless]: instead of [rod] and [hole]."""
+
+    weight: Number
+    alpha: Number = 90.0
+    clearance: Number = 0.01
+    poisson: Number = 0.3
+
+
+class Load(Section):
+    """[load]: what is applied at the end s = 1 (in physical units)."""
+
+    until: Force | None = None
+    twist: Moment = 0.0
+
+
+class DimensionlessLoad(Section):
+    """[load] beside [dimensionless]."""
+
+    until: Number | None = None
+    twist: Number = 0.0
+
+
+class Analysis(Section):
+    """[analysis]: what is computed, and how exactly."""
+
+    modes: int = Field(default=4, strict=True, ge=1, le=12)
+    rtol: Number = 1e-8
+
+
+class CaseFile(Section):
+    """The whole file."""
+
+    title: str = "Untitled case"
+    rod: Rod | None = None
+    hole: Hole | None = None
+    dimensionless: Dimensionless | None = None
+    load: dict[str, Any] = Field(default_factory=dict)
+    analysis: Analysis = Analysis()

@@ -1,0 +1,92 @@
+"""Units at the boundary: text such as "30 m" or "19.5 lbf/ft" in, SI numbers inside, readable numbers out."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Any
+
+KINDS: dict[str, tuple[str, str]] = {
+    "length": ("m", '"30 m", "5 cm", "8.5 in"'),
+    "angle": ("rad", '"15 deg"'),
+    "force": ("N", '"-20 kN", "-5000 lbf"'),
+    "moment": ("N*m", '"1.2 kN m", "800 ft lbf"'),
+    "stress": ("Pa", '"200 GPa", "30e6 psi"'),
+    "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal"'),
+    "force per length": ("N/m", '"315 N/m", "19.5 lbf/ft"'),
+    "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
+    "acceleration": ("m/s^2", '"9.80665 m/s^2"'),
+}
+"""Kinds of quantity that case files hold: SI unit, and examples for messages."""
+
+
+@cache
+def _registry() -> Any:
+    import pint  # noqa: PLC0415 - slow to import
+
+    registry: Any = pint.UnitRegistry()
+    registry.define("pounds_per_gallon = pound / gallon = ppg")
+    return registry
+
+
+def to_si(text: object, kind: str) -> float:
+    """Return the SI value of ``text`` as a quantity of ``kind``.
+
+    Raises
+    ------
+    ValueError
+        With what is wrong and what to write instead.
+    """
+    unit, examples = KINDS[kind]
+    if isinstance(text, (int, float)) and not isinstance(text, bool):
+        raise ValueError(f"needs a unit: write it as text, for example {examples}")
+    if not isinstance(text, str):
+        raise ValueError(f"must be text with a number and a unit, for example {examples}")
+    import pint  # noqa: PLC0415
+
+    try:
+        quantity = _registry().Quantity(text)
+    except pint.UndefinedUnitError as problem:
+        raise ValueError(f"unknown unit {problem.unit_names!r}; write for example {examples}") from None
+    except Exception:  # pint raises many kinds for text that is no quantity
+        raise ValueError(f"is not a number with a unit; write for example {examples}") from None
+    if kind == "angle" and quantity.dimensionless and quantity.unitless:
+        raise ValueError(f"needs a unit: write for example {examples}")
+    try:
+        value = float(quantity.to(unit).magnitude)
+    except pint.DimensionalityError:
+        found = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
+        hint = _hint(quantity, kind)
+        raise ValueError(f"must be a {kind}, but it {found}; write for example {examples}{hint}") from None
+    except Exception:
+        raise ValueError(f"is not a single number with a unit; write for example {examples}") from None
+    if not math.isfinite(value):
+        raise ValueError("must be finite")
+    return value
+
+
+def _hint(quantity: Any, kind: str) -> str:
+    """Extra help for mistakes that are common: pounds of mass where pounds of force are meant."""
+    if kind in ("force", "force per length", "moment") and "[mass]" in str(quantity.dimensionality):
+        return " (a weight is a force: lbf, not lb; N, not kg)"
+    return ""
+
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+
+
+def readable(value: float, unit: str, digits: int = 4) -> str:
+    """Return ``value`` with an engineering prefix: ``readable(-12345, "N")`` is "−12.35 kN"."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g} {unit}".replace("-", "−")
+    scale, prefix = prefix_for(value)
+    return f"{value / scale:.{digits}g} {prefix}{unit}".replace("-", "−")
+
+
+def prefix_for(value: float) -> tuple[float, str]:
+    """Return factor and letter of the engineering prefix that suits ``value``."""
+    size = abs(value)
+    for scale, prefix in _PREFIXES:
+        if size >= scale * (1.0 - 1e-9):
+            return scale, prefix
+    return _PREFIXES[-1] if size > 0.0 else (1.0, "")

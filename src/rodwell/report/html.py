@@ -1,0 +1,142 @@
+"""One self-contained HTML page for a case: opens offline, prints on paper."""
+
+from __future__ import annotations
+
+import base64
+import datetime
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+import rodwell
+from rodwell.practice.answer import Answer, Figure
+from rodwell.practice.case import Case
+from rodwell.practice.meaning import ASSUMPTIONS, sentences
+from rodwell.practice.units import readable
+
+TEMPLATE = Path(__file__).with_name("report.html.j2")
+
+
+def number(value: float, error: float) -> str:
+    """A value with the digits that its error estimate supports, ten at most."""
+    if value == 0.0:
+        return "0"
+    digits = 10
+    if error > 0.0:
+        while digits > 3 and 0.5 * 10.0 ** (-digits + 1) * abs(value) < error:
+            digits -= 1
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+def rows(answer: Answer) -> list[dict[str, str]]:
+    """The table of key figures."""
+    out = []
+    for figure in answer.figures.values():
+        physical = figure.physical(answer.case)
+        out.append(
+            {
+                "label": figure.label,
+                "physical": "" if physical is None else readable(physical[0], physical[2], 6),
+                "plain": f"{number(figure.value, figure.error)} {_unit(figure)}",
+                "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
+                "note": figure.note,
+            }
+        )
+    return out
+
+
+def _unit(figure: Figure) -> str:
+    return {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L"}[figure.dimension]
+
+
+def inputs(case: Case) -> list[tuple[str, str]]:
+    """Inputs as given, and what follows from them."""
+    out = []
+    for section, values in case.given.items():
+        for key, value in values.items():
+            out.append((f"{section}.{key}", str(value)))
+    return out
+
+
+def derived(case: Case) -> list[tuple[str, str]]:
+    """The dimensionless problem and its scales."""
+    p = case.problem
+    out = [
+        ("weight γ = mg L³/B", f"{p.weight:.8g}"),
+        ("angle α from the vertical", f"{p.alpha:g}°"),
+        ("clearance Δ/L (between the axes)", f"{p.clearance:.6g}"),
+        ("Poisson's ratio ν", f"{p.poisson:g}"),
+        ("end twisting moment T₁", f"{p.twist:g} B/L"),
+    ]
+    if case.scales is not None:
+        b, length = case.scales.stiffness, case.scales.length
+        out += [
+            ("length L", f"{length:g} m"),
+            ("bending stiffness B", f"{b:.6g} N m²"),
+            ("unit of force B/L²", readable(case.scales.factor("force"), "N", 6)),
+        ]
+    return out
+
+
+def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
+    """Return the page.
+
+    ``pictures`` maps a name to its type ("svg" or "png") and content.
+    """
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
+    text = sentences(answer)
+    return template.render(
+        case=answer.case,
+        answer=answer,
+        verdict=text[0],
+        text=text[1:],
+        assumptions=ASSUMPTIONS,
+        rows=rows(answer),
+        inputs=inputs(answer.case),
+        derived=derived(answer.case),
+        special=_special(answer),
+        pictures={name: _embed(*picture) for name, picture in pictures.items()},
+        certificate=f"{answer.worst_certificate:.1e}".replace("-", "−"),
+        rtol=f"{answer.case.rtol:g}".replace("-", "−"),
+        version=rodwell.__version__,
+        date=datetime.date.today().isoformat(),
+    )
+
+
+def _embed(kind: str, content: bytes) -> str:
+    """The picture as a data address: nothing is loaded from elsewhere."""
+    mime = {"svg": "image/svg+xml", "png": "image/png"}[kind]
+    return f"data:{mime};base64,{base64.b64encode(content).decode()}"
+
+
+_KINDS = {
+    "critical": "buckling of the straight rod",
+    "lift_off": "lift-off",
+    "branch_point": "secondary bifurcation",
+    "fold": "fold",
+    "end": "end of the branch",
+}
+
+
+def _special(answer: Answer) -> list[dict[str, Any]]:
+    scales = answer.case.scales
+    out = []
+    for branch in answer.branches:
+        assert branch.mode is not None
+        for point in branch.special_points:
+            out.append(
+                {
+                    "mode": branch.mode.number,
+                    "kind": _KINDS[point.kind],
+                    "physical": "" if scales is None else readable(point.force * scales.factor("force"), "N", 6),
+                    "plain": number(point.force, point.error),
+                    "error": "" if point.kind == "end" else f"{point.error:.0e}".replace("-", "−"),
+                    "index": f"{point.index_before} → {point.index_after}"
+                    if point.index_before != point.index_after
+                    else str(point.index_after),
+                    "place": ", ".join(f"{s:.6g}" for s in point.s),
+                }
+            )
+    return out

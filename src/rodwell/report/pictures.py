@@ -1,0 +1,43 @@
+"""The pictures of a case, as files and for the report."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+from rodwell.plots.bifurcation import plot_bifurcation
+from rodwell.plots.profiles import plot_contact_pressure, plot_modes, plot_torque, states_to_lift_off
+from rodwell.plots.rod3d import plot_rod
+from rodwell.plots.style import RC
+from rodwell.practice.answer import Answer
+
+DPI = 140
+
+
+def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
+    """Write each picture to ``folder`` as PNG; return them for the report (SVG, the 3-D picture as PNG)."""
+    scales = answer.case.scales
+    states = states_to_lift_off(answer.first)
+    shown = answer.at_lift_off or states[-1]
+    with mpl.rc_context(RC):
+        axes: dict[str, Any] = {
+            "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
+            "modes": plot_modes(answer.critical, scales),
+            "contact-pressure": plot_contact_pressure(answer.first, scales, states=states),
+            "torque": plot_torque([s for s in states if s.point.fine.c.any()], scales),
+            "rod-3d": plot_rod(shown, scales),
+        }
+        out = {}
+        for name, ax in axes.items():
+            ax.figure.savefig(folder / f"{name}.png", dpi=DPI)
+            if name == "rod-3d":
+                out[name] = ("png", (folder / f"{name}.png").read_bytes())
+                continue
+            ax.figure.set_layout_engine("none")  # keep the layout found for the first file
+            buffer = io.BytesIO()
+            ax.figure.savefig(buffer, format="svg", metadata={"Date": None})
+            out[name] = ("svg", buffer.getvalue())
+    return out
