@@ -17,12 +17,13 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from rodwell._version import __version__
 
 _HOME = {
     "Branch": "rodwell.analysis.branches",
     "Case": "rodwell.practice.case",
-    "CaseResult": "rodwell.analysis.run",
+    "Answer": "rodwell.practice.answer",
+    "answer": "rodwell.practice.answer",
     "CriticalLoads": "rodwell.analysis.critical",
     "InputError": "rodwell.errors",
     "Mode": "rodwell.analysis.critical",
@@ -36,7 +37,7 @@ _HOME = {
     "follow": "rodwell.analysis.branches",
 }
 
-__all__ = sorted(_HOME)  # noqa: PLE0605 - a list, of names served by __getattr__
+__all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
     from rodwell.analysis.branches import Branch, SpecialPoint, follow
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.solution import Solution
     from rodwell.errors import InputError, NotConvergedError, RodwellError
+    from rodwell.practice.answer import Answer, answer
     from rodwell.practice.case import Case
     from rodwell.problem import Problem
 

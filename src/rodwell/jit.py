@@ -8,30 +8,27 @@ comes with ``@numba.extending.overload(density)`` and, where contact is looked a
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 import numba
 from numba.extending import register_jitable
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
-def kernel(function: F) -> F:
+def kernel(function: Callable[..., Any]) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
 
     Where no folder for the cache can be written (a read-only installation without a home folder), the
     function is compiled anew in each process instead.
     """
     try:
-        compiled = numba.njit(cache=True, error_model="numpy")(function)
+        return numba.njit(cache=True, error_model="numpy")(function)
     except RuntimeError:  # Numba: "no locator available"
-        compiled = numba.njit(error_model="numpy")(function)
-    return compiled  # type: ignore[no-any-return]
+        return numba.njit(error_model="numpy")(function)
 
 
-def formula(function: F) -> F:
+def formula(function: Callable[..., Any]) -> Any:
     """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it."""
-    return register_jitable(function)  # type: ignore[no-any-return]
+    return register_jitable(function)
 
 
 def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]

@@ -59,9 +59,17 @@ class Problem:
         for item in fields(self):
             self._check_number(item.name, getattr(self, item.name))
         ranges = (
-            ("weight", 0.0 <= self.weight <= LARGEST_WEIGHT, f"must be from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
+            (
+                "weight",
+                0.0 <= self.weight <= LARGEST_WEIGHT,
+                f"must be from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B",
+            ),
             ("alpha", 0.0 <= self.alpha <= 90.0, "must be from 0 (vertical) to 90 (horizontal), in degrees"),
-            ("clearance", 0.0 < self.clearance < 1.0, "must be above 0 and below 1: Δ/L, a part of the length"),
+            (
+                "clearance",
+                0.0 < self.clearance < 1.0,
+                "must be above 0 and below 1: Δ/L, a part of the length",
+            ),
             ("poisson", -1.0 < self.poisson <= 0.5, "must be above -1 and at most 0.5"),
             ("turns", abs(self.turns) <= LARGEST_TURNS, f"must be from -{LARGEST_TURNS} to {LARGEST_TURNS}"),
         )
@@ -70,7 +78,9 @@ class Problem:
                 raise InputError(name, getattr(self, name), text)
         if abs(2.0 * math.pi * self.turns * self.clearance) >= 1.0:
             raise InputError(
-                "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
+                "turns",
+                self.turns,
+                f"a rod of this length cannot wind around so often at clearance {self.clearance:g}",
             )
 
     def _check_number(self, name: str, value: Any) -> None:

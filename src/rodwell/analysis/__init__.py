@@ -1,0 +1,1 @@
+"""Critical loads, branches, stability, lift-off: where rod meets solver."""

@@ -17,6 +17,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.continuation import INDEX, Event, Found, Stepping, Trace, trace
 from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.location import LocationError, Span, bracketed_root
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.problem import Problem
 
@@ -152,18 +153,28 @@ class Branch:
             low, high = self.force.min(), self.force.max()
             raise InputError("force", force, f"this branch covers {low:.6g} to {high:.6g} B/L²; follow it further")
         i = int(inside[0])
-        if force == self.force[i]:
-            return self[i]
-        i += 1  # the later point lies on the finer mesh
-        ladder, point = self._trace.ladders[i], self._trace.points[i]
-        outcome, coarse, _ = ladder.coarse.at(point.coarse.c, force)
-        if coarse is not None:
-            outcome, ladder, found = ladder.resolve(coarse)
-            if found is not None:
-                outcome, exact, _ = ladder.fine.at(found.fine.c, force)
-                if exact is not None:
-                    return Solution(self.problem, ladder.point(found.coarse, exact), ladder)
-        raise NotConvergedError(f"no state at F = {force:g}: {outcome.value}")
+        for near in (i, i + 1):
+            if force == self.force[near]:
+                return self[near]
+        try:
+            return self._between(i, force)
+        except LocationError as problem:
+            raise NotConvergedError(f"no state at F = {force:g}: {problem}") from None
+
+    def _between(self, i: int, force: float) -> Solution:
+        """State at ``force`` between points i and i+1, found along the branch and then solved at that force."""
+        ladder, last = self._trace.ladders[i + 1], self._trace.points[i + 1]
+        _, first = ladder.adopt(self._trace.ladders[i], self._trace.points[i])
+        if first is None:
+            raise LocationError("the point before it could not be solved on a finer mesh")
+        states = []
+        for family, a, b in ((ladder.coarse, first.coarse, last.coarse), (ladder.fine, first.fine, last.fine)):
+            span = Span(family, a, b)
+            place = bracketed_root(lambda t, span=span: span(t).lam - force, 0.0, 1.0, a.lam - force, b.lam - force)
+            near = span(place)
+            _, exact, _ = family.at(near.c, force)
+            states.append(near if exact is None else exact)
+        return Solution(self.problem, ladder.point(*states), ladder)
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -196,9 +207,7 @@ class Branch:
         places = solution.highest_pressure[2] if kind == LIFT_OFF else ()
         roundoff = 4.0 * np.finfo(float).eps * abs(found.point.lam)
         error = found.lam_error + roundoff if kind != END else 0.0
-        return SpecialPoint(
-            kind, found.point.lam, error, places, found.index_before, found.index_after, solution
-        )
+        return SpecialPoint(kind, found.point.lam, error, places, found.index_before, found.index_after, solution)
 
 
 Progress = Callable[[float], None]
@@ -286,9 +295,7 @@ def _reporting(progress: Progress | None) -> Callable[[Point], None] | None:
     return None if progress is None else lambda point: progress(point.lam)
 
 
-def _at_critical(
-    problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float
-) -> tuple[Ladder, Point]:
+def _at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float) -> tuple[Ladder, Point]:
     """Ladder for the branch, and the straight rod at the critical load with the mode as tangent."""
     reach = until if until is not None else mode.force - mode.wavenumber**2
     space = first_space(problem, min(reach, mode.force), max(reach, mode.force))
@@ -320,9 +327,7 @@ def _follow_from(
         raise InputError("start", start.problem, "belongs to another problem")
     point = start.point
     if (until - start.force) * point.coarse.tangent_lam < 0.0:
-        point = Point(
-            point.coarse.reversed(), point.fine.reversed(), point.values, point.error, point.excess
-        )
+        point = Point(point.coarse.reversed(), point.fine.reversed(), point.values, point.error, point.excess)
     events = [
         Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX]),
         Event(END, lambda lam, _: lam - until, stop=True),

@@ -17,6 +17,9 @@ from rodwell.problem import Problem
 
 MOST_MODES = 200
 
+EULER = 4.0 * np.pi**2
+"""First critical load of the weightless rod: the size against which loads near zero are judged."""
+
 
 @dataclass(frozen=True)
 class Mode:
@@ -79,7 +82,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     count
         How many, 1 to 200.
     rtol
-        Relative tolerance; the error is judged against |F| + γ cos α.
+        Relative tolerance; the error is judged against |F| + γ cos α + 4π².
 
     Returns
     -------
@@ -105,7 +108,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         up = Prolongation(space, finer)
         start = np.array([up(v) for v in vectors])
         better, shapes = _solve(problem, finer, count, start)
-        size = np.abs(better[:count]) + problem.axial_weight
+        size = np.abs(better[:count]) + problem.axial_weight + EULER
         error = np.abs(better - values)[:count] + 8.0 * np.finfo(float).eps * size
         if np.all(error <= rtol * size):
             break
@@ -116,9 +119,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
             )
         space, values, vectors = finer, better, shapes
     shapes = _with_symmetry(problem, finer, better[:count], shapes)
-    return CriticalLoads(
-        _mode(problem, finer, i + 1, -better[i], error[i], shapes[i]) for i in range(int(count))
-    )
+    return CriticalLoads(_mode(problem, finer, i + 1, -better[i], error[i], shapes[i]) for i in range(int(count)))
 
 
 def _starting_space(problem: Problem, count: int) -> SplineSpace:
@@ -132,9 +133,7 @@ def _starting_space(problem: Problem, count: int) -> SplineSpace:
     return space
 
 
-def _solve(
-    problem: Problem, space: SplineSpace, count: int, start: FloatArray | None
-) -> tuple[FloatArray, FloatArray]:
+def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray | None) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
     factors = second_variation(space.points, parameters(problem))
     inner = slice(CLAMPED, space.size - CLAMPED)
@@ -184,9 +183,7 @@ def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vec
     return out
 
 
-def _mode(
-    problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray
-) -> Mode:
+def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray) -> Mode:
     parity = 0
     if problem.axial_weight == 0.0:
         parity = 1 if vector @ vector[::-1] > 0.0 else -1

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-import rodwell
+from rodwell._version import __version__
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, UNITS
 from rodwell.analysis.solution import GRID
@@ -59,7 +59,11 @@ def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     data["field_error"] = (
         ("point", "field"), field_error, {"long_name": "error estimate, largest over s, in the field's units"}
     )  # fmt: skip
-    data["stability_index"] = ("point", branch.stability_index, {"long_name": "stability index", "units": "1"})
+    data["stability_index"] = (
+        "point",
+        branch.stability_index,
+        {"long_name": "stability index", "units": "1"},
+    )
     converged = np.array([solution.converged for solution in solutions], dtype=np.int8)
     about = {"long_name": "1 if every measured number meets the tolerance", "units": "1"}
     data["converged"] = ("point", converged, about)
@@ -103,7 +107,7 @@ def _problem_attributes(branch: Branch) -> dict[str, object]:
         "rtol": branch[0].ladder.rtol,
         "ended_because": branch.ended_because,
         "reached_end": int(branch.reached_end),
-        "rodwell_version": rodwell.__version__,
+        "rodwell_version": __version__,
     }
 
 

@@ -22,9 +22,7 @@ def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
     return out
 
 
-def force_family(
-    problem: Problem, space: SplineSpace, *, parity: int, wavenumber: float, force_scale: float
-) -> Family:
+def force_family(problem: Problem, space: SplineSpace, *, parity: int, wavenumber: float, force_scale: float) -> Family:
     """Equilibria of ``problem`` as the end force F varies.
 
     ``wavenumber`` sets the slope that counts as one unit of arclength, Δ k (an amplitude of one radian);

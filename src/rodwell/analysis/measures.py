@@ -61,13 +61,11 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
     shortening, torque, bending, torque_size, steepest, widest = _totals(
         space.table, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT]
     )
-    places, values, lowest = pressure_maxima(family, state)
+    _, values, lowest = pressure_maxima(family, state)
     ends = space.evaluate(state.c, np.array([0.0, 0.5, 1.0]), 3)
     highest = values.max()
     omega2 = -ends[2] / np.sqrt(1.0 - ends[1] ** 2)
-    numbers = np.array(
-        [highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque]
-    )
+    numbers = np.array([highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque])
     scales = np.array(
         [
             max(abs(highest), abs(lowest)),
@@ -88,6 +86,13 @@ def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArra
     space = state.space
     grid, table = space.samples
     places, values, lowest = contact_maxima(
-        family.model, space.knots, space.degree, grid, table, state.c, family.parameters(state.lam), NEAR_THE_TOP
+        family.model,
+        space.knots,
+        space.degree,
+        grid,
+        table,
+        state.c,
+        family.parameters(state.lam),
+        NEAR_THE_TOP,
     )
     return places, values, float(lowest)

@@ -10,7 +10,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import click
 
-import rodwell
+from rodwell._version import __version__
 from rodwell.cli.quick import critical, liftoff
 from rodwell.cli.run import run
 from rodwell.errors import InputError, RodwellError
@@ -19,7 +19,7 @@ INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.version_option(rodwell.__version__, prog_name="rodwell")
+@click.version_option(__version__, prog_name="rodwell")
 def cli() -> None:
     """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
 

@@ -72,9 +72,7 @@ def critical(
 @click.option("--twist", default=0.0, show_default=True, help="End twisting moment T₁ in B/L.")
 @rtol_option
 @json_option
-def liftoff(
-    weight: float, alpha: float, clearance: float, mode: int, twist: float, rtol: float, as_json: bool
-) -> None:
+def liftoff(weight: float, alpha: float, clearance: float, mode: int, twist: float, rtol: float, as_json: bool) -> None:
     """Load at which the buckled rod lifts off the wall, and where.
 
     End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option(
-    "--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-OF-THE-CASE]"
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Folder for the results.  [default: results/NAME-OF-THE-CASE]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
@@ -90,7 +92,13 @@ def _summary(answer: Answer, folder: Path) -> None:
     table.add_column("± error", justify="right")
     table.add_column("")
     for row in rows(answer):
-        cells = [row["label"], *([row["physical"]] if physical else []), row["plain"], row["error"], row["note"]]
+        cells = [
+            row["label"],
+            *([row["physical"]] if physical else []),
+            row["plain"],
+            row["error"],
+            row["note"],
+        ]
         table.add_row(*cells)
     console.print(table)
     if not answer.converged:

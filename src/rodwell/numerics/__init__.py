@@ -1,0 +1,1 @@
+"""Splines, banded solver, eigenvalues, continuation, events. Knows no rod."""

@@ -67,7 +67,11 @@ Progress = Callable[[Point], None]
 
 
 def trace(
-    ladder: Ladder, start: Point, stepping: Stepping, events: Sequence[Event], progress: Progress | None = None
+    ladder: Ladder,
+    start: Point,
+    stepping: Stepping,
+    events: Sequence[Event],
+    progress: Progress | None = None,
 ) -> Trace:
     """Follow the branch from ``start`` along its tangent until a stopping event or the limit of points.
 
@@ -140,9 +144,7 @@ def _step(
     return (outcome.value if outcome is not Outcome.CONVERGED else ""), ladder, point, turn
 
 
-def _events_between(
-    ladder: Ladder, before: Point, after: Point, events: Sequence[Event], first: bool
-) -> list[Found]:
+def _events_between(ladder: Ladder, before: Point, after: Point, events: Sequence[Event], first: bool) -> list[Found]:
     """All events between two points on one ladder, in order; up to the first that stops the branch."""
     spans = (
         Span(ladder.coarse.sharp(), before.coarse, after.coarse),
@@ -159,7 +161,9 @@ def _events_between(
             continue
         place, coarse, fine, error = locate(*spans, ladder.measure, event.function, ends)
         index = fine.index if not first else after.fine.index
-        crossings.append((place, Found(event.name, ladder.point(coarse, fine), ladder, error / CLAIMED_GAIN, index, index)))
+        crossings.append(
+            (place, Found(event.name, ladder.point(coarse, fine), ladder, error / CLAIMED_GAIN, index, index))
+        )
     crossings.sort(key=lambda item: item[0])
     stops = {e.name for e in events if e.stop}
     out: list[Found] = []

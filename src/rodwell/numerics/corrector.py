@@ -157,5 +157,5 @@ def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
 
 def compiled_before() -> bool:
     """Whether compiled kernels lie on disk from an earlier run (if not, the first use takes some seconds)."""
-    folder = Path(correct.stats.cache_path)  # type: ignore[attr-defined]
+    folder = Path(correct.stats.cache_path)
     return any(folder.glob("corrector.correct-*.nbc"))

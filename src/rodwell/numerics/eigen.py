@@ -43,7 +43,12 @@ def _inverse_step(factors: FloatArray, gram: FloatArray, block: FloatArray) -> F
 
 
 def lowest(
-    stiffness: FloatArray, gram: FloatArray, quadrature: Gram, count: int, below: float, start: FloatArray | None
+    stiffness: FloatArray,
+    gram: FloatArray,
+    quadrature: Gram,
+    count: int,
+    below: float,
+    start: FloatArray | None,
 ) -> tuple[FloatArray, FloatArray]:
     """The ``count`` lowest eigenvalues, rising, and their vectors.
 
@@ -106,9 +111,7 @@ def _shift(stiffness: FloatArray, gram: FloatArray, below: float, size: int) -> 
             return first[0] - 0.05 * (top[1] - first[0])
 
 
-def _halve(
-    stiffness: FloatArray, gram: FloatArray, low: float, high: float, which: int
-) -> tuple[float, float]:
+def _halve(stiffness: FloatArray, gram: FloatArray, low: float, high: float, which: int) -> tuple[float, float]:
     """Halve a bracket of eigenvalue number ``which`` (from 1)."""
     middle = 0.5 * (low + high)
     return (low, middle) if count_below(stiffness, gram, middle) >= which else (middle, high)

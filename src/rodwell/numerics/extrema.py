@@ -71,10 +71,8 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
                 f[k] = _contact_at(model, knots, degree, c, parameters, place + (k - 2) * delta, basis, u)
             slope = (8.0 * (f[3] - f[1]) - (f[4] - f[0])) / (12.0 * delta)
             bend = (16.0 * (f[3] + f[1]) - 30.0 * f[2] - (f[4] + f[0])) / (12.0 * delta * delta)
-            if bend < 0.0:
-                target = place - slope / bend
-            else:
-                target = high if slope > 0.0 else low
+            uphill = high if slope > 0.0 else low
+            target = place - slope / bend if bend < 0.0 else uphill
             target = min(max(target, low), high)
             step = abs(target - place)
             place = target

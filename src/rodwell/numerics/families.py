@@ -52,9 +52,7 @@ class State:
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""
-        return replace(
-            self, tangent=-self.tangent, tangent_lam=-self.tangent_lam, row=-self.row, row_lam=-self.row_lam
-        )
+        return replace(self, tangent=-self.tangent, tangent_lam=-self.tangent_lam, row=-self.row, row_lam=-self.row_lam)
 
     def along(self, other: State) -> float:
         """Return the distance to ``other`` along the tangent of this state (same space)."""
@@ -130,7 +128,11 @@ class Family:
             return _OUTCOMES[status], None, steps
         sign = 1.0 if row @ tangent + row_lam >= 0.0 else -1.0
         new_row, new_row_lam, unit, unit_lam = self.covector(sign * tangent, sign)
-        return Outcome.CONVERGED, State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy), steps
+        return (
+            Outcome.CONVERGED,
+            State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy),
+            steps,
+        )
 
     def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> float:
         """Eigenvalue of the Hessian (against ∫v'²) nearest to zero; ``vector`` (n,) is the start and the result."""

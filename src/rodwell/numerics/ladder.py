@@ -1,10 +1,10 @@
-"""Two nested meshes: every state is solved on both, and the difference bounds the error.
+"""Two nested meshes: every state is solved on both, and the difference tells the error.
 
 A :class:`Ladder` pairs a family on a coarse mesh, which carries the continuation steps, with the same family
 on the mesh with each element halved, which gives the values reported. The difference of the two, divided by
-:data:`CLAIMED_GAIN`, is the error estimate of the finer one: cautious, since the order of the method promises more. Where a measured number is not known
-to the tolerance, the meshes are refined where they resolve least; where that no longer helps (round-off),
-the point says so.
+:data:`CLAIMED_GAIN`, is the error estimate of the finer one: cautious, since the order of the method promises
+more. Where a measured number is not known to the tolerance, the meshes are refined where they resolve least;
+where that no longer helps (round-off), the point says so.
 """
 
 from __future__ import annotations
@@ -106,18 +106,14 @@ class Ladder:
             if better.excess > 1.0 and better.excess > 0.25 * point.excess:
                 # round-off: a finer mesh does not help, and no gain may be claimed
                 ladder.floor = 10.0 * point.excess
-                point = replace(
-                    point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess
-                )
+                point = replace(point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess)
                 break
             ladder, point = finer, better
         return Outcome.CONVERGED, ladder, point
 
     def adopt(self, other: Ladder, point: Point) -> tuple[Outcome, Point | None]:
         """Solve a point of ``other``, a ladder on coarser nested meshes, on this one."""
-        outcome, coarse = _carry(
-            point.coarse, Prolongation(other.coarse.space, self.coarse.space), self.coarse
-        )
+        outcome, coarse = _carry(point.coarse, Prolongation(other.coarse.space, self.coarse.space), self.coarse)
         if coarse is None:
             return outcome, None
         outcome, fine = self.lift(coarse)

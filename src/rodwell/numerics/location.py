@@ -50,9 +50,7 @@ class Span:
         return state
 
 
-def bracketed_root(
-    function: Callable[[float], float], low: float, high: float, f_low: float, f_high: float
-) -> float:
+def bracketed_root(function: Callable[[float], float], low: float, high: float, f_low: float, f_high: float) -> float:
     """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.
 
     T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic
@@ -122,9 +120,7 @@ def _near(function: Callable[[float], float], place: float, rising: bool) -> flo
     raise LocationError("an event was found on the finer mesh only")
 
 
-def index_crossings(
-    coarse: Span, fine: Span
-) -> list[tuple[float, State, State, tuple[int, int], float, bool]]:
+def index_crossings(coarse: Span, fine: Span) -> list[tuple[float, State, State, tuple[int, int], float, bool]]:
     """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
 
     A change by one that stands alone is then located as a zero of the eigenvalue that crosses, which is
@@ -149,9 +145,7 @@ ALONE = 1e-2
 FOLD_OFFSET = 1e-5
 
 
-def _bisect(
-    span: Span, low: float, high: float, at_low: int, at_high: int
-) -> list[tuple[float, float, int, int]]:
+def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, float, int, int]]:
     """Brackets of the changes of the index in [low, high]: (low, high, before, after)."""
     if at_low == at_high:
         return []

@@ -79,7 +79,7 @@ class SplineSpace:
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m)."""
         local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1)
-        return np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1)
+        return np.asarray(np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1))
 
     def refined(self, marked: NDArray[np.bool_] | None = None) -> SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""
@@ -120,6 +120,7 @@ class Prolongation:
         self._first, self._weights = bsplines.insertion_weights(coarse.knots, fine.knots, coarse.degree)
 
     def __call__(self, coefficients: FloatArray) -> FloatArray:
+        """Return the coefficients on the finer space."""
         return np.asarray(bsplines.insert(self._first, self._weights, coefficients))
 
 

@@ -1,0 +1,1 @@
+"""The energy, the braid, contact. Knows no solver."""

@@ -59,7 +59,12 @@ def rates(
 
 
 def reconstruct(
-    s: FloatArray, u: FloatArray, from_left: FloatArray, from_right: FloatArray, parameters: FloatArray, end: EndForce
+    s: FloatArray,
+    u: FloatArray,
+    from_left: FloatArray,
+    from_right: FloatArray,
+    parameters: FloatArray,
+    end: EndForce,
 ) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,).
 
@@ -129,7 +134,12 @@ def reconstruct(
 
 
 def _tangential_balance(
-    f1: FloatArray, omega2: FloatArray, omega3: FloatArray, angle: FloatArray, z_right: FloatArray, p: FloatArray
+    f1: FloatArray,
+    omega2: FloatArray,
+    omega3: FloatArray,
+    angle: FloatArray,
+    z_right: FloatArray,
+    p: FloatArray,
 ) -> FloatArray:
     """Residual of F₁⁽¹⁾ + ½(ω₂² + ω₃²) + Δ wₗ cos ξ₂ − wₐ z = const., the first integral of (22)–(24), (48).
 

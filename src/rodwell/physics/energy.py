@@ -27,24 +27,27 @@ FIELDS = (y, y1, y2)
 SYMBOLS = (force, axial_weight, lateral_weight, clearance, twist)
 
 
-class OneMinusCos(sp.Function):
+class OneMinusCos(sp.Function):  # type: ignore[misc]
     """``1 − cos x``, kept whole so that its value can be computed without cancellation for small ``x``."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Return the derivative."""
         return sp.sin(self.args[0])
 
 
-class CosEta(sp.Function):
+class CosEta(sp.Function):  # type: ignore[misc]
     """``cos η = √(1 − y'²)``, kept whole so that derivatives are rational in it."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Return the derivative."""
         return -self.args[0] / CosEta(self.args[0])
 
 
-class OneMinusCosEta(sp.Function):
+class OneMinusCosEta(sp.Function):  # type: ignore[misc]
     """``1 − cos η``, kept whole so that its value can be computed without cancellation for small slopes."""
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Return the derivative."""
         return self.args[0] / CosEta(self.args[0])
 
 
@@ -118,7 +121,9 @@ def generate() -> str:
     for i, g in enumerate(gradient):
         outputs[f"mixed[{i}]"] = sum(r * sp.diff(g, p) for r, p in zip(rates, SYMBOLS, strict=True))
 
-    replacements, reduced = sp.cse([_cheap(e) for e in outputs.values()], symbols=sp.numbered_symbols("t"), order="canonical")
+    replacements, reduced = sp.cse(
+        [_cheap(e) for e in outputs.values()], symbols=sp.numbered_symbols("t"), order="canonical"
+    )
     lines = [f"    {name} = {sp.pycode(expr)}" for name, expr in replacements]
     lines += [f"    {target} = {sp.pycode(expr)}" for target, expr in zip(outputs, reduced, strict=True)]
     lines += [f"    hessian[{j}, {i}] = hessian[{i}, {j}]" for i in range(3) for j in range(i)]

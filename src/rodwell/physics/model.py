@@ -20,7 +20,7 @@ class RodOnCylinder(NamedTuple):
 
 
 def _is_rod(model: Any) -> bool:
-    return isinstance(model, types.BaseNamedTuple) and model.instance_class is RodOnCylinder
+    return isinstance(model, types.BaseNamedTuple) and getattr(model, "instance_class", None) is RodOnCylinder
 
 
 @overload(density)

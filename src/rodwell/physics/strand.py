@@ -28,7 +28,7 @@ def axial_resultant(s: Any, parameters: Any) -> Any:
 
 @formula
 def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
-    """cos η, ω₁, ω₂, ω₃ (20) and ω₂' = −η''."""
+    """Cos η, ω₁, ω₂, ω₃ (20) and ω₂' = −η''."""
     cos_eta = np.sqrt(1.0 - y1 * y1)
     eta1 = y2 / cos_eta
     eta2 = (y3 + y1 * eta1 * eta1) / cos_eta

@@ -1,0 +1,1 @@
+"""Figures. They compute nothing."""

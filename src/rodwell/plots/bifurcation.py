@@ -78,23 +78,21 @@ def _branch(ax: Any, branch: Branch, fx: float, fy: float) -> None:
 
 
 def _with_special_points(branch: Branch) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """−F and ω₂(1) of points and special points in order of travel; whether what leads to each is stable, and
-    whether it lies beyond lift-off. All (n,)."""
+    """Points and special points in order of travel: −F, ω₂(1), stable on the way there, beyond lift-off; all (n,)."""
     rows = [
         (-f, y, int(index))
-        for f, y, index in zip(
-            branch.force, branch.numbers(Measured.OMEGA2_1), branch.stability_index, strict=True
-        )
+        for f, y, index in zip(branch.force, branch.numbers(Measured.OMEGA2_1), branch.stability_index, strict=True)
     ]
     for point in branch.special_points:
         if point.kind in ("lift_off", "branch_point", "fold"):
             y = point.solution.number(Measured.OMEGA2_1)[0]
             here = _insertion(rows, -point.force)
             rows.insert(here, (-point.force, y, point.index_before))
-    x, y, index = (np.array(column) for column in zip(*rows, strict=True))
+    table = np.array(rows)
+    x, curvature, index = table[:, 0], table[:, 1], table[:, 2]
     lift = branch.lift_off
     beyond = x > -lift.force if lift is not None else np.zeros(len(x), dtype=bool)
-    return x, y, index == 0, beyond
+    return x, curvature, index == 0, beyond
 
 
 def _insertion(rows: list[tuple[float, float, int]], x: float) -> int:
@@ -107,9 +105,7 @@ def _insertion(rows: list[tuple[float, float, int]], x: float) -> int:
 
 def _labels(ax: Any, branches: Sequence[Branch], fx: float, fy: float, height: float) -> None:
     """Number the branches at their ends, pushed apart where they would overlap."""
-    ends = sorted(
-        (abs(float(b.numbers(Measured.OMEGA2_1)[-1])) * fy, -float(b.force[-1]) * fx, b) for b in branches
-    )
+    ends = sorted((abs(float(b.numbers(Measured.OMEGA2_1)[-1])) * fy, -float(b.force[-1]) * fx, b) for b in branches)
     last = -np.inf
     for y, x, branch in ends:
         assert branch.mode is not None
@@ -135,7 +131,15 @@ def _special(ax: Any, branch: Branch, fx: float, fy: float) -> set[str]:
         seen.add(point.kind)
         y = point.solution.number(Measured.OMEGA2_1)[0] * fy
         for sign in (1.0, -1.0) if y != 0.0 else (1.0,):
-            ax.plot(-point.force * fx, sign * y, MARKERS[point.kind][0], color=_face(point.kind), mec=color, ms=6, zorder=5)
+            ax.plot(
+                -point.force * fx,
+                sign * y,
+                MARKERS[point.kind][0],
+                color=_face(point.kind),
+                mec=color,
+                ms=6,
+                zorder=5,
+            )
     return seen
 
 

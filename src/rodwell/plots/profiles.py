@@ -74,7 +74,15 @@ def plot_contact_pressure(
     ax.axhline(0.0, color=WARN, lw=1.0)
     ax.set_ylim(low, high)
     ax.set_xlim(0.0, fs)
-    ax.text(0.995 * fs, 0.5 * high, "the wall would have to pull", color=WARN, ha="right", va="center", fontsize=8.5)
+    ax.text(
+        0.995 * fs,
+        0.5 * high,
+        "the wall would have to pull",
+        color=WARN,
+        ha="right",
+        va="center",
+        fontsize=8.5,
+    )
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
     ax.set_ylabel(f"contact pressure p, pressed on the wall if below 0  [{up}]", fontsize=8.5)
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
@@ -88,7 +96,13 @@ def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
     for s in lift.s:
         ax.plot([s * fs], [0.0], "o", color=WARN, mec="white", ms=7, zorder=6)
         ax.annotate(
-            "lift-off", (s * fs, 0.0), xytext=(0, 9), textcoords="offset points", ha="center", color=WARN, fontsize=8.5
+            "lift-off",
+            (s * fs, 0.0),
+            xytext=(0, 9),
+            textcoords="offset points",
+            ha="center",
+            color=WARN,
+            fontsize=8.5,
         )
 
 

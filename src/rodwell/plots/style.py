@@ -16,7 +16,7 @@ MODES = ("#0b5fa5", "#c75b12", "#2d7d46", "#7b3fa0", "#a0862b", "#3a8f9e", "#b04
 
 SIZE = (7.2, 4.4)
 
-RC = {
+RC: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
     "font.size": 9.5,

@@ -1,0 +1,1 @@
+"""The engineer's side: case files, units, answers, what they mean."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-import rodwell
+from rodwell._version import __version__
 from rodwell.analysis.branches import Branch, SpecialPoint, follow
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.measures import Measured
@@ -128,20 +128,25 @@ class Answer:
         lift = self.lift_off
         return {
             "title": case.title,
-            "rodwell_version": rodwell.__version__,
+            "rodwell_version": __version__,
             "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; both ends clamped",
             "problem": {
-                "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
-                "poisson": problem.poisson, "twist": problem.twist,
-            },  # fmt: skip
+                "weight": problem.weight,
+                "alpha": problem.alpha,
+                "clearance": problem.clearance,
+                "poisson": problem.poisson,
+                "twist": problem.twist,
+            },
             "critical_loads": [float(f) for f in self.critical.forces],
             "critical_errors": [float(e) for e in self.critical.errors],
             "lift_off": None
             if lift is None
             else {
-                "force": lift.force, "error": lift.error, "s": list(lift.s),
+                "force": lift.force,
+                "error": lift.error,
+                "s": list(lift.s),
                 "coincides_with_buckling": self.first.lift_off_at_buckling,
-            },  # fmt: skip
+            },
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
             "converged": self.converged,

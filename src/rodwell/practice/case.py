@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from rodwell.analysis.accuracy import checked_rtol
-from rodwell.errors import InputError, RodwellError
+from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.scales import Scales
 from rodwell.problem import Problem
@@ -125,7 +125,7 @@ def _siblings(file: Path) -> list[str]:
         return []
 
 
-def _explain(error: ValidationError) -> list[tuple[str, object, str]]:
+def _explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple[str, object, str]]:
     """Validation errors in the user's words: (key, value, what to do)."""
     out: list[tuple[str, object, str]] = []
     for item in error.errors():
@@ -133,7 +133,7 @@ def _explain(error: ValidationError) -> list[tuple[str, object, str]]:
         value = item["input"]
         kind, text = item["type"], item["msg"]
         if kind == "extra_forbidden":
-            out.append((where, None, _unknown(item["loc"])))
+            out.append((where, None, _unknown((*within, *item["loc"]))))
         elif kind == "missing":
             out.append((where, None, "is missing; add it"))
         elif kind in ("model_type", "model_attributes_type", "dict_type"):
@@ -175,12 +175,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
     if not physical and parsed.dimensionless is None:
         raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
-    model = schema.Load if physical else schema.DimensionlessLoad
-    try:
-        load = model.model_validate(parsed.load)
-    except ValidationError as problem:
-        found = [(f"load.{key}", value, what) for key, value, what in _explain_load(problem)]
-        raise CaseError(source, found) from None
+    load = _load(parsed.load, physical, source)
     if physical:
         problem, scales = _physical(parsed.rod, parsed.hole, load.twist)
         until = None if load.until is None else load.until / scales.factor("force")
@@ -201,16 +196,14 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     )
 
 
-def _explain_load(error: ValidationError) -> list[tuple[str, object, str]]:
-    out = []
-    for item in error.errors():
-        item["loc"] = ("load", *item["loc"])
-        key = str(item["loc"][-1])
-        if item["type"] == "extra_forbidden":
-            out.append((key, None, _unknown(item["loc"])))
-        else:
-            out.append((key, item["input"], item["msg"].removeprefix("Value error, ")))
-    return out
+def _load(given: Mapping[str, Any], physical: bool, source: str) -> schema.Load | schema.DimensionlessLoad:
+    """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
+    model = schema.Load if physical else schema.DimensionlessLoad
+    try:
+        return model.model_validate(given)
+    except ValidationError as error:
+        found = [(f"load.{key}", value, what) for key, value, what in _explain(error, within=("load",))]
+        raise CaseError(source, found) from None
 
 
 def _named(field: str, compute: Any) -> Any:
@@ -225,7 +218,11 @@ def _dimensionless(given: schema.Dimensionless | None, twist: float) -> Problem:
     assert given is not None
     try:
         return Problem(
-            weight=given.weight, alpha=given.alpha, clearance=given.clearance, poisson=given.poisson, twist=twist
+            weight=given.weight,
+            alpha=given.alpha,
+            clearance=given.clearance,
+            poisson=given.poisson,
+            twist=twist,
         )
     except InputError as problem:
         section = "load" if problem.field == "twist" else "dimensionless"
@@ -256,7 +253,12 @@ def _physical(rod: schema.Rod | None, hole: schema.Hole | None, twist: float) ->
             twist=twist / scales.factor("moment"),
         )
     except InputError as found:
-        names = {"weight": "rod.length", "poisson": "rod.poisson", "twist": "load.twist", "clearance": "hole.diameter"}
+        names = {
+            "weight": "rod.length",
+            "poisson": "rod.poisson",
+            "twist": "load.twist",
+            "clearance": "hole.diameter",
+        }
         name = names.get(found.field, found.field)
         what = f"γ = {found.value:g} {found.problem}" if found.field == "weight" else found.problem
         raise InputError(name, None if found.field == "weight" else found.value, what) from None
@@ -275,9 +277,7 @@ def _area_and_inertia(rod: schema.Rod, reason: str) -> tuple[float, float]:
 def _stiffness(rod: schema.Rod) -> float:
     if rod.bending_stiffness is not None:
         if rod.youngs_modulus is not None:
-            raise InputError(
-                "rod.bending_stiffness", None, "contradicts rod.youngs_modulus: give only one of the two"
-            )
+            raise InputError("rod.bending_stiffness", None, "contradicts rod.youngs_modulus: give only one of the two")
         return rod.bending_stiffness
     if rod.youngs_modulus is None:
         raise InputError("rod.youngs_modulus", None, "is missing: give it, or rod.bending_stiffness")
@@ -313,14 +313,11 @@ def _clearance(rod: schema.Rod, hole: schema.Hole) -> float:
 
 
 def _angle(hole: schema.Hole) -> float:
-    given = [
-        (name, value)
-        for name, value in (
-            ("angle_from_vertical", hole.angle_from_vertical),
-            ("angle_from_horizontal", hole.angle_from_horizontal),
-        )
-        if value is not None
-    ]
+    angles = {
+        "angle_from_vertical": hole.angle_from_vertical,
+        "angle_from_horizontal": hole.angle_from_horizontal,
+    }
+    given = [(name, value) for name, value in angles.items() if value is not None]
     if len(given) != 1:
         raise InputError(
             "hole.angle_from_vertical",
@@ -334,6 +331,3 @@ def _angle(hole: schema.Hole) -> float:
     if not 0.0 <= degrees <= 90.0:
         raise InputError(f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"')
     return degrees if name == "angle_from_vertical" else 90.0 - degrees
-
-
-__all__ = ["Case", "CaseError", "RodwellError"]

@@ -48,8 +48,7 @@ def _verdict(answer: Answer) -> str:
             f"least {force_text(answer, first.force)}."
         )
     return (
-        f"The straight rod is stable until the compression at the end s = 1 reaches "
-        f"{force_text(answer, -first.force)}."
+        f"The straight rod is stable until the compression at the end s = 1 reaches {force_text(answer, -first.force)}."
     )
 
 
@@ -83,9 +82,8 @@ def _applied(answer: Answer) -> list[str]:
 def _lift_off(answer: Answer) -> str:
     lift = answer.lift_off
     if lift is None:
-        return (
-            f"The first mode does not lift off the wall down to the end force {force_text(answer, answer.until)} at s = 1."
-        )
+        down_to = force_text(answer, answer.until)
+        return f"The first mode does not lift off the wall down to the end force {down_to} at s = 1."
     if answer.first.lift_off_at_buckling:
         return (
             "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "

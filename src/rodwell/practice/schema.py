@@ -10,42 +10,38 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from rodwell.practice.units import to_si
 
 
-def _quantity(kind: str, *, above: float | None = None, least: float | None = None) -> Any:
+def _quantity(kind: str, above: float = -math.inf, least: float = -math.inf) -> BeforeValidator:
+    """Validator from text to an SI number, which must be above ``above`` and at least ``least``."""
+
     def parse(text: object) -> float:
         value = to_si(text, kind)
-        if above is not None and not value > above:
+        if not value > above:
             raise ValueError("must be above 0")
-        if least is not None and not value >= least:
+        if not value >= least:
             raise ValueError("must not be negative")
         return value
 
-    return Annotated[float, BeforeValidator(parse)]
+    return BeforeValidator(parse)
 
 
 def _plain(text: object) -> object:
     if isinstance(text, str):
-        raise ValueError("must be a plain number, without quotes or unit")  # noqa: TRY004 - pydantic needs ValueError
+        raise ValueError("must be a plain number, without quotes or unit")
     if isinstance(text, bool):
-        raise ValueError("must be a number")  # noqa: TRY004
+        raise ValueError("must be a number")
     return text
 
 
-def _finite(value: float) -> float:
-    if not math.isfinite(value):
-        raise ValueError("must be finite")
-    return value
-
-
-Length = _quantity("length", above=0.0)
-InnerLength = _quantity("length", least=0.0)
-Angle = _quantity("angle")
-Force = _quantity("force")
-Moment = _quantity("moment")
-Stress = _quantity("stress", above=0.0)
-Density = _quantity("density", above=0.0)
-ForcePerLength = _quantity("force per length", least=0.0)
-Stiffness = _quantity("bending stiffness", above=0.0)
-Acceleration = _quantity("acceleration", least=0.0)
+Length = Annotated[float, _quantity("length", above=0.0)]
+InnerLength = Annotated[float, _quantity("length", least=0.0)]
+Angle = Annotated[float, _quantity("angle")]
+Force = Annotated[float, _quantity("force")]
+Moment = Annotated[float, _quantity("moment")]
+Stress = Annotated[float, _quantity("stress", above=0.0)]
+Density = Annotated[float, _quantity("density", above=0.0)]
+ForcePerLength = Annotated[float, _quantity("force per length", least=0.0)]
+Stiffness = Annotated[float, _quantity("bending stiffness", above=0.0)]
+Acceleration = Annotated[float, _quantity("acceleration", least=0.0)]
 Number = Annotated[float, BeforeValidator(_plain)]
 
 

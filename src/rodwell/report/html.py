@@ -9,7 +9,7 @@ from typing import Any
 
 import jinja2
 
-import rodwell
+from rodwell._version import __version__
 from rodwell.practice.answer import Answer, Figure
 from rodwell.practice.case import Case
 from rodwell.practice.meaning import ASSUMPTIONS, sentences
@@ -100,7 +100,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         pictures={name: _embed(*picture) for name, picture in pictures.items()},
         certificate=f"{answer.worst_certificate:.1e}".replace("-", "−"),
         rtol=f"{answer.case.rtol:g}".replace("-", "−"),
-        version=rodwell.__version__,
+        version=__version__,
         date=datetime.date.today().isoformat(),
     )
 

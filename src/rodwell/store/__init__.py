@@ -1,0 +1,1 @@
+"""Files: NetCDF, folders written whole or not at all."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -50,7 +49,7 @@ def whole_folder(out: Path) -> Iterator[Path]:
         try:
             out.mkdir(exist_ok=True)
             for file in temporary.iterdir():
-                os.replace(file, out / file.name)
+                file.replace(out / file.name)
         except OSError as problem:
             raise InputError("--out", str(out), f"cannot be written ({problem.strerror})") from None
     finally:

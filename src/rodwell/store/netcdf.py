@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import xarray as xr
@@ -12,7 +13,7 @@ from rodwell.analysis.nomenclature import QUANTITIES
 from rodwell.practice.answer import Answer
 from rodwell.practice.scales import Scales
 
-ENGINE = "h5netcdf"
+ENGINE: Literal["h5netcdf"] = "h5netcdf"
 
 
 def answer_dataset(answer: Answer) -> xr.Dataset:
@@ -31,7 +32,10 @@ def answer_dataset(answer: Answer) -> xr.Dataset:
         part["special_branch"] = ("special", np.full(part.sizes["special"], number))
         parts.append(part)
     shared = xr.concat(
-        [part.drop_dims("special") for part in parts], "point", combine_attrs="drop_conflicts", data_vars="minimal"
+        [part.drop_dims("special") for part in parts],
+        "point",
+        combine_attrs="drop_conflicts",
+        data_vars="minimal",
     )
     special = xr.concat(
         [part[[v for v in part.data_vars if part[v].dims == ("special",)]] for part in parts], "special"

@@ -1,0 +1,160 @@
+"""Banded factorisation, assembly and eigenvalues against dense algebra."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import scipy.linalg
+from hypothesis import given
+from hypothesis import strategies as st
+from numba import types
+from numba.extending import overload
+
+from rodwell.jit import density
+from rodwell.numerics import assembly, banded, eigen
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.physics.model import RodOnCylinder
+
+SIZES = st.tuples(st.integers(1, 30), st.integers(1, 10), st.integers(0, 2**31))
+
+
+def dense(band: np.ndarray) -> np.ndarray:
+    n, width = band.shape
+    full = np.zeros((n, n))
+    for k in range(min(width, n)):
+        i = np.arange(n - k)
+        full[i + k, i] = full[i, i + k] = band[: n - k, k]
+    return full
+
+
+@given(SIZES)
+def test_factorisation_gives_solution_and_inertia(sizes: tuple[int, int, int]) -> None:
+    n, width, seed = sizes
+    rng = np.random.default_rng(seed)
+    band = rng.standard_normal((n, width))
+    full = dense(band)
+    x = rng.standard_normal(n)
+    assert banded.multiply(band, x) == pytest.approx(full @ x, abs=1e-12)
+    eigenvalues = np.linalg.eigvalsh(full)
+    minors = [abs(np.linalg.det(full[:k, :k])) for k in range(1, n + 1)]
+    if np.min(np.abs(eigenvalues)) < 1e-3 or min(minors) < 1e-3:
+        return  # without pivoting, accuracy is promised away from singular leading minors only
+    factors = band.copy()
+    assert banded.factorise(factors) == np.sum(eigenvalues < 0.0)
+    b = full @ x
+    banded.solve(factors, b)
+    assert b == pytest.approx(x, rel=1e-5, abs=1e-5)
+
+
+def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+    gradient, mixed = np.empty(space.size), np.empty(space.size)
+    band = np.empty((space.size, space.degree + 1))
+    rates = np.array([1.0, 0.0, 0.0, 0.0, 0.0])
+    energy = assembly.assemble(
+        RodOnCylinder(), space.local_tag, space.table, space.points, space.weights, c, p, rates, gradient, mixed, band
+    )
+    return energy, gradient, mixed, dense(band)
+
+
+def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences() -> None:
+    space = SplineSpace(np.array([0.0, 0.2, 0.45, 0.5, 0.9, 1.0]), 6)
+    rng = np.random.default_rng(3)
+    p = np.array([-120.0, 25.0, 15.0, 0.05, 1.3])
+    c = 0.004 * rng.standard_normal(space.size)
+    _, gradient, mixed, hessian = rod_system(c, space, p)
+    h = 1e-6
+    for i in range(space.size):
+        shift = np.zeros(space.size)
+        shift[i] = h
+        above, below = rod_system(c + shift, space, p), rod_system(c - shift, space, p)
+        assert gradient[i] == pytest.approx((above[0] - below[0]) / (2 * h), rel=1e-5, abs=1e-6)
+        assert hessian[i] == pytest.approx((above[1] - below[1]) / (2 * h), rel=1e-5, abs=1e-4)
+    step = np.array([1e-4, 0, 0, 0, 0])
+    slope = (rod_system(c, space, p + step)[1] - rod_system(c, space, p - step)[1]) / 2e-4
+    assert mixed == pytest.approx(slope, rel=1e-7, abs=1e-9)
+
+
+def test_variation_along_a_direction_is_that_of_the_hessian() -> None:
+    space = SplineSpace(np.linspace(0.0, 1.0, 7), 7)
+    rng = np.random.default_rng(4)
+    c, v = 0.004 * rng.standard_normal(space.size), rng.standard_normal(space.size)
+    p, rates = np.array([-90.0, 10.0, 15.0, 0.05, 0.4]), np.zeros(5)
+    above, below = assembly.variation(RodOnCylinder(), space.table, space.points, space.weights, c, p, rates, v)
+    assert above == pytest.approx(v @ rod_system(c, space, p)[3] @ v, rel=1e-9)
+    assert below == pytest.approx(v @ dense(space.slope_gram) @ v, rel=1e-11)
+
+
+class TwoBeams(NamedTuple):
+    """Two coupled fields, to show that assembly takes any number of them: e = ½(a″² + 4 b″²) + a′b + ½ a b′²."""
+
+    a: int = 0
+    b: int = 0
+
+
+@overload(density)
+def _two_beams(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
+    if not (isinstance(model, types.BaseNamedTuple) and model.instance_class is TwoBeams):
+        return None
+
+    def beams(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
+        hessian[:] = 0.0
+        mixed[:] = 0.0
+        gradient[0], gradient[1], gradient[2] = 0.5 * u[4] ** 2, u[3], u[2]
+        gradient[3], gradient[4], gradient[5] = u[1], u[0] * u[4], 4.0 * u[5]
+        hessian[0, 4] = hessian[4, 0] = u[4]
+        hessian[1, 3] = hessian[3, 1] = 1.0
+        hessian[2, 2], hessian[4, 4], hessian[5, 5] = 1.0, u[0], 4.0
+        return 0.5 * (u[2] ** 2 + 4.0 * u[5] ** 2) + u[1] * u[3] + 0.5 * u[0] * u[4] ** 2
+
+    return beams
+
+
+def test_assembly_of_two_coupled_fields() -> None:
+    space = SplineSpace(np.array([0.0, 0.3, 0.55, 1.0]), 4)
+    n = 2 * space.size
+    c = np.random.default_rng(5).standard_normal(n)
+    p, rates = np.zeros(1), np.zeros(1)
+
+    def system(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+        gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, 2 * (space.degree + 1)))
+        energy = assembly.assemble(
+            TwoBeams(), space.local_tag, space.table, space.points, space.weights, x, p, rates, gradient, mixed, band
+        )
+        return energy, gradient, dense(band)
+
+    _, gradient, hessian = system(c)
+    h = 1e-6
+    for i in range(n):
+        shift = np.zeros(n)
+        shift[i] = h
+        above, below = system(c + shift), system(c - shift)
+        assert gradient[i] == pytest.approx((above[0] - below[0]) / (2 * h), rel=1e-6, abs=1e-4)
+        assert hessian[i] == pytest.approx((above[1] - below[1]) / (2 * h), rel=1e-5, abs=1e-4)
+
+
+@given(st.floats(0.0, 1e6), st.floats(0.0, 300.0), st.integers(1, 8))
+def test_lowest_eigenvalues_agree_with_dense_algebra(foundation: float, axial: float, count: int) -> None:
+    space = SplineSpace(np.linspace(0.0, 1.0, 15), 6)
+    factors = np.array([np.full(space.points.size, foundation), axial * (space.points - 1.0), np.ones(space.points.size)])
+    inner = slice(2, space.size - 2)
+
+    def clamped(band: np.ndarray) -> np.ndarray:
+        full = dense(band)[inner, inner]
+        out = np.zeros((len(full), space.degree + 1))
+        for k in range(space.degree + 1):
+            out[: len(full) - k, k] = np.diagonal(full, -k)
+        return out
+
+    stiffness, gram = clamped(space.form(factors)), clamped(space.slope_gram)
+
+    def quadrature(block: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return block @ dense(stiffness) @ block.T, block @ dense(gram) @ block.T
+
+    values, vectors = eigen.lowest(stiffness, gram, quadrature, count, -axial - 1.0, None)
+    expected = scipy.linalg.eigh(dense(stiffness), dense(gram), eigvals_only=True)[:count]
+    assert values[:count] == pytest.approx(expected, rel=1e-8, abs=1e-6)
+    for value, vector in zip(values[:count], vectors[:count], strict=True):
+        residual = dense(stiffness) @ vector - value * dense(gram) @ vector
+        assert np.linalg.norm(residual) <= 1e-5 * np.linalg.norm(dense(stiffness) @ vector) + 1e-6

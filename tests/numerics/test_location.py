@@ -1,0 +1,91 @@
+"""Root bracketing, maxima of the contact pressure, and how changes of the index are resolved."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rodwell.numerics.extrema import contact_maxima
+from rodwell.numerics.location import _bisect, bracketed_root
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.physics.model import RodOnCylinder
+
+
+@given(st.floats(0.01, 0.99), st.integers(1, 9).filter(lambda k: k % 2 == 1))
+def test_root_of_flat_and_steep_functions(place: float, power: int) -> None:
+    found = bracketed_root(
+        lambda x: (x - place) ** power, 0.0, 1.0, (-place) ** power, (1.0 - place) ** power
+    )
+    assert found == pytest.approx(place, abs=1e-11)
+
+
+def test_root_of_a_function_with_a_kink() -> None:
+    def f(x: float) -> float:
+        return max(math.sin(3.0 * x) - 0.9, 2.0 * x - 0.8)
+
+    assert bracketed_root(f, 0.0, 1.0, f(0.0), f(1.0)) == pytest.approx(math.asin(0.9) / 3.0, abs=1e-12)
+
+
+class Staircase:
+    """A span whose index jumps at given places."""
+
+    def __init__(self, jumps: dict[float, int]) -> None:
+        self.jumps, self.family = jumps, self
+
+    def __call__(self, t: float) -> Staircase:
+        step = Staircase(self.jumps)
+        step.index = sum(by for place, by in self.jumps.items() if t > place)  # type: ignore[attr-defined]
+        step.c = np.zeros(3)  # type: ignore[attr-defined]
+        return step
+
+    def nearest_curvature(self, state: object, vector: object, iterations: int) -> float:
+        return 1.0  # no sign change: resolution is by the index alone
+
+
+@pytest.mark.parametrize("jumps", [{0.3: 1}, {0.3: 1, 0.3000001: 1}, {0.2: 1, 0.7: -1, 0.9: 2}, {0.5: 2}], ids=str)
+def test_every_change_of_the_index_is_resolved(jumps: dict[float, int]) -> None:
+    span = Staircase(jumps)
+    found = _bisect(span, 0.0, 1.0, span(0.0).index, span(1.0).index)  # type: ignore[arg-type, attr-defined]
+    changes = {round(low, 9): after - before for low, _, before, after in found}
+    total = sum(jumps.values())
+    assert sum(changes.values()) == total
+    if len({by > 0 for by in jumps.values()}) == 1:
+        assert changes == pytest.approx({round(k, 9): v for k, v in jumps.items()}, abs=1e-8)
+
+
+def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> tuple[np.ndarray, np.ndarray]:
+    """Maxima for a given y(s), projected on a fine space, and a dense sample of the pressure."""
+    from rodwell.physics.strand import contact_pressure
+
+    space = SplineSpace(np.linspace(0.0, 1.0, 41), 9)
+    s = space.points
+    bump = s**2 * (1.0 - s) ** 2
+    profile = {"even": bump, "odd": bump * (s - 0.5), "skew": bump * (s - 0.37) * (s - 0.8)}[shape]
+    c = space.project(amplitude * profile / np.max(np.abs(profile)), held=2)
+    p = np.array([-100.0, 0.0, lateral, clearance, 0.0])
+    grid, table = space.samples
+    places, values, _ = contact_maxima(RodOnCylinder(), space.knots, 9, grid, table, c, p, 0.5)
+    dense = np.linspace(0.0, 1.0, 200_001)
+    u = space.evaluate(c, dense, 4)
+    return np.array([places, values]), np.array([dense, contact_pressure(dense, *u, p)])
+
+
+@pytest.mark.parametrize("shape", ["even", "odd", "skew"])
+def test_highest_pressure_between_grid_points(shape: str) -> None:
+    found, sample = pressure(0.01, 15.0, 0.004, shape)
+    best, brute = np.argmax(found[1]), np.argmax(sample[1])
+    assert found[1, best] == pytest.approx(sample[1, brute], rel=1e-8)
+    assert found[1, best] >= sample[1, brute] - 1e-10 * abs(sample[1, brute])
+    if shape == "skew":
+        assert found[0, best] == pytest.approx(sample[0, brute], abs=1e-5)
+
+
+@pytest.mark.parametrize("shape", ["even", "odd"])
+def test_maxima_of_a_symmetric_shape_come_in_pairs(shape: str) -> None:
+    found, _ = pressure(0.01, 15.0, 0.004, shape)
+    assert found[0] == pytest.approx(1.0 - found[0][::-1], abs=1e-7)
+    assert found[1] == pytest.approx(found[1][::-1], rel=1e-9)

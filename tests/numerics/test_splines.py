@@ -1,0 +1,63 @@
+"""B-splines against SciPy, and their defining properties."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.interpolate import BSpline
+
+from rodwell.numerics.spaces import Prolongation, SplineSpace, graded_mesh
+
+DEGREES = st.integers(4, 9)
+MESHES = st.lists(st.floats(0.02, 1.0), min_size=2, max_size=9).map(
+    lambda steps: np.concatenate([[0.0], np.cumsum(steps)[:-1] / np.sum(steps), [1.0]])
+)
+
+
+@given(MESHES, DEGREES, st.integers(0, 2**31))
+def test_values_and_derivatives_agree_with_scipy(mesh: np.ndarray, degree: int, seed: int) -> None:
+    space = SplineSpace(mesh, degree)
+    c = np.random.default_rng(seed).standard_normal(space.size)
+    s = np.linspace(0.0, 1.0, 37)
+    values = space.evaluate(c, s, 4)
+    reference = BSpline(space.knots, c, degree)
+    for order in range(4):
+        expected = reference(s) if order == 0 else reference.derivative(order)(s)
+        assert values[order] == pytest.approx(expected, rel=1e-9, abs=1e-11 * np.max(np.abs(expected)))
+
+
+@given(MESHES, DEGREES, st.integers(0, 2**31), st.data())
+def test_refinement_does_not_change_a_spline(mesh: np.ndarray, degree: int, seed: int, data: st.DataObject) -> None:
+    space = SplineSpace(mesh, degree)
+    marked = np.array(data.draw(st.lists(st.booleans(), min_size=space.elements, max_size=space.elements)))
+    fine = space.refined(marked)
+    c = np.random.default_rng(seed).standard_normal(space.size)
+    s = np.linspace(0.0, 1.0, 51)
+    assert fine.elements == space.elements + np.sum(marked)
+    assert fine.evaluate(Prolongation(space, fine)(c), s, 1) == pytest.approx(space.evaluate(c, s, 1), abs=1e-12)
+
+
+def test_quadrature_table_is_the_basis_at_the_points() -> None:
+    space = SplineSpace(np.array([0.0, 0.1, 0.35, 0.8, 1.0]), 6)
+    c = np.random.default_rng(1).standard_normal(space.size)
+    assert space.at_points(c) == pytest.approx(space.evaluate(c, space.points, 3), rel=1e-11, abs=1e-11)
+
+
+def test_projection_reproduces_a_polynomial_with_clamped_ends() -> None:
+    space = SplineSpace(np.linspace(0.0, 1.0, 6), 7)
+    s = space.points
+    c = space.project(s**2 * (1.0 - s) ** 2, held=2)
+    places = np.linspace(0.0, 1.0, 23)
+    assert space.evaluate(c, places, 1)[0] == pytest.approx(places**2 * (1.0 - places) ** 2, abs=1e-14)
+
+
+def test_graded_mesh_follows_the_wavenumber() -> None:
+    s = np.linspace(0.0, 1.0, 1001)
+    mesh = graded_mesh(10.0 + 90.0 * (1.0 - s), s, per_radian=1.0)
+    phase = 100.0 * mesh - 45.0 * mesh**2  # ∫k ds from 0, 55 in all
+    assert mesh[0] == 0.0
+    assert mesh[-1] == 1.0
+    assert len(mesh) == 57  # one element a radian, rounded up to an even number
+    assert np.diff(phase) == pytest.approx(np.full(56, 55.0 / 56.0), rel=1e-4)
