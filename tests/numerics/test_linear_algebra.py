@@ -137,7 +137,9 @@ def test_assembly_of_two_coupled_fields() -> None:
 @given(st.floats(0.0, 1e6), st.floats(0.0, 300.0), st.integers(1, 8))
 def test_lowest_eigenvalues_agree_with_dense_algebra(foundation: float, axial: float, count: int) -> None:
     space = SplineSpace(np.linspace(0.0, 1.0, 15), 6)
-    factors = np.array([np.full(space.points.size, foundation), axial * (space.points - 1.0), np.ones(space.points.size)])
+    factors = np.array(
+        [np.full(space.points.size, foundation), axial * (space.points - 1.0), np.ones(space.points.size)]
+    )
     inner = slice(2, space.size - 2)
 
     def clamped(band: np.ndarray) -> np.ndarray:

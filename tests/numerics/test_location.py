@@ -17,9 +17,7 @@ from rodwell.physics.model import RodOnCylinder
 
 @given(st.floats(0.01, 0.99), st.integers(1, 9).filter(lambda k: k % 2 == 1))
 def test_root_of_flat_and_steep_functions(place: float, power: int) -> None:
-    found = bracketed_root(
-        lambda x: (x - place) ** power, 0.0, 1.0, (-place) ** power, (1.0 - place) ** power
-    )
+    found = bracketed_root(lambda x: (x - place) ** power, 0.0, 1.0, (-place) ** power, (1.0 - place) ** power)
     assert found == pytest.approx(place, abs=1e-11)
 
 

@@ -82,8 +82,7 @@ def test_contact_pressure_is_the_papers_55(state: rodwell.Solution) -> None:
     m1, m3, t2, lam = f["braid_M1"], f["braid_M3"], f["T2"], f["lambda"]
     sin, cos = np.sin(f["eta"]), np.cos(f["eta"])
     pressure = (
-        (twist + 3.0 * w1)
-        * ((m1 + twist * cos**2) / c - f["braid_F3"] - w1 * (w3 - lam) - t2 * cos / c)
+        (twist + 3.0 * w1) * ((m1 + twist * cos**2) / c - f["braid_F3"] - w1 * (w3 - lam) - t2 * cos / c)
         + t2 * sin / c**2
         - 3.0 * np.cos(2.0 * f["eta"]) / c * w2**2
         + w1 * ((m1 + twist) / c - f["braid_F3"])

@@ -17,7 +17,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.continuation import INDEX, Event, Found, Stepping, Trace, trace
 from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.location import LocationError, Span, bracketed_root
+from rodwell.numerics.location import LocationError, Span
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.problem import Problem
 
@@ -28,6 +28,9 @@ LIFT_OFF, END, CRITICAL, FOLD, BRANCH_POINT = "lift_off", "end", "critical", "fo
 
 LARGEST_ANGLE_OF_FIRST_STEP = 0.05
 """Radians around the cylinder that the first step on a buckled branch reaches, about."""
+
+ROUND_OFF = 2e-13
+"""Relative error that round-off in some hundred operations may leave in a located load."""
 
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
@@ -169,9 +172,7 @@ class Branch:
             raise LocationError("the point before it could not be solved on a finer mesh")
         states = []
         for family, a, b in ((ladder.coarse, first.coarse, last.coarse), (ladder.fine, first.fine, last.fine)):
-            span = Span(family, a, b)
-            place = bracketed_root(lambda t, span=span: span(t).lam - force, 0.0, 1.0, a.lam - force, b.lam - force)
-            near = span(place)
+            near = Span(family, a, b).at_lam(force)
             _, exact, _ = family.at(near.c, force)
             states.append(near if exact is None else exact)
         return Solution(self.problem, ladder.point(*states), ladder)
@@ -205,8 +206,7 @@ class Branch:
         if kind == INDEX:
             kind = FOLD if found.fold else BRANCH_POINT
         places = solution.highest_pressure[2] if kind == LIFT_OFF else ()
-        roundoff = 4.0 * np.finfo(float).eps * abs(found.point.lam)
-        error = found.lam_error + roundoff if kind != END else 0.0
+        error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
         return SpecialPoint(kind, found.point.lam, error, places, found.index_before, found.index_after, solution)
 
 

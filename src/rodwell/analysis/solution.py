@@ -19,7 +19,7 @@ from rodwell.problem import Problem
 GRID = 201
 """Places along the rod at which fields are reported by default."""
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def _fields(problem: Problem, family: Family, state: State, s: FloatArray) -> di
     p = family.parameters(state.lam)
     space, c = state.space, state.c
     u = space.evaluate(c, s, 4)
-    end = braid.end_force(space.evaluate(c, np.array([1.0]), 4)[:, 0], p)
+    end = braid.end_force(*family.end_reactions(state), p)
 
     def rates(places: FloatArray) -> FloatArray:
         values = space.evaluate(c, places, 4)

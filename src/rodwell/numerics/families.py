@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.numerics import corrector
+from rodwell.numerics import assembly, corrector
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
 
@@ -133,6 +133,23 @@ class Family:
             State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy),
             steps,
         )
+
+    def end_reactions(self, state: State) -> tuple[float, float]:
+        """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
+
+        The gradient with respect to the two held coefficients there is the work of these terms on the
+        last two basis functions, whose values at the end are 0 and 1 and whose slopes are ∓p/h. The error is
+        of the order of the energy's, 2(p − 1), not of the derivatives'.
+        """
+        space = self.space
+        n = space.size
+        gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, space.degree + 1))
+        assembly.assemble(
+            self.model, space.local_tag, space.table, space.points, space.weights, state.c,
+            self.parameters(state.lam), self.rates, gradient, mixed, band,
+        )  # fmt: skip
+        slope = space.degree / (space.breaks[-1] - space.breaks[-2])
+        return float(-gradient[n - 2] / slope), float(gradient[n - 1] + gradient[n - 2])
 
     def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> float:
         """Eigenvalue of the Hessian (against ∫v'²) nearest to zero; ``vector`` (n,) is the start and the result."""

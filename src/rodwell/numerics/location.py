@@ -49,6 +49,11 @@ class Span:
             raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
         return state
 
+    def at_lam(self, lam: float) -> State:
+        """Return the equilibrium at a λ that lies between those of the ends."""
+        ends = self.first.lam - lam, self.last.lam - lam
+        return self(bracketed_root(lambda t: self(t).lam - lam, 0.0, 1.0, *ends))
+
 
 def bracketed_root(function: Callable[[float], float], low: float, high: float, f_low: float, f_high: float) -> float:
     """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.

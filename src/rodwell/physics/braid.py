@@ -28,10 +28,14 @@ class EndForce:
     omega2: float
 
 
-def end_force(u_end: FloatArray, parameters: FloatArray) -> EndForce:
-    """Shear and bending moment at the clamped end s = 1 from ``u_end`` = (y, y', y'', y''') there."""
-    _, _, omega2, _, omega2_rate = curvatures(u_end[1], u_end[2], u_end[3], parameters[CLEARANCE])
-    return EndForce(float(omega2_rate), float(omega2))
+def end_force(moment: float, reaction: float, parameters: FloatArray) -> EndForce:
+    """Shear and bending moment at the clamped end s = 1 from the natural boundary terms of the energy.
+
+    ``moment`` is ∂e/∂y″ = y″(1), so ω₂(1) = −y″(1); ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′ = T₁/Δ − y‴(1), so
+    ω₂′(1) = −y‴(1) = reaction − T₁/Δ. They come from virtual work, which knows them far better than the
+    derivatives of a spline at its end.
+    """
+    return EndForce(reaction - float(parameters[TWIST] / parameters[CLEARANCE]), -moment)
 
 
 def rates(
