@@ -222,3 +222,15 @@ def test_dataset_holds_every_field_with_units_and_equation(fig3c: dict[int, Bran
 def test_solution_is_frozen(fig3c: dict[int, Branch]) -> None:
     with pytest.raises(dataclasses.FrozenInstanceError):
         fig3c[1][0].problem = Problem(1.0)  # type: ignore[misc]
+
+
+def test_largest_values_lie_between_grid_points() -> None:
+    state = follow(Problem(15.0), 1, until=-150.0)[-1]
+    s = np.linspace(0.0, 1.0, 40_001)
+    fields = state.fields(s)
+    for name in ("contact_pressure", "T2", "rod_M2"):
+        value, error, place = state.largest(name)
+        assert value == pytest.approx(np.max(np.abs(fields[name])), rel=1e-7)
+        assert value >= np.max(np.abs(fields[name])) * (1.0 - 1e-12)
+        assert error < 1e-7 * value
+        assert np.abs(state.fields(np.array([place]))[name][0]) == pytest.approx(value, rel=1e-12)

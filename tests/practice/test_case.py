@@ -65,12 +65,15 @@ def test_guidewire_without_weight() -> None:
     case = Case.from_dict(
         {
             "rod": {
-                "length": "300 mm", "outer_diameter": "0.89 mm", "youngs_modulus": "60 GPa", "weight_per_length": "0 N/m",
+                "length": "300 mm",
+                "outer_diameter": "0.89 mm",
+                "youngs_modulus": "60 GPa",
+                "weight_per_length": "0 N/m",
             },
             "hole": {"diameter": "4 mm", "angle_from_vertical": "45 deg"},
             "load": {"until": "-2 N", "twist": "1e-4 N m"},
         }
-    )  # fmt: skip
+    )
     assert case.problem.weight == 0.0
     assert case.scales is not None
     assert case.until == pytest.approx(-2.0 / case.scales.factor("force"))

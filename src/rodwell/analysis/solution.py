@@ -19,6 +19,9 @@ from rodwell.problem import Problem
 GRID = 201
 """Places along the rod at which fields are reported by default."""
 
+ZOOMS = 5
+"""Times that the search for the largest value of a field looks ten times closer: nine digits of the value."""
+
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
@@ -83,6 +86,11 @@ class Solution:
         coarse, fine = (_fields(self.problem, f, state, places) for f, state in _levels(self))
         return fine, {k: float(np.max(np.abs(fine[k] - coarse[k]))) / CLAIMED_GAIN for k in fine}
 
+    def largest(self, name: str) -> tuple[float, float, float]:
+        """Largest size of a field over s, its error estimate, and where (the first place, if there are more)."""
+        values, places = zip(*(_largest(self.problem, f, state, name) for f, state in _levels(self)), strict=True)
+        return values[1], abs(values[1] - values[0]) / CLAIMED_GAIN, places[1]
+
     @cached_property
     def total_wall_force(self) -> tuple[float, float]:
         """∫|p| ds, the contact force with all directions added, and its error estimate."""
@@ -134,6 +142,17 @@ def _fields(problem: Problem, family: Family, state: State, s: FloatArray) -> di
     if problem.on_top:
         out["xi2"] = out["xi2"] + np.pi
     return out
+
+
+def _largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
+    """Largest size of a field and its place, by looking ever closer between its neighbours on a grid."""
+    s = np.linspace(0.0, 1.0, GRID)
+    for _ in range(ZOOMS):
+        size = np.abs(_fields(problem, family, state, s)[name])
+        i = int(np.argmax(size))
+        value, place = float(size[i]), float(s[i])
+        s = np.linspace(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)], 21)
+    return value, place
 
 
 def _running_integrals(rates, s: FloatArray, space: SplineSpace) -> tuple[FloatArray, FloatArray]:  # type: ignore[no-untyped-def]

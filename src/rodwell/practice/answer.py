@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from rodwell._version import __version__
 from rodwell.analysis.branches import Branch, SpecialPoint, follow
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
@@ -163,32 +161,35 @@ def _critical_figure(mode: Mode) -> Figure:
 
 def _state_figures(state: Solution) -> list[Figure]:
     """Wall and support loads of one state."""
-    fields, errors = state.fields_with_errors()
     torque, torque_error = state.number(Measured.TORQUE_0)
     shortening, shortening_error = state.number(Measured.SHORTENING)
-    weight_scale = float(np.max(np.abs(fields["T2"])))
 
     def largest(name: str, field: str, label: str) -> Figure:
-        value = float(np.max(np.abs(fields[field])))
-        return Figure(name, label, value, errors[field], QUANTITIES[field].dimension)
+        value, error, place = state.largest(field)
+        return Figure(name, label, value, error, QUANTITIES[field].dimension, f"at s/L = {place:.4g}")
 
-    pressure = -fields["contact_pressure"]
-    s = np.linspace(0.0, 1.0, pressure.size)
-    total, total_error = state.total_wall_force
-    self_balanced = abs(torque) <= STRAIGHT_AT * weight_scale
+    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|")
+    self_balanced = abs(torque) <= STRAIGHT_AT * largest_torque.value
     return [
-        Figure("largest_wall_force", "Largest contact force on the wall per length, outward",
-               float(pressure.max()), errors["contact_pressure"], "force_per_length",
-               f"at s/L = {s[int(np.argmax(pressure))]:.4g}"),
-        Figure("total_wall_force", "Total contact force on the wall, all directions added",
-               total, total_error, "force"),
-        largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|"),
-        Figure("support_torque", "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
-               0.0 if self_balanced else torque, torque_error, "moment",
-               "none: the twisting moment balances itself" if self_balanced else ""),
+        largest("largest_wall_force", "contact_pressure", "Largest contact force on the wall per length, outward"),
+        Figure(
+            "total_wall_force",
+            "Total contact force on the wall, all directions added",
+            *state.total_wall_force,
+            "force",
+        ),
+        largest_torque,
+        Figure(
+            "support_torque",
+            "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
+            0.0 if self_balanced else torque,
+            torque_error,
+            "moment",
+            "none: the twisting moment balances itself" if self_balanced else "",
+        ),
         largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|"),
         Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length"),
-    ]  # fmt: skip
+    ]
 
 
 def _branch_dict(branch: Branch) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import datetime
+import math
 from pathlib import Path
 from typing import Any
 
@@ -19,14 +20,13 @@ TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
 def number(value: float, error: float) -> str:
-    """A value with the digits that its error estimate supports, ten at most."""
+    """A value with the digits that its error estimate supports, ten at most; the last one is in doubt."""
     if value == 0.0:
         return "0"
     digits = 10
     if error > 0.0:
-        while digits > 3 and 0.5 * 10.0 ** (-digits + 1) * abs(value) < error:
-            digits -= 1
-    return f"{value:.{digits}g}".replace("-", "−")
+        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1
+    return f"{value:.{min(max(digits, 1), 10)}g}".replace("-", "−")
 
 
 def rows(answer: Answer) -> list[dict[str, str]]:
