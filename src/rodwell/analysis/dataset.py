@@ -1,11 +1,10 @@
-"""Branches as xarray Datasets: every field along the rod, with symbols, units, equations and errors."""
+"""Branches as labelled arrays: every field along the rod, with symbols, units, equations and errors."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from rodwell._version import __version__
 from rodwell.analysis.measures import Measured
@@ -13,6 +12,8 @@ from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, UNITS
 from rodwell.analysis.solution import GRID
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from rodwell.analysis.branches import Branch
 
 _MEASURED = {
@@ -33,65 +34,58 @@ CONVENTIONS = (
 )
 
 
-def attributes(name: str) -> dict[str, str]:
-    """Metadata of a quantity: symbol, units, equation number, meaning."""
-    q = QUANTITIES[name]
-    return {"symbol": q.symbol, "units": UNITS[q.dimension], "equation": q.equation, "long_name": q.meaning}
+class Variable(NamedTuple):
+    """A labelled array: dimensions, values, metadata."""
+
+    dims: tuple[str, ...]
+    values: np.ndarray
+    attrs: dict[str, Any]
 
 
-def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
-    """All points of a branch as a Dataset.
+def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
+    """All points of a branch as labelled arrays, coordinates included.
 
     Dimensions: ``point`` (in order of travel), ``s`` (along the rod, 0 to 1), ``field`` (names of the fields),
     ``special`` (special points). Measured numbers have a variable ``…_error``; errors of the fields, the largest
     over s, are in ``field_error``.
     """
     s = np.linspace(0.0, 1.0, places)
-    solutions = list(branch)
-    states = [solution.fields_with_errors(s) for solution in solutions]
-    data: dict[str, tuple[object, ...]] = {"force": ("point", branch.force, attributes("force"))}
+    states = [solution.fields_with_errors(s) for solution in branch]
+    out = {
+        "s": Variable(("s",), s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
+        "field": Variable(("field",), _text(FIELDS), {"long_name": "names of the fields"}),
+        "force": Variable(("point",), branch.force, _about("force")),
+    }
     for which, name in _MEASURED.items():
-        data[name] = ("point", branch.numbers(which), attributes(name))
-        data[f"{name}_error"] = ("point", branch.errors(which), _error_attributes(name))
+        out[name] = Variable(("point",), branch.numbers(which), _about(name))
+        out[f"{name}_error"] = Variable(("point",), branch.errors(which), _about_error(name))
     for name in FIELDS:
-        data[name] = (("point", "s"), np.array([fields[name] for fields, _ in states]), attributes(name))
-    field_error = np.array([[errors[name] for name in FIELDS] for _, errors in states])
-    data["field_error"] = (
-        ("point", "field"), field_error, {"long_name": "error estimate, largest over s, in the field's units"}
-    )  # fmt: skip
-    data["stability_index"] = (
-        "point",
-        branch.stability_index,
-        {"long_name": "stability index", "units": "1"},
-    )
-    converged = np.array([solution.converged for solution in solutions], dtype=np.int8)
+        out[name] = Variable(("point", "s"), np.array([fields[name] for fields, _ in states]), _about(name))
+    errors = np.array([[error[name] for name in FIELDS] for _, error in states])
+    about = {"long_name": "error estimate of each field, largest over s, in the field's units"}
+    out["field_error"] = Variable(("point", "field"), errors, about)
+    about = {"long_name": "number of negative eigenvalues of the second variation; 0 is stable", "units": "1"}
+    out["stability_index"] = Variable(("point",), branch.stability_index, about)
+    converged = np.array([solution.converged for solution in branch], dtype=np.int8)
     about = {"long_name": "1 if every measured number meets the tolerance", "units": "1"}
-    data["converged"] = ("point", converged, about)
-    return xr.Dataset(
-        data | _special_points(branch),
-        coords={
-            "point": np.arange(len(solutions)),
-            "s": ("s", s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
-            "field": list(FIELDS),
-        },
-        attrs=_problem_attributes(branch),
-    )
+    out["converged"] = Variable(("point",), converged, about)
+    return out | _special_points(branch)
 
 
-def _special_points(branch: Branch) -> dict[str, tuple[object, ...]]:
+def _special_points(branch: Branch) -> dict[str, Variable]:
     points = branch.special_points
     places = [", ".join(f"{x:.9g}" for x in p.s) for p in points]
+    forces, errors = np.array([p.force for p in points]), np.array([p.error for p in points])
     return {
-        "special_kind": ("special", np.array([p.kind for p in points], dtype=object), {}),
-        "special_force": ("special", np.array([p.force for p in points]), attributes("force")),
-        "special_force_error": ("special", np.array([p.error for p in points]), _error_attributes("force")),
-        "special_s": (
-            "special", np.array(places, dtype=object), {"long_name": "places along the rod that lift off"}
-        ),
-    }  # fmt: skip
+        "special_kind": Variable(("special",), _text(p.kind for p in points), {"long_name": "what happens there"}),
+        "special_force": Variable(("special",), forces, _about("force")),
+        "special_force_error": Variable(("special",), errors, _about_error("force")),
+        "special_s": Variable(("special",), _text(places), {"long_name": "places along the rod that lift off"}),
+    }
 
 
-def _problem_attributes(branch: Branch) -> dict[str, object]:
+def branch_attributes(branch: Branch) -> dict[str, Any]:
+    """What the arrays of a branch belong to: problem, conventions, tolerance, version."""
     problem = branch.problem
     return {
         "title": "Branch of equilibria of a heavy rod on a cylinder",
@@ -111,6 +105,25 @@ def _problem_attributes(branch: Branch) -> dict[str, object]:
     }
 
 
-def _error_attributes(name: str) -> dict[str, str]:
+def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
+    """Return :func:`branch_variables` as an xarray Dataset, fields at ``places`` places along the rod."""
+    import xarray as xr  # noqa: PLC0415 - slow to import
+
+    data = dict(branch_variables(branch, places))
+    coords = {name: data.pop(name) for name in ("s", "field")}
+    return xr.Dataset(data, coords=coords, attrs=branch_attributes(branch))
+
+
+def _text(words: Any) -> np.ndarray:
+    return np.array(list(words), dtype=object)
+
+
+def _about(name: str) -> dict[str, Any]:
+    """Metadata of a quantity: symbol, units, equation number, meaning."""
+    q = QUANTITIES[name]
+    return {"symbol": q.symbol, "units": UNITS[q.dimension], "equation": q.equation, "long_name": q.meaning}
+
+
+def _about_error(name: str) -> dict[str, Any]:
     q = QUANTITIES[name]
     return {"long_name": f"error estimate of {name}", "units": UNITS[q.dimension]}

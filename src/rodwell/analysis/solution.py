@@ -22,7 +22,7 @@ GRID = 201
 ZOOMS = 5
 """Times that the search for the largest value of a field looks ten times closer: nine digits of the value."""
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(6)
+_GAUSS = {count: np.polynomial.legendre.leggauss(count) for count in (3, 6)}
 
 
 @dataclass(frozen=True)
@@ -159,9 +159,10 @@ def _running_integrals(rates, s: FloatArray, space: SplineSpace) -> tuple[FloatA
     """Integrals from 0 to ``s`` and from ``s`` to 1: Gauss quadrature between grid points and mesh points."""
     nodes = np.union1d(np.union1d(space.breaks, s), [0.0, 1.0])
     half = 0.5 * np.diff(nodes)
-    places = (nodes[:-1, None] + half[:, None] * (_NODES + 1.0)).ravel()
-    values = rates(places).reshape(-1, half.size, _NODES.size)
-    pieces = np.einsum("kpq,q,p->kp", values, _WEIGHTS, half)
+    gauss, weights = _GAUSS[3 if half.max() < 0.2 * np.diff(space.breaks).max() else 6]
+    places = (nodes[:-1, None] + half[:, None] * (gauss + 1.0)).ravel()
+    values = rates(places).reshape(-1, half.size, gauss.size)
+    pieces = np.einsum("kpq,q,p->kp", values, weights, half)
     start = np.zeros((pieces.shape[0], 1))
     left = np.concatenate([start, np.cumsum(pieces, axis=1)], axis=1)
     right = np.concatenate([np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], start], axis=1)

@@ -11,7 +11,7 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.solution import Solution
-from rodwell.plots.style import GREY, INK, MODES, WARN, minus, new_axes
+from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, minus, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 
@@ -63,8 +63,7 @@ def plot_contact_pressure(
     fs, us = axis("z", scales, 1.0)
     fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
-    shades = mpl.colormaps["viridis"](np.linspace(0.85, 0.0, len(states)))
-    for state, pressure, color in zip(states, pressures, shades, strict=True):
+    for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
         label = minus(f"F = {state.force * ff:.4g} {uf}")
         ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
     _lift_off_marks(ax, branch, fs)
@@ -84,8 +83,8 @@ def plot_contact_pressure(
         fontsize=8.5,
     )
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
-    ax.set_ylabel(f"contact pressure p, pressed on the wall if below 0  [{up}]", fontsize=8.5)
-    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
+    ax.set_ylabel(f"contact pressure p  [{up}]\n(below 0: pressed on the wall)")
+    _legend(ax)
     return ax
 
 
@@ -106,7 +105,7 @@ def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
         )
 
 
-def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: Any = None) -> Any:
+def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: Any = None, legend: bool = True) -> Any:
     """Draw the twisting moment T₂ in the cylinder along its length (paper, Fig. 4(b)); return the axes."""
     ax = new_axes() if ax is None else ax
     s = np.linspace(0.0, 1.0, 601)
@@ -114,12 +113,32 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     fs, us = axis("z", scales, 1.0)
     ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
-    shades = mpl.colormaps["viridis"](np.linspace(0.85, 0.0, len(states)))
-    for state, curve, color in zip(states, curves, shades, strict=True):
+    for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
         ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {state.force * ff:.4g} {uf}"))
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, fs)
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
-    ax.set_ylabel(f"twisting moment T₂ in the cylinder  [{ut}]")
-    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
+    ax.set_ylabel(f"twisting moment T₂\nin the cylinder  [{ut}]")
+    if legend:
+        _legend(ax)
     return ax
+
+
+def plot_wall_loads(branch: Branch, scales: Scales | None = None) -> Any:
+    """Draw contact pressure above twisting moment in the cylinder, at the same loads; return the upper axes."""
+    states = states_to_lift_off(branch)
+    upper = new_axes(size=(SIZE[0], 6.2), nrows=2, index=1)
+    lower = upper.figure.add_subplot(2, 1, 2, sharex=upper)
+    plot_contact_pressure(branch, scales, ax=upper, states=states)
+    plot_torque(states, scales, ax=lower, legend=False)
+    upper.set_xlabel("")
+    return upper
+
+
+def _shades(count: int) -> Any:
+    """Colours of successive states, light to dark."""
+    return mpl.colormaps["viridis"](np.linspace(0.85, 0.0, count))
+
+
+def _legend(ax: Any) -> None:
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")

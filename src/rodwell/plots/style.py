@@ -36,14 +36,14 @@ RC: Any = {
 }
 
 
-def new_axes(**kwargs: Any) -> Any:
-    """Return the axes of a new figure (no pyplot, no global state)."""
+def new_axes(size: tuple[float, float] = SIZE, nrows: int = 1, index: int = 1) -> Any:
+    """Return axes of a new figure (no pyplot, no global state): number ``index`` of ``nrows`` below each other."""
     import matplotlib as mpl  # noqa: PLC0415
 
     with mpl.rc_context(RC):
-        figure = Figure(figsize=kwargs.pop("size", SIZE), layout="constrained")
+        figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
-        return figure.add_subplot(**kwargs)
+        return figure.add_subplot(nrows, 1, index)
 
 
 def minus(text: str) -> str:

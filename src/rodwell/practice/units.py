@@ -24,7 +24,11 @@ KINDS: dict[str, tuple[str, str]] = {
 def _registry() -> Any:
     import pint  # noqa: PLC0415 - slow to import
 
-    registry: Any = pint.UnitRegistry()
+    registry: Any
+    try:
+        registry = pint.UnitRegistry(cache_folder=":auto:")  # parsed definitions kept on disk: halves the start
+    except OSError:  # no folder of the user's to write to
+        registry = pint.UnitRegistry()
     registry.define("pounds_per_gallon = pound / gallon = ppg")
     return registry
 

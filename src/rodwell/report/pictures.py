@@ -9,7 +9,7 @@ from typing import Any
 import matplotlib as mpl
 
 from rodwell.plots.bifurcation import plot_bifurcation
-from rodwell.plots.profiles import plot_contact_pressure, plot_modes, plot_torque, states_to_lift_off
+from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
 from rodwell.practice.answer import Answer
@@ -20,14 +20,12 @@ DPI = 140
 def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
     """Write each picture to ``folder`` as PNG; return them for the report (SVG, the 3-D picture as PNG)."""
     scales = answer.case.scales
-    states = states_to_lift_off(answer.first)
-    shown = answer.at_lift_off or states[-1]
+    shown = answer.at_lift_off or answer.first[-1]
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
-            "contact-pressure": plot_contact_pressure(answer.first, scales, states=states),
-            "torque": plot_torque([s for s in states if s.point.fine.c.any()], scales),
+            "wall-loads": plot_wall_loads(answer.first, scales),
             "rod-3d": plot_rod(shown, scales),
         }
         out = {}

@@ -4,69 +4,78 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Literal
+from typing import Any
 
+import h5netcdf
 import numpy as np
-import xarray as xr
 
+from rodwell.analysis.dataset import Variable, branch_attributes, branch_variables
 from rodwell.analysis.nomenclature import QUANTITIES
 from rodwell.practice.answer import Answer
 from rodwell.practice.scales import Scales
 
-ENGINE: Literal["h5netcdf"] = "h5netcdf"
 
-
-def answer_dataset(answer: Answer) -> xr.Dataset:
-    """All branches of an answer in one Dataset.
+def answer_variables(answer: Answer) -> dict[str, Variable]:
+    """All branches of an answer as labelled arrays.
 
     Points of all branches follow each other along ``point``; ``branch`` (point) holds the number of the mode, as
     ``special_branch`` does for the special points. Critical loads stand along ``mode``.
     """
-    case = answer.case
     parts = []
     for branch in answer.branches:
         assert branch.mode is not None
-        part = branch.dataset.drop_vars("point")
-        number = branch.mode.number
-        part["branch"] = ("point", np.full(part.sizes["point"], number), {"long_name": "number of the mode"})
-        part["special_branch"] = ("special", np.full(part.sizes["special"], number))
+        part = branch_variables(branch)
+        about = {"long_name": "number of the mode that the branch starts from"}
+        for name, dim in (("branch", "point"), ("special_branch", "special")):
+            count = len(branch) if dim == "point" else len(branch.special_points)
+            part[name] = Variable((dim,), np.full(count, branch.mode.number), about)
         parts.append(part)
-    shared = xr.concat(
-        [part.drop_dims("special") for part in parts],
-        "point",
-        combine_attrs="drop_conflicts",
-        data_vars="minimal",
+    out = {}
+    for name, (dims, values, attrs) in parts[0].items():
+        joined = dims[0] in ("point", "special")
+        out[name] = Variable(dims, np.concatenate([p[name].values for p in parts]) if joined else values, attrs)
+    about = {"units": "B/L^2", "equation": "(64), (65)", "long_name": "critical end force at s = 1, tension positive"}
+    out["mode"] = Variable(
+        ("mode",), np.array([m.number for m in answer.critical]), {"long_name": "number of the mode"}
     )
-    special = xr.concat(
-        [part[[v for v in part.data_vars if part[v].dims == ("special",)]] for part in parts], "special"
-    )
-    out = shared.merge(special)
-    out["critical_load"] = ("mode", answer.critical.forces, {"units": "B/L^2", "equation": "(64), (65)"})
-    out["critical_load_error"] = ("mode", answer.critical.errors, {"units": "B/L^2"})
-    out = out.assign_coords(mode=[mode.number for mode in answer.critical])
-    out.attrs |= {
+    out["critical_load"] = Variable(("mode",), answer.critical.forces, about)
+    out["critical_load_error"] = Variable(("mode",), answer.critical.errors, {"units": "B/L^2"})
+    return out
+
+
+def answer_attributes(answer: Answer) -> dict[str, Any]:
+    """What the file belongs to: the case as it was read, conventions, tolerance, version."""
+    case = answer.case
+    out = branch_attributes(answer.first) | {
         "title": case.title,
         "case": case.text or json.dumps(dict(case.given)),
         "converged": int(answer.converged),
         "certificate": answer.worst_certificate,
     }
+    for name in ("mode", "ended_because", "reached_end"):  # these belong to single branches
+        del out[name]
     if case.scales is not None:
-        out.attrs |= {"length_m": case.scales.length, "bending_stiffness_N_m2": case.scales.stiffness}
-        out = with_si(out, case.scales)
+        out |= {"length_m": case.scales.length, "bending_stiffness_N_m2": case.scales.stiffness}
     return out
 
 
 def write_answer(answer: Answer, path: Path) -> None:
-    """Write all branches of an answer to a NetCDF file."""
-    answer_dataset(answer).to_netcdf(path, engine=ENGINE)
+    """Write all branches of an answer to a NetCDF file; with SI factors where the case has dimensions."""
+    variables = answer_variables(answer)
+    with h5netcdf.File(path, "w") as file:
+        sizes = {d: n for v in variables.values() for d, n in zip(v.dims, v.values.shape, strict=True)}
+        file.dimensions = sizes
+        file.attrs.update(answer_attributes(answer))
+        for name, (dims, values, attrs) in variables.items():
+            kind = h5netcdf.core.h5py.string_dtype() if values.dtype == object else values.dtype
+            variable = file.create_variable(name, dims, dtype=kind, data=values)
+            variable.attrs.update(attrs | _si(name, answer.case.scales))
 
 
-def with_si(data: xr.Dataset, scales: Scales) -> xr.Dataset:
-    """Add to every variable the factor that turns it into SI units, and the unit."""
-    out = data.copy()
-    for name in out.data_vars:
-        quantity = str(name).removesuffix("_error").removeprefix("special_")
-        if quantity in QUANTITIES:
-            factor, unit = scales.of(quantity)
-            out[name].attrs |= {"si_factor": factor, "si_units": unit}
-    return out
+def _si(name: str, scales: Scales | None) -> dict[str, Any]:
+    """The factor that turns a variable into SI units, and the unit."""
+    quantity = name.removesuffix("_error").removeprefix("special_")
+    if scales is None or quantity not in QUANTITIES:
+        return {}
+    factor, unit = scales.of(quantity)
+    return {"si_factor": factor, "si_units": unit}
