@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numba
 import numpy as np
 import pytest
 import scipy.linalg
@@ -112,6 +113,7 @@ def _two_beams(model, s, u, parameters, rates, gradient, hessian, mixed):  # typ
 
 
 def test_assembly_of_two_coupled_fields() -> None:
+    assemble = numba.njit(assembly.assemble.py_func)  # not cached: this model is known to this test alone
     space = SplineSpace(np.array([0.0, 0.3, 0.55, 1.0]), 4)
     n = 2 * space.size
     c = np.random.default_rng(5).standard_normal(n)
@@ -119,7 +121,7 @@ def test_assembly_of_two_coupled_fields() -> None:
 
     def system(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
         gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, 2 * (space.degree + 1)))
-        energy = assembly.assemble(
+        energy = assemble(
             TwoBeams(), space.local_tag, space.table, space.points, space.weights, x, p, rates, gradient, mixed, band
         )
         return energy, gradient, dense(band)

@@ -9,13 +9,11 @@ from rodwell.analysis.families import CLAMPED, force_family
 from rodwell.analysis.measures import measure
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family
+from rodwell.numerics.families import Family, Outcome
 from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.minimise import minimise
 from rodwell.numerics.spaces import FloatArray
 from rodwell.problem import Problem
-
-MOST_STEPS = 500
 
 
 def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
@@ -54,13 +52,10 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         wavenumber=wavenumber,
         force_scale=max(abs(force), wavenumber**2),
     )
-    c = _winding(problem, family)
-    status, _ = minimise(
-        family.model, space.local_tag, space.table, space.points, space.weights, space.slope_gram, CLAMPED,
-        space.size - CLAMPED, family.parity, c, family.parameters(force), family.scale_c, 1e-8, MOST_STEPS,
-    )  # fmt: skip
-    outcome, coarse, _ = family.at(c, force)
-    if status != 0 or coarse is None:
+    outcome, c = minimise(family, _winding(problem, family), force)
+    if outcome is Outcome.CONVERGED:
+        outcome, coarse, _ = family.at(c, force)
+    if outcome is not Outcome.CONVERGED or coarse is None:
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
     outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS).resolve(coarse)
     if point is None:

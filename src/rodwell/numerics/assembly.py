@@ -19,7 +19,7 @@ def assemble(model, local_tag, table, points, weights, c, parameters, rates, gra
     ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space; ``local_tag`` is a
     tuple of p + 1 zeros, whose length the compiler knows, so that the inner loops are unrolled. The
     element matrices K[f, e] = Σ_q w Bᵀ h[f, e] B, with B (3, p+1) the basis at a point, are summed with the
-    innermost loop over memory that lies together.
+    innermost loop over memory that lies together; of those on the diagonal, the lower half.
     """
     local, fields = len(local_tag), len(model)
     elements = c.size // fields - local + 1
@@ -57,7 +57,7 @@ def assemble(model, local_tag, table, points, weights, c, parameters, rates, gra
                         t0 = b0 * h[i, j] + b1 * h[i + 1, j] + b2 * h[i + 2, j]
                         t1 = b0 * h[i, j + 1] + b1 * h[i + 1, j + 1] + b2 * h[i + 2, j + 1]
                         t2 = b0 * h[i, j + 2] + b1 * h[i + 1, j + 2] + b2 * h[i + 2, j + 2]
-                        for b in range(local):
+                        for b in range(a + 1 if e == f else local):
                             matrix[f, e, a, b] += t0 * table[q, 0, b] + t1 * table[q, 1, b] + t2 * table[q, 2, b]
         _scatter(matrix, start, fields, band)
     return energy

@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from rodwell.jit import kernel
-from rodwell.numerics.assembly import assemble, variation
+from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
 
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
@@ -41,36 +41,12 @@ def symmetrise(x, parity):
 @kernel
 def held_out(band, first, last):
     """Rows and columns ``first … last−1`` of a banded matrix: couplings to held unknowns drop out."""
-    inner = band[first:last].copy()
-    for j in range(last - first):
-        for k in range(last - first - j, inner.shape[1]):
-            inner[j, k] = 0.0
+    n, width = last - first, band.shape[1]
+    inner = np.zeros((n, width))
+    for j in range(n):
+        for k in range(min(width, n - j)):
+            inner[j, k] = band[first + j, k]
     return inner
-
-
-@kernel
-def nearest_curvature(model, local_tag, table, points, weights, gram, first, last, parameters, rates, c, v, iterations):
-    """Eigenvalue of H v = μ G v nearest to zero, by inverse iteration from ``v`` (n,), which becomes its vector.
-
-    The value is the Rayleigh quotient formed by quadrature of the second variation: unlike a tiny pivot of
-    the factorisation, it is not drowned by the round-off of entries that grow like h⁻³.
-    """
-    n = c.size
-    gradient, mixed = np.empty(n), np.empty(n)
-    band = np.empty((n, table.shape[2]))
-    assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
-    inner = held_out(band, first, last)
-    factorise(inner)
-    for _ in range(iterations):
-        w = multiply(gram, v)[first:last]
-        solve(inner, w)
-        largest = 0.0
-        for i in range(w.size):
-            largest = max(largest, abs(w[i]))
-        for i in range(n):
-            v[i] = w[i - first] / largest if first <= i < last else 0.0
-    above, below = variation(model, table, points, weights, c, parameters, rates, v)
-    return above / below
 
 
 @kernel
@@ -99,14 +75,15 @@ def correct(
     previous = np.inf
     negative, energy, step, settled = -1, np.nan, np.inf, 0
     for iteration in range(1, most + extra + 1):
-        parameters[:] = base + lam * rates
+        for i in range(base.size):
+            parameters[i] = base[i] + lam * rates[i]
         energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
             return OUT_OF_RANGE, lam, negative, energy, step, iteration
         inner = held_out(band, first, last)
         negative = factorise(inner)
-        a[first:last] = -gradient[first:last]
-        b[first:last] = mixed[first:last]
+        for i in range(first, last):
+            a[i], b[i] = -gradient[i], mixed[i]
         solve(inner, a[first:last])
         solve(inner, b[first:last])
         symmetrise(a, parity)

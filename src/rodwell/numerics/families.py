@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.numerics import assembly, corrector
+from rodwell.numerics import assembly, banded, corrector
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
 
@@ -134,32 +134,61 @@ class Family:
             steps,
         )
 
+    def assemble(self, c: FloatArray, lam: float) -> tuple[float, FloatArray, FloatArray]:
+        """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""
+        space = self.space
+        gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
+        energy = assembly.assemble(
+            self.model, space.local_tag, space.table, space.points, space.weights, c,
+            self.parameters(lam), self.rates, gradient, mixed, band,
+        )  # fmt: skip
+        return energy, gradient, band
+
+    @property
+    def free(self) -> slice:
+        """The coefficients that are not held."""
+        return slice(self.held[0], self.space.size - self.held[1])
+
+    def free_part(self, band: FloatArray) -> FloatArray:
+        """Rows and columns of the free coefficients of a banded matrix."""
+        return np.asarray(corrector.held_out(band, self.free.start, self.free.stop))
+
     def end_reactions(self, state: State) -> tuple[float, float]:
         """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
 
-        The gradient with respect to the two held coefficients there is the work of these terms on the
-        last two basis functions, whose values at the end are 0 and 1 and whose slopes are ∓p/h. The error is
+        The gradient with respect to the two held coefficients there is the work of these terms on the last two
+        basis functions, whose values at the end are 0 and 1 and whose slopes are ∓p/h. The error is
         of the order of the energy's, 2(p − 1), not of the derivatives'.
         """
-        space = self.space
-        n = space.size
-        gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, space.degree + 1))
-        assembly.assemble(
-            self.model, space.local_tag, space.table, space.points, space.weights, state.c,
-            self.parameters(state.lam), self.rates, gradient, mixed, band,
-        )  # fmt: skip
-        slope = space.degree / (space.breaks[-1] - space.breaks[-2])
-        return float(-gradient[n - 2] / slope), float(gradient[n - 1] + gradient[n - 2])
+        _, gradient, _ = self.assemble(state.c, state.lam)
+        slope = self.space.degree / (self.space.breaks[-1] - self.space.breaks[-2])
+        return float(-gradient[-2] / slope), float(gradient[-1] + gradient[-2])
 
     def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> float:
-        """Eigenvalue of the Hessian (against ∫v'²) nearest to zero; ``vector`` (n,) is the start and the result."""
+        """Eigenvalue of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vector`` (n,).
+
+        ``vector`` becomes the eigenvector. The value is the Rayleigh quotient formed by quadrature of the second
+        variation: unlike a tiny pivot, it is not drowned by the round-off of entries that grow like h⁻³.
+        """
         space = self.space
-        return float(
-            corrector.nearest_curvature(
-                self.model, space.local_tag, space.table, space.points, space.weights, space.slope_gram, self.held[0],
-                space.size - self.held[1], self.parameters(state.lam), self.rates, state.c, vector, iterations,
-            )
-        )  # fmt: skip
+        factors = self.free_part(self.assemble(state.c, state.lam)[2])
+        banded.factorise(factors)
+        for _ in range(iterations):
+            new = banded.multiply(space.slope_gram, vector)[self.free]
+            banded.solve(factors, new)
+            vector[:] = 0.0
+            vector[self.free] = new / np.max(np.abs(new))
+        above, below = assembly.variation(
+            self.model,
+            space.table,
+            space.points,
+            space.weights,
+            state.c,
+            self.parameters(state.lam),
+            self.rates,
+            vector,
+        )
+        return float(above / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
         """Newton from ``c`` at fixed λ."""

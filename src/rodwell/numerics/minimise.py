@@ -4,62 +4,51 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
-from rodwell.numerics.assembly import assemble
-from rodwell.numerics.banded import factorise, solve
-from rodwell.numerics.corrector import CONVERGED, NOT_CONVERGED, OUT_OF_RANGE, held_out, symmetrise
+from rodwell.numerics import banded, corrector
+from rodwell.numerics.families import Family, Outcome
+from rodwell.numerics.spaces import FloatArray
+
+SMALLEST_LENGTH = 1e-12
 
 
-@kernel
-def minimise(
-    model, local_tag, table, points, weights, gram, first, last, parity, c, parameters, scale_c, tolerance, most
-):  # fmt: skip
-    """Move ``c`` (n,) in place to a local minimum of the energy at fixed ``parameters``.
+def minimise(family: Family, c: FloatArray, lam: float, most_steps: int = 500) -> tuple[Outcome, FloatArray]:
+    """Coefficients (n,) of a local minimum of the energy at fixed λ, found downhill from ``c`` (n,).
 
     Each step solves (H + σ G) δ = −g with the smallest σ ≥ 0 of a rising sequence that makes the matrix
     positive definite, and is halved until the energy falls (Armijo). It ends with an unshifted, full
-    Newton step below ``tolerance`` against ``scale_c``. See J. Nocedal and S. J. Wright, *Numerical
-    Optimization* (2006), algorithms 3.2 and 3.3.
-
-    Returns
-    -------
-    status, number of steps
+    Newton step below the family's tolerance. See J. Nocedal and S. J. Wright, *Numerical Optimization* (2006),
+    algorithms 3.2 and 3.3.
     """
-    n = c.size
-    gradient, mixed = np.empty(n), np.empty(n)
-    band = np.empty((n, table.shape[2]))
-    rates = np.zeros(parameters.size)
-    step = np.zeros(n)
-    trial = np.empty(n)
     sigma = 0.0
-    energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
+    energy, gradient, band = family.assemble(c, lam)
     if not np.isfinite(energy):
-        return OUT_OF_RANGE, 0
-    for iteration in range(1, most + 1):
-        sigma = 0.0 if sigma < 1e-3 else 0.1 * sigma
-        while True:
-            inner = held_out(band + sigma * gram, first, last)
-            if factorise(inner) == 0:
-                break
-            sigma = max(1.0, 4.0 * sigma)
-        step[first:last] = -gradient[first:last]
-        solve(inner, step[first:last])
-        symmetrise(step, parity)
-        size, slope = 0.0, 0.0
-        for i in range(n):
-            size = max(size, abs(step[i]) / scale_c)
-            slope += gradient[i] * step[i] if first <= i < last else 0.0
+        return Outcome.OUT_OF_RANGE, c
+    for _ in range(most_steps):
+        step, sigma = _downhill(family, gradient, band, 0.1 * sigma if sigma > 1e-3 else 0.0)
+        size, slope = float(np.max(np.abs(step))) / family.scale_c, float(gradient @ step)
         length = 1.0
         while True:
-            trial[:] = c + length * step
-            new = assemble(model, local_tag, table, points, weights, trial, parameters, rates, gradient, mixed, band)
+            new, gradient, band = family.assemble(c + length * step, lam)
             if np.isfinite(new) and (new <= energy + 1e-4 * length * slope or size < 1e-6):
                 break
             length *= 0.5
-            if length < 1e-12:
-                return NOT_CONVERGED, iteration
-        c[:] = trial
-        energy = new
-        if sigma == 0.0 and length == 1.0 and size <= tolerance:
-            return CONVERGED, iteration
-    return NOT_CONVERGED, most
+            if length < SMALLEST_LENGTH:
+                return Outcome.NOT_CONVERGED, c
+        c, energy = c + length * step, new
+        if sigma == 0.0 and length == 1.0 and size <= family.tolerance:
+            return Outcome.CONVERGED, c
+    return Outcome.NOT_CONVERGED, c
+
+
+def _downhill(family: Family, gradient: FloatArray, band: FloatArray, sigma: float) -> tuple[FloatArray, float]:
+    """Newton step with the Hessian shifted, from ``sigma`` on, until it is positive definite; and the shift."""
+    while True:
+        factors = family.free_part(band + sigma * family.space.slope_gram)
+        if banded.factorise(factors) == 0:
+            break
+        sigma = max(1.0, 4.0 * sigma)
+    step = np.zeros_like(gradient)
+    step[family.free] = -gradient[family.free]
+    banded.solve(factors, step[family.free])
+    corrector.symmetrise(step, family.parity)
+    return step, sigma

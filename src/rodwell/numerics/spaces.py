@@ -69,7 +69,7 @@ class SplineSpace:
 
     def form(self, density: FloatArray) -> FloatArray:
         """Band of Σ_d ∫ density[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds; ``density`` is (3,) or (3, m) at the quadrature points."""
-        full = np.ascontiguousarray(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)))
+        full = np.array(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)), order="C")
         return np.asarray(assembly.assemble_form(self.table, self.weights, self.elements, full))
 
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
