@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import math
+import operator
+
+LONGEST_VALUE = 200
+
 
 class RodwellError(Exception):
     """Base of all errors that rodwell raises on purpose."""
@@ -22,8 +27,40 @@ class InputError(RodwellError):
 
     def __init__(self, field: str, value: object, problem: str) -> None:
         self.field, self.value, self.problem = field, value, problem
-        given = "" if value is None else f" = {value!r}"
+        given = "" if value is None else f" = {_short(value)}"
         super().__init__(f"{field}{given}: {problem}")
+
+
+def _short(value: object) -> str:
+    """A value as it would be written, cut where it is very long."""
+    text = "a very long number" if isinstance(value, int) and abs(value) >= 10**40 else repr(value)
+    return text if len(text) <= LONGEST_VALUE else text[: LONGEST_VALUE - 1] + "…"
+
+
+def checked_number(field: str, value: object, low: float, high: float, allowed: str) -> float:
+    """Return ``value`` as a float in [low, high], or raise an InputError that says what is ``allowed``."""
+    if isinstance(value, bool) or not hasattr(value, "__float__"):
+        raise InputError(field, value, f"must be a number: {allowed}")
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(field, value, f"must be a number: {allowed}") from None
+    if not math.isfinite(number):
+        raise InputError(field, value, f"must be finite: {allowed}")
+    if not low <= number <= high:
+        raise InputError(field, value, f"must be {allowed}")
+    return number
+
+
+def checked_whole(field: str, value: object, low: int, high: int) -> int:
+    """Return ``value`` as an int in [low, high], or raise an InputError."""
+    allowed = f"must be a whole number from {low} to {high}"
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
+        raise InputError(field, value, allowed)
+    number = operator.index(value)
+    if not low <= number <= high:
+        raise InputError(field, value, allowed)
+    return number
 
 
 class NotConvergedError(RodwellError):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
-from rodwell.errors import InputError
+from rodwell.errors import InputError, checked_number, checked_whole
 
 LARGEST_WEIGHT = 1e9
+LARGEST_TWIST = 1e4
 LARGEST_TURNS = 1000
+SMALLEST_CLEARANCE = 1e-7
 
 
 @dataclass(frozen=True)
@@ -56,48 +58,27 @@ class Problem:
     on_top: bool = False
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            self._check_number(item.name, getattr(self, item.name))
-        ranges = (
-            (
-                "weight",
-                0.0 <= self.weight <= LARGEST_WEIGHT,
-                f"must be from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B",
-            ),
-            ("alpha", 0.0 <= self.alpha <= 90.0, "must be from 0 (vertical) to 90 (horizontal), in degrees"),
-            (
-                "clearance",
-                0.0 < self.clearance < 1.0,
-                "must be above 0 and below 1: Δ/L, a part of the length",
-            ),
-            ("poisson", -1.0 < self.poisson <= 0.5, "must be above -1 and at most 0.5"),
-            ("turns", abs(self.turns) <= LARGEST_TURNS, f"must be from -{LARGEST_TURNS} to {LARGEST_TURNS}"),
+        limits = (
+            ("weight", 0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
+            ("alpha", 0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
+            ("clearance", 0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
+            ("poisson", -1.0, 0.5, "above -1 and at most 0.5"),
+            ("twist", -LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
         )
-        for name, good, text in ranges:
-            if not good:
-                raise InputError(name, getattr(self, name), text)
+        for name, low, high, allowed in limits:
+            object.__setattr__(self, name, checked_number(name, getattr(self, name), low, high, allowed))
+        object.__setattr__(self, "turns", checked_whole("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS))
+        if not isinstance(self.on_top, bool):
+            raise InputError("on_top", self.on_top, "must be True or False")
+        if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
+            allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
+            raise InputError("clearance", self.clearance, allowed)
+        if self.poisson == -1.0:
+            raise InputError("poisson", self.poisson, "must be above -1 and at most 0.5")
         if abs(2.0 * math.pi * self.turns * self.clearance) >= 1.0:
             raise InputError(
-                "turns",
-                self.turns,
-                f"a rod of this length cannot wind around so often at clearance {self.clearance:g}",
+                "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
-
-    def _check_number(self, name: str, value: Any) -> None:
-        if name == "on_top":
-            if not isinstance(value, bool):
-                raise InputError(name, value, "must be True or False")
-            return
-        if name == "turns":
-            if isinstance(value, bool) or int(value) != value:
-                raise InputError(name, value, "must be a whole number")
-            return
-        try:
-            number = float(value)
-        except (TypeError, ValueError):
-            raise InputError(name, value, "must be a number") from None
-        if not math.isfinite(number):
-            raise InputError(name, value, "must be finite")
 
     @property
     def axial_weight(self) -> float:

@@ -168,7 +168,7 @@ def test_a_tolerance_out_of_reach_is_reported() -> None:
 
     problem = Problem(15.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(branches, "MOST_ELEMENTS", 60)
+        patch.setattr(branches, "MOST_ELEMENTS_OF_BRANCH", 60)
         branch = follow(problem, 1, until=-300.0)
     assert branch.reached_end
     assert not branch.converged

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.errors import InputError
+from rodwell.errors import checked_number
 from rodwell.numerics.spaces import SplineSpace, graded_mesh
 from rodwell.problem import Problem
 
@@ -17,16 +17,24 @@ RTOL = 1e-8
 
 LOWEST_RTOL, HIGHEST_RTOL = 1e-11, 1e-2
 MOST_ELEMENTS = 40_000
+"""Elements allowed for critical loads."""
+
+MOST_ELEMENTS_OF_BRANCH = 4_000
+"""Elements allowed for branches: beyond, round-off in the contact pressure outweighs what is gained."""
+
+MOST_WORK = 1.5e6
+"""Elements times solves allowed for one branch: about 20 s."""
+
+LARGEST_FORCE = 1e9
+"""Largest end force, in B/L², that may be asked for."""
+
 ELEMENTS_PER_RADIAN = 0.55
 
 
 def checked_rtol(rtol: float) -> float:
     """Return a tolerance that double precision can meet, or raise."""
-    if not LOWEST_RTOL <= rtol <= HIGHEST_RTOL:
-        raise InputError(
-            "rtol", rtol, f"must be from {LOWEST_RTOL:g} (what double precision allows) to {HIGHEST_RTOL:g}"
-        )
-    return rtol
+    allowed = f"from {LOWEST_RTOL:g} (what double precision allows) to {HIGHEST_RTOL:g}"
+    return checked_number("rtol", rtol, LOWEST_RTOL, HIGHEST_RTOL, allowed)
 
 
 def first_space(problem: Problem, compression: float, tension: float = 0.0) -> SplineSpace:
@@ -49,3 +57,9 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     foundation = abs(problem.foundation) / problem.clearance
     wavenumber = np.sqrt(axial) + foundation**0.25 + 2.0 * np.pi * (1 + abs(problem.turns))
     return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE)
+
+
+def checked_force(field: str, value: object) -> float:
+    """Return an end force that can be asked for, or raise."""
+    allowed = f"a finite end force in B/L², tension positive, of at most {LARGEST_FORCE:g} either way"
+    return checked_number(field, value, -LARGEST_FORCE, LARGEST_FORCE, allowed)

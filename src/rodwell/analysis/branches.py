@@ -9,13 +9,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.accuracy import MOST_ELEMENTS, RTOL, checked_rtol, first_space
-from rodwell.analysis.critical import Mode, critical_loads
+from rodwell.analysis.accuracy import (
+    MOST_ELEMENTS_OF_BRANCH,
+    MOST_WORK,
+    RTOL,
+    checked_force,
+    checked_rtol,
+    first_space,
+)
+from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.families import force_family
-from rodwell.analysis.measures import Measured, measure
+from rodwell.analysis.measures import STEEPEST, Measured, measure
 from rodwell.analysis.solution import Solution
-from rodwell.errors import InputError, NotConvergedError
+from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
 from rodwell.numerics.continuation import INDEX, Event, Found, Stepping, Trace, trace
+from rodwell.numerics.families import Outcome
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError, Span
 from rodwell.numerics.spaces import FloatArray, SplineSpace
@@ -31,6 +39,9 @@ LARGEST_ANGLE_OF_FIRST_STEP = 0.05
 
 ROUND_OFF = 2e-13
 """Relative error that round-off in some hundred operations may leave in a located load."""
+
+LARGEST_BRAID_ANGLE = 89.5
+"""Degrees of |η| at which a branch ends: the theory holds below 90°."""
 
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
@@ -151,6 +162,7 @@ class Branch:
         NotConvergedError
             If the state could not be computed.
         """
+        force = checked_force("force", force)
         inside = np.nonzero((self.force[:-1] - force) * (self.force[1:] - force) <= 0.0)[0]
         if inside.size == 0:
             low, high = self.force.min(), self.force.max()
@@ -193,7 +205,7 @@ class Branch:
             index = int(self.stability_index[0])
             before = points[0].fine.index
             out.append(SpecialPoint(CRITICAL, self.mode.force, self.mode.error, places, before, index, first))
-        out += [self._special(found) for found in self._trace.found]
+        out += [self._special(found) for found in self._trace.found if found.name != _TURNED_ACROSS.name]
         if not out or out[-1].kind != END:
             last = Solution(self.problem, points[-1], ladders[-1])
             index = last.stability_index
@@ -259,21 +271,23 @@ def follow(
         If the branch cannot even be started.
     """
     rtol = checked_rtol(rtol)
-    if until is not None and not np.isfinite(until):
-        raise InputError("until", until, "must be a finite end force in B/L², tension positive")
-    if not 0.0 < largest_step <= 1.0:
-        raise InputError("largest_step", largest_step, "must be above 0 and at most 1")
+    until = None if until is None else checked_force("until", until)
+    largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
     if start is not None:
         return _follow_from(problem, start, until, largest_step, progress)
     if until is None and problem.on_top and problem.lateral_weight > 0.0:
         raise InputError("on_top", True, "a rod on top is not pressed to the wall, so it has no lift-off: give until")
-    found = critical_loads(problem, mode, rtol=rtol)[-1] if not isinstance(mode, Mode) else mode
-    if until == found.force:
-        raise InputError("until", until, "is the critical load itself: give a force beyond it")
+    found = _mode(problem, mode, rtol)
+    if until is not None and until >= found.force:
+        raise InputError(
+            "until",
+            until,
+            f"must be below the critical load {found.force:.8g} B/L², where the branch starts towards compression",
+        )
     ladder, point = _at_critical(problem, found, until, mirror, rtol)
     length = LARGEST_ANGLE_OF_FIRST_STEP
-    stepping = Stepping(first=min(length, largest_step), largest=largest_step)
-    events = [Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX], stop=until is None)]
+    stepping = Stepping(first=min(length, largest_step), largest=largest_step, most_work=MOST_WORK)
+    events = [Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX], stop=until is None), _TURNED_ACROSS]
     limit = found.force - REACH * found.wavenumber**2 if until is None else until
     events.append(Event(END, lambda lam, _: lam - limit, stop=True))
     if problem.lateral_weight == 0.0:
@@ -291,6 +305,20 @@ def follow(
     return Branch(problem, found, result, reached, result.end)
 
 
+_TURNED_ACROSS = Event(
+    Outcome.OUT_OF_RANGE.value, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)), stop=True
+)
+
+
+def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
+    """The mode to start from, computed unless it is given."""
+    if not isinstance(mode, Mode):
+        return critical_loads(problem, checked_whole("mode", mode, 1, MOST_MODES), rtol=rtol)[-1]
+    if mode.problem != problem:
+        raise InputError("mode", f"mode {mode.number} of {mode.problem}", "belongs to another problem")
+    return mode
+
+
 def _reporting(progress: Progress | None) -> Callable[[Point], None] | None:
     return None if progress is None else lambda point: progress(point.lam)
 
@@ -306,7 +334,7 @@ def _at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool
         wavenumber=mode.wavenumber,
         force_scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
     )
-    ladder = Ladder(family, measure, rtol, MOST_ELEMENTS)
+    ladder = Ladder(family, measure, rtol, MOST_ELEMENTS_OF_BRANCH)
 
     def straight(on: SplineSpace) -> FloatArray:
         shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
@@ -330,8 +358,9 @@ def _follow_from(
         point = Point(point.coarse.reversed(), point.fine.reversed(), point.values, point.error, point.excess)
     events = [
         Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX]),
+        _TURNED_ACROSS,
         Event(END, lambda lam, _: lam - until, stop=True),
     ]
-    stepping = Stepping(first=min(0.02, largest_step), largest=largest_step)
+    stepping = Stepping(first=min(0.02, largest_step), largest=largest_step, most_work=MOST_WORK)
     result = trace(start.ladder, point, stepping, events, _reporting(progress))
     return Branch(problem, None, result, result.end == END, result.end)

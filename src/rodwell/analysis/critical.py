@@ -8,7 +8,7 @@ import numpy as np
 
 from rodwell.analysis.accuracy import ELEMENTS_PER_RADIAN, MOST_ELEMENTS, RTOL, checked_rtol, first_space
 from rodwell.analysis.families import CLAMPED, parameters
-from rodwell.errors import InputError, NotConvergedError
+from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics import eigen
 from rodwell.numerics.corrector import held_out
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
@@ -27,6 +27,8 @@ class Mode:
 
     Attributes
     ----------
+    problem
+        The problem that it belongs to.
     number
         1 for the mode met first as compression grows.
     force
@@ -41,6 +43,7 @@ class Mode:
         The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch.
     """
 
+    problem: Problem
     number: int
     force: float
     error: float
@@ -97,8 +100,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         If the tolerance cannot be met.
     """
     rtol = checked_rtol(rtol)
-    if isinstance(count, bool) or int(count) != count or not 1 <= count <= MOST_MODES:
-        raise InputError("modes", count, f"must be a whole number from 1 to {MOST_MODES}")
+    count = checked_whole("modes", count, 1, MOST_MODES)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
     space = _starting_space(problem, count)
@@ -192,4 +194,4 @@ def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error
         vector = -vector
     _, slope, bend = space.at_points(vector)
     wavenumber = np.sqrt((space.weights @ bend**2) / (space.weights @ slope**2))
-    return Mode(number, float(force), float(error), parity, float(wavenumber), space, vector)
+    return Mode(problem, number, float(force), float(error), parity, float(wavenumber), space, vector)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.accuracy import MOST_ELEMENTS, RTOL, checked_rtol, first_space
+from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol, first_space
 from rodwell.analysis.families import CLAMPED, force_family
 from rodwell.analysis.measures import measure
 from rodwell.analysis.solution import Solution
@@ -39,8 +39,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         If no minimum was found, with the reason.
     """
     rtol = checked_rtol(rtol)
-    if not np.isfinite(force):
-        raise InputError("force", force, "must be a finite end force in B/L², tension positive")
+    force = checked_force("force", force)
     if problem.turns == 0:
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     space = first_space(problem, min(force, 0.0), max(force, 0.0))
@@ -57,7 +56,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         outcome, coarse, _ = family.at(c, force)
     if outcome is not Outcome.CONVERGED or coarse is None:
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
-    outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS).resolve(coarse)
+    outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
     return Solution(problem, point, ladder)

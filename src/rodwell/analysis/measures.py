@@ -28,11 +28,15 @@ class Measured(IntEnum):
     TORQUE_0 = 6  # T₂(0), (33): what the support of the cylinder at s = 0 must provide
 
 
+STEEPEST = len(Measured)
+"""Position, after the measured numbers, of max |sin η| over the quadrature points: a guard, not reported."""
+
+
 @kernel
 def _totals(table, weights, elements, c, clearance, lateral_weight):
-    """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, max |ξ₂|."""
+    """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
     per_element = weights.size // elements
-    shortening = torque = bending = torque_size = steepest = widest = 0.0
+    shortening = torque = bending = torque_size = sharpest = widest = steepest = 0.0
     for q in range(weights.size):
         start = q // per_element
         y = y1 = y2 = 0.0
@@ -48,33 +52,37 @@ def _totals(table, weights, elements, c, clearance, lateral_weight):
         torque -= w * lateral
         bending += 0.5 * w * omega2 * omega2
         torque_size += w * abs(lateral)
-        steepest = max(steepest, abs(omega2))
+        sharpest = max(sharpest, abs(omega2))
         widest = max(widest, abs(y / clearance))
-    return shortening, torque, bending, torque_size, steepest, widest
+        steepest = max(steepest, abs(y1))
+    return shortening, torque, bending, torque_size, sharpest, widest, steepest
 
 
 def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
-    """Return the :class:`Measured` numbers of a state and the scales of their errors, (7,) each."""
+    """Return the :class:`Measured` numbers of a state and the scales of their errors, (8,) each, STEEPEST last."""
     space = state.space
     p = family.parameters(state.lam)
     clearance = p[CLEARANCE]
-    shortening, torque, bending, torque_size, steepest, widest = _totals(
+    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
         space.table, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT]
     )
     _, values, lowest = pressure_maxima(family, state)
     ends = space.evaluate(state.c, np.array([0.0, 0.5, 1.0]), 3)
     highest = values.max()
     omega2 = -ends[2] / np.sqrt(1.0 - ends[1] ** 2)
-    numbers = np.array([highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque])
+    numbers = np.array(
+        [highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque, steepest]
+    )
     scales = np.array(
         [
             max(abs(highest), abs(lowest)),
             max(abs(state.energy), bending),
             shortening,
-            steepest,
-            steepest,
+            sharpest,
+            sharpest,
             widest,
             torque_size,
+            np.inf,
         ]
     )
     scales[scales == 0.0] = 1.0  # numbers that vanish identically: the straight rod, no lateral weight

@@ -67,6 +67,7 @@ def _progress(show: bool) -> Iterator[Progress]:
 def _summary(answer: Answer, folder: Path) -> None:
     """What a person reads in ten seconds, then the key figures."""
     from rich.console import Console  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
@@ -76,8 +77,8 @@ def _summary(answer: Answer, folder: Path) -> None:
 
     console = Console(highlight=False)
     text = sentences(answer)
-    body = f"[bold]{text[0]}[/bold]\n\n" + "\n".join(f"• {line}" for line in text[1:])
-    console.print(Panel(body, title=answer.case.title, title_align="left", border_style="blue"))
+    body = f"[bold]{escape(text[0])}[/bold]\n\n" + "\n".join(f"• {escape(line)}" for line in text[1:])
+    console.print(Panel(body, title=escape(answer.case.title), title_align="left", border_style="blue"))
     problem = answer.case.problem
     console.print(
         f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
@@ -103,4 +104,4 @@ def _summary(answer: Answer, folder: Path) -> None:
     console.print(table)
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
-    console.print(f"\nWritten to [bold]{folder}[/bold]: " + ", ".join(FILES) + ", figures as PNG")
+    console.print(f"\nWritten to [bold]{escape(str(folder))}[/bold]: " + ", ".join(FILES) + ", figures as PNG")

@@ -50,6 +50,7 @@ class Stepping:
     largest: float
     smallest: float = 1e-7
     most_points: int = 2000
+    most_work: float = np.inf  # elements times solves
     sharpest_turn: float = 0.35  # radians between successive tangents
 
 
@@ -82,8 +83,13 @@ def trace(
     result = Trace([start], [ladder])
     length = stepping.first
     bend: tuple[FloatArray, float] | None = None
+    work = 0.0
     while True:
         last, ladder = result.points[-1], result.ladders[-1]
+        work += 4.0 * ladder.fine.space.elements  # about that many solves a step
+        result.end = _limit(result, work, stepping)
+        if result.end:
+            return result
         why, new_ladder, point, turn = _step(ladder, last.coarse, length, bend, stepping)
         found: list[Found] = []
         if point is not None:
@@ -118,15 +124,21 @@ def trace(
         result.ladders.append(new_ladder)
         if progress is not None:
             progress(point)
-        if len(result.points) >= stepping.most_points:
-            result.end = f"the limit of {stepping.most_points} points was reached"
-            return result
         travelled = last.coarse.along(point.coarse)
         bend = (
             (point.coarse.tangent - last.coarse.tangent) / travelled,
             (point.coarse.tangent_lam - last.coarse.tangent_lam) / travelled,
         )
         length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
+
+
+def _limit(result: Trace, work: float, stepping: Stepping) -> str:
+    """Why the branch must end here, or ""."""
+    if work > stepping.most_work:
+        return "the work allowed for one branch is used up: ask for less far, or for a larger rtol"
+    if len(result.points) >= stepping.most_points:
+        return f"the limit of {stepping.most_points} points was reached"
+    return ""
 
 
 def _step(

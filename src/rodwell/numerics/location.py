@@ -129,7 +129,8 @@ def index_crossings(coarse: Span, fine: Span) -> list[tuple[float, State, State,
     """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
 
     A change by one that stands alone is then located as a zero of the eigenvalue that crosses, which is
-    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
+    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one. What
+    the other mesh does not confirm is round-off (eigenvalues that are exponentially small) and left out.
 
     Each item: place t, states on both meshes, index before and after, error of λ, and whether the place is a
     fold (λ turns back there) rather than a branch point.
@@ -137,8 +138,11 @@ def index_crossings(coarse: Span, fine: Span) -> list[tuple[float, State, State,
     out = []
     for low, high, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
         place = _crossing(fine, low, high)
+        try:
+            other = _near(_Crossing(coarse, place), place, rising=after < before) if high > low else place
+        except LocationError:
+            continue  # seen on one mesh only: an eigenvalue that vanishes to round-off, not a crossing
         fold = fine(place - FOLD_OFFSET).tangent_lam * fine(place + FOLD_OFFSET).tangent_lam < 0.0
-        other = _near(_Crossing(coarse, place), place, rising=after < before) if high > low else place
         states = coarse(other), fine(place)
         out.append((place, *states, (before, after), abs(states[0].lam - states[1].lam), fold))
     return out

@@ -261,11 +261,11 @@ def _reach(case: Case, critical: CriticalLoads, to_lift_off: Branch) -> float:
 def _check_reached(case: Case, branch: Branch, until: float) -> None:
     if branch.reached_end or case.until is None:
         return
-    unit = "B/L²"
-    factor = 1.0
+    unit, factor = "B/L²", 1.0
     if case.scales is not None:
         unit, factor = "N", case.scales.factor("force")
     raise NotConvergedError(
-        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 ends at "
-        f"{branch.force[-1] * factor:.6g} {unit} ({branch.ended_because}); give a load.until above that"
+        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
+        f"{branch.force.min() * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
+        "give a load.until above that"
     )

@@ -86,7 +86,7 @@ class Case:
         """
         file = Path(path)
         try:
-            text = file.read_text(encoding="utf-8")
+            text = file.read_text(encoding="utf-8-sig")
         except FileNotFoundError:
             near = difflib.get_close_matches(file.name, _siblings(file), n=1)
             hint = f"; did you mean {str(file.with_name(near[0]))!r}?" if near else ""
@@ -95,17 +95,23 @@ class Case:
             raise InputError("case file", str(file), "is a folder; name a TOML file in it") from None
         except UnicodeDecodeError:
             raise InputError("case file", str(file), "is not text in UTF-8; case files are TOML") from None
-        except OSError as problem:
-            raise InputError("case file", str(file), f"cannot be read: {problem.strerror}") from None
+        except (OSError, ValueError) as problem:
+            reason = getattr(problem, "strerror", None) or str(problem)
+            raise InputError("case file", str(file), f"cannot be read: {reason}") from None
         try:
             data = tomllib.loads(text)
         except tomllib.TOMLDecodeError as problem:
-            raise InputError("case file", str(file), f"is not valid TOML: {problem}") from None
+            hint = '; quantities and text stand in quotes, for example length = "30 m"'
+            raise InputError("case file", str(file), f"is not valid TOML: {problem}{hint}") from None
+        except (ValueError, RecursionError):
+            raise InputError("case file", str(file), "is not valid TOML: a number or a nesting too large") from None
         return cls.from_dict(data, source=file.name, text=text)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], *, source: str = "case", text: str = "") -> Case:
         """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`."""
+        if not isinstance(data, Mapping):
+            raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
         try:
             parsed = schema.CaseFile.model_validate(dict(data))
         except ValidationError as problem:
@@ -115,7 +121,15 @@ class Case:
         except CaseError:
             raise
         except InputError as problem:
-            raise CaseError(source, [(problem.field, problem.value, problem.problem)]) from None
+            value = _as_written(data, problem.field, problem.value)
+            raise CaseError(source, [(problem.field, value, problem.problem)]) from None
+
+
+def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
+    """What the user wrote for a key, rather than what became of it; None stays None."""
+    section, _, key = field.partition(".")
+    written = data.get(section)
+    return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
 
 
 def _siblings(file: Path) -> list[str]:
@@ -129,7 +143,7 @@ def _explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple
     """Validation errors in the user's words: (key, value, what to do)."""
     out: list[tuple[str, object, str]] = []
     for item in error.errors():
-        where = ".".join(str(part) for part in item["loc"])
+        where = ".".join(str(part) or "''" for part in item["loc"])
         value = item["input"]
         kind, text = item["type"], item["msg"]
         if kind == "extra_forbidden":
@@ -140,8 +154,10 @@ def _explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple
             out.append((where, value, f"must be a section: write [{where}] with its keys below it"))
         elif kind == "value_error":
             out.append((where, value, text.removeprefix("Value error, ")))
-        elif kind.startswith("int"):
-            out.append((where, value, "must be a whole number"))
+        elif kind.startswith("int") or kind in ("greater_than_equal", "less_than_equal"):
+            out.append((where, value, f"must be a whole number from 1 to {schema.MOST_MODES}"))
+        elif kind.startswith("float"):
+            out.append((where, value, "must be a number"))
         elif kind.startswith("string"):
             out.append((where, value, "must be text in quotes"))
         else:
@@ -260,7 +276,12 @@ def _physical(rod: schema.Rod | None, hole: schema.Hole | None, twist: float) ->
             "clearance": "hole.diameter",
         }
         name = names.get(found.field, found.field)
-        what = f"γ = {found.value:g} {found.problem}" if found.field == "weight" else found.problem
+        what = found.problem
+        if found.field == "weight":
+            what = (
+                f"makes γ = mg L³/B = {weight / scales.factor('force_per_length'):g}, which {what}: check the units of "
+            )
+            what += "length, weight or density, stiffness or diameters, and gravity"
         raise InputError(name, None if found.field == "weight" else found.value, what) from None
     return problem, scales
 

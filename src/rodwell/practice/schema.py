@@ -45,6 +45,10 @@ Acceleration = Annotated[float, _quantity("acceleration", least=0.0)]
 Number = Annotated[float, BeforeValidator(_plain)]
 
 
+MOST_MODES = 12
+"""Branches that one case may ask for."""
+
+
 class Section(BaseModel):
     """Base of all sections: unknown keys are refused, values are not changed after reading."""
 
@@ -100,7 +104,7 @@ class DimensionlessLoad(Section):
 class Analysis(Section):
     """[analysis]: what is computed, and how exactly."""
 
-    modes: int = Field(default=4, strict=True, ge=1, le=12)
+    modes: int = Field(default=4, strict=True, ge=1, le=MOST_MODES)
     rtol: Number = 1e-8
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from typing import Any
 
@@ -18,6 +19,17 @@ KINDS: dict[str, tuple[str, str]] = {
     "acceleration": ("m/s^2", '"9.80665 m/s^2"'),
 }
 """Kinds of quantity that case files hold: SI unit, and examples for messages."""
+
+SMALLEST, LARGEST = 1e-20, 1e20
+"""Sizes in SI units that no quantity of a case reaches."""
+
+LONGEST_TEXT = 60
+
+_QUANTITY = re.compile(
+    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:nan|inf(?:inity)?))"  # the number
+    r"((?:\s*[*/]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
+    re.IGNORECASE,
+)
 
 
 @cache
@@ -46,13 +58,14 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError(f"needs a unit: write it as text, for example {examples}")
     if not isinstance(text, str):
         raise ValueError(f"must be text with a number and a unit, for example {examples}")
+    number, unit_text = _split(text, examples)
     import pint  # noqa: PLC0415
 
     try:
-        quantity = _registry().Quantity(text)
-    except pint.UndefinedUnitError as problem:
-        raise ValueError(f"unknown unit {problem.unit_names!r}; write for example {examples}") from None
-    except Exception:  # pint raises many kinds for text that is no quantity
+        quantity = _registry().Quantity(number, unit_text or "dimensionless")
+    except pint.UndefinedUnitError:
+        raise ValueError(f"unknown unit {unit_text!r}; write for example {examples}") from None
+    except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"is not a number with a unit; write for example {examples}") from None
     if kind == "angle" and quantity.dimensionless and quantity.unitless:
         raise ValueError(f"needs a unit: write for example {examples}")
@@ -66,7 +79,18 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError(f"is not a single number with a unit; write for example {examples}") from None
     if not math.isfinite(value):
         raise ValueError("must be finite")
+    if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+        raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
     return value
+
+
+def _split(text: str, examples: str) -> tuple[float, str]:
+    """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
+    found = _QUANTITY.fullmatch(text) if len(text) <= LONGEST_TEXT else None
+    if found is None:
+        comma = "a decimal point, not a comma, " if "," in text else ""
+        raise ValueError(f"is not a number with a unit; write {comma}for example {examples}")
+    return float(found[1]), found[2].strip()
 
 
 def _hint(quantity: Any, kind: str) -> str:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import signal
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,25 +16,20 @@ from rodwell.errors import InputError
 
 def check_writable(out: Path) -> None:
     """Raise before any work is done if results could not be written to ``out``."""
-    if out.exists() and not out.is_dir():
-        raise InputError("--out", str(out), "is a file; name a folder")
-    existing = out
-    while not existing.exists():
-        existing = existing.parent
-    if not existing.is_dir():
-        raise InputError("--out", str(out), f"cannot be made: {str(existing)!r} is a file")
     try:
-        with tempfile.TemporaryFile(dir=existing):
+        home = _nearest_folder(out)
+        with tempfile.TemporaryDirectory(dir=home):
             pass
     except OSError as problem:
-        raise InputError("--out", str(out), f"cannot be written ({problem.strerror}); name another folder") from None
+        raise _unwritable(out, problem) from None
 
 
 @contextmanager
 def whole_folder(out: Path) -> Iterator[Path]:
     """Yield a temporary folder whose files move to ``out`` when the block ends well.
 
-    If the block raises, or is interrupted, ``out`` stays as it was. Other files in ``out`` are kept.
+    If the block raises, or is interrupted, ``out`` stays as it was (and is not made). Other files in ``out``
+    are kept.
 
     Raises
     ------
@@ -40,17 +38,62 @@ def whole_folder(out: Path) -> Iterator[Path]:
     """
     out = out.absolute()
     try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(prefix=f".{out.name}-", dir=out.parent))
+        temporary = Path(tempfile.mkdtemp(prefix=f".{out.name[:40]}-", dir=_nearest_folder(out)))
     except OSError as problem:
-        raise InputError("--out", str(out), f"cannot be written ({problem.strerror}); name another folder") from None
+        raise _unwritable(out, problem) from None
     try:
         yield temporary
-        try:
-            out.mkdir(exist_ok=True)
-            for file in temporary.iterdir():
-                file.replace(out / file.name)
-        except OSError as problem:
-            raise InputError("--out", str(out), f"cannot be written ({problem.strerror})") from None
+        with _undisturbed():
+            _move(temporary, out)
+    except OSError as problem:
+        raise _unwritable(out, problem) from None
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _nearest_folder(out: Path) -> Path:
+    """``out`` itself if it exists, else the nearest folder above it that does."""
+    place = out.absolute()
+    while not place.exists():
+        place = place.parent
+    if not place.is_dir():
+        what = "is a file; name a folder" if place == out.absolute() else f"cannot be made: {str(place)!r} is a file"
+        raise InputError("--out", str(out), what)
+    return place
+
+
+def _move(temporary: Path, out: Path) -> None:
+    """Move all files; nothing is touched if something stands in the way of one."""
+    files = list(temporary.iterdir())
+    for file in files:
+        if (out / file.name).is_dir():
+            raise InputError("--out", str(out), f"holds a folder {file.name!r}, which stands in the way of a result")
+    out.mkdir(parents=True, exist_ok=True)
+    for file in files:
+        file.replace(out / file.name)
+    _open_to_others(out, [file.name for file in files])
+
+
+def _open_to_others(out: Path, names: list[str]) -> None:
+    """Give result files the permissions of ordinary new files."""
+    mask = os.umask(0)
+    os.umask(mask)
+    for name in names:
+        (out / name).chmod(0o666 & ~mask)
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Hold back Ctrl-C for the moment in which files are moved."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _unwritable(out: Path, problem: OSError) -> InputError:
+    return InputError("--out", str(out), f"cannot be written ({problem.strerror}); name another folder, or make room")
