@@ -92,6 +92,19 @@ class Solution:
         return values[1], abs(values[1] - values[0]) / CLAIMED_GAIN, places[1]
 
     @cached_property
+    def end_reactions(self) -> dict[str, tuple[float, float]]:
+        """What the clamp at s = 1 exerts on the rod across the axis, each with its error estimate.
+
+        ``shear``: force F₃(1) = ω₂′(1) in B/L², along u₁; ``moment``: bending moment M₂(1) = ω₂(1) in B/L, about d₁.
+        The axial force there is F, the twisting moment −T₁.
+        """
+        coarse, fine = (braid.end_force(*f.end_reactions(state), f.parameters(state.lam)) for f, state in _levels(self))
+        return {
+            "shear": (fine.shear, abs(fine.shear - coarse.shear) / CLAIMED_GAIN),
+            "moment": (fine.omega2, abs(fine.omega2 - coarse.omega2) / CLAIMED_GAIN),
+        }
+
+    @cached_property
     def total_wall_force(self) -> tuple[float, float]:
         """∫|p| ds, the contact force with all directions added, and its error estimate."""
         totals = [_total(f, state) for f, state in _levels(self)]

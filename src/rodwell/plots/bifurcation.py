@@ -28,7 +28,8 @@ def plot_bifurcation(
     """Draw ω₂(1) against the end compression −F at s = 1 for a set of branches; return the axes.
 
     Stable parts (under dead loads, for a rod kept on the wall) are thick, unstable ones thin and dashed. Both arms
-    of each pitchfork are drawn; beyond lift-off the lines are pale, since the wall would have to pull.
+    of each pitchfork are drawn (with end twist, the one followed); beyond lift-off the lines are pale, since the wall
+    would have to pull.
     """
     ax = new_axes() if ax is None else ax
     top = max(float(np.max(np.abs(b.numbers(Measured.OMEGA2_1)))) for b in branches)
@@ -70,7 +71,7 @@ def _branch(ax: Any, branch: Branch, fx: float, fy: float) -> None:
     for start, stop in zip(starts, [*starts[1:], len(style)], strict=True):
         part = slice(start, stop + 1)
         solid = stable[start + 1]
-        for sign in (1.0, -1.0):
+        for sign in _arms(branch):
             ax.plot(
                 x[part] * fx, sign * y[part] * fy, color=color, lw=2.2 if solid else 1.0,
                 alpha=0.35 if beyond[start + 1] else 1.0, ls="-" if solid else (0, (5, 2)), solid_capstyle="butt",
@@ -117,6 +118,11 @@ def _labels(ax: Any, branches: Sequence[Branch], fx: float, fy: float, height: f
         last = place
 
 
+def _arms(branch: Branch) -> tuple[float, ...]:
+    """Signs of the arms that are known: without twist, the other arm is the mirror image."""
+    return (1.0, -1.0) if branch.problem.twist == 0.0 else (1.0,)
+
+
 def _color(branch: Branch) -> str:
     assert branch.mode is not None
     return MODES[(branch.mode.number - 1) % len(MODES)]
@@ -130,7 +136,7 @@ def _special(ax: Any, branch: Branch, fx: float, fy: float) -> set[str]:
             continue
         seen.add(point.kind)
         y = point.solution.number(Measured.OMEGA2_1)[0] * fy
-        for sign in (1.0, -1.0) if y != 0.0 else (1.0,):
+        for sign in _arms(branch) if y != 0.0 else (1.0,):
             ax.plot(
                 -point.force * fx,
                 sign * y,

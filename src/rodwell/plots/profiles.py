@@ -119,6 +119,9 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     ax.set_xlim(0.0, fs)
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
     ax.set_ylabel(f"twisting moment T₂\nin the cylinder  [{ut}]")
+    if not any(np.any(curve) for curve in curves):
+        ax.set_yticks([0.0])
+        ax.text(0.5, 0.6, "none: no lateral weight", color=GREY, ha="center", transform=ax.transAxes)
     if legend:
         _legend(ax)
     return ax

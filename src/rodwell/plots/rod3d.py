@@ -45,6 +45,7 @@ def plot_rod(solution: Solution, scales: Scales | None = None, ax: Any = None) -
         ax.add_collection3d(rod)
         ff, uf = axis("force", scales, solution.force)
         bar = ax.figure.colorbar(rod, cax=ax.figure.add_axes((0.88, 0.2, 0.02, 0.6)))
+        bar.ax.set_yscale("linear")
         bar.ax.grid(visible=False)
         bar.set_label(f"contact pressure p  [{up}]")
         ax.set_box_aspect((ASPECT, 1.0, 1.0), zoom=0.88)

@@ -188,6 +188,10 @@ def _state_figures(state: Solution) -> list[Figure]:
             "none: the twisting moment balances itself" if self_balanced else "",
         ),
         largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|"),
+        Figure("end_shear", "Sideways force at the clamped end s = 1, F₃(1)", *state.end_reactions["shear"], "force"),
+        Figure(
+            "end_moment", "Bending moment at the clamped end s = 1, M₂(1)", *state.end_reactions["moment"], "moment"
+        ),
         Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length"),
     ]
 

@@ -56,7 +56,7 @@ def _mode(answer: Answer) -> str:
     first = answer.critical[0]
     y = first.shape(np.linspace(0.0, 1.0, 2001))[1:-1]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
-    shape = {1: "symmetric", -1: "antisymmetric", 0: "unsymmetric (inclination)"}[first.parity]
+    shape = {1: "symmetric", -1: "antisymmetric", 0: "unsymmetric (axial weight)"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
     if len(answer.critical) > 1:
@@ -120,7 +120,7 @@ def _wall(answer: Answer) -> str:
         figure = figures[name]
         physical = figure.physical(answer.case)
         if physical is None or scales is None:
-            return f"{figure.value:.4g} {unit}"
+            return f"{figure.value:.4g} {unit}".replace("-", "−")
         return readable(physical[0], physical[2])
 
     torque = figures["support_torque"]
