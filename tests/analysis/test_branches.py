@@ -234,3 +234,35 @@ def test_largest_values_lie_between_grid_points() -> None:
         assert value >= np.max(np.abs(fields[name])) * (1.0 - 1e-12)
         assert error < 1e-7 * value
         assert np.abs(state.fields(np.array([place]))[name][0]) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("weight", [5.0, 8.0, 16.0, 16.5, 18.0, 25.0, 40.0, 60.0, 200.0])
+def test_located_points_meet_the_tolerance_too(weight: float) -> None:
+    branch = follow(Problem(weight))
+    assert branch.converged
+    assert all(point.solution.converged for point in branch.special_points)
+
+
+def test_forces_asked_for_are_met_exactly() -> None:
+    assert follow(Problem(15.0), until=-200.0).force[-1] == -200.0
+    assert equilibrium(Problem(15.0, turns=1), -160.0).force == -160.0
+
+
+@pytest.mark.parametrize(
+    ("weight", "mode", "odd"), [(5.0, 2, True), (15.0, 1, True), (5.0, 1, False), (15.0, 2, False)]
+)
+def test_which_twist_delays_lift_off(weight: float, mode: int, odd: bool) -> None:
+    """Paper, section 4.2, by mode and arm: T₁ > 0 delays lift-off of odd modes on the arm with ω₂(1) > 0 only."""
+
+    def lift_off(twist: float, mirror: bool) -> float:
+        point = follow(Problem(weight, twist=twist), mode, mirror=mirror).lift_off
+        assert point is not None
+        return point.force
+
+    plain = lift_off(0.0, mirror=False)
+    if odd:
+        assert lift_off(0.5, mirror=True) < plain < lift_off(0.5, mirror=False)
+        assert lift_off(-0.5, mirror=False) == pytest.approx(lift_off(0.5, mirror=True), rel=1e-7)
+    else:
+        assert lift_off(0.5, mirror=False) == pytest.approx(lift_off(-0.5, mirror=False), rel=1e-7)
+        assert plain < lift_off(0.5, mirror=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -182,12 +182,10 @@ class Branch:
         _, first = ladder.adopt(self._trace.ladders[i], self._trace.points[i])
         if first is None:
             raise LocationError("the point before it could not be solved on a finer mesh")
-        states = []
-        for family, a, b in ((ladder.coarse, first.coarse, last.coarse), (ladder.fine, first.fine, last.fine)):
-            near = Span(family, a, b).at_lam(force)
-            _, exact, _ = family.at(near.c, force)
-            states.append(near if exact is None else exact)
-        return Solution(self.problem, ladder.point(*states), ladder)
+        coarse = Span(ladder.coarse, first.coarse, last.coarse).at_lam(force)
+        fine = Span(ladder.fine, first.fine, last.fine).at_lam(force)
+        near = ladder.point(coarse, fine)
+        return Solution(self.problem, ladder.at(near, force) or near, ladder)
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -294,7 +292,7 @@ def follow(
         events.pop(0)  # lift-off coincides with buckling
         if until is None:
             stepping = Stepping(first=length, largest=length, most_points=2)
-    result = trace(ladder, point, stepping, events, _reporting(progress))
+    result = _end_exactly(trace(ladder, point, stepping, events, _reporting(progress)), limit)
     if until is None and problem.lateral_weight == 0.0 and len(result.points) > 1:
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
@@ -321,6 +319,16 @@ def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
 
 def _reporting(progress: Progress | None) -> Callable[[Point], None] | None:
     return None if progress is None else lambda point: progress(point.lam)
+
+
+def _end_exactly(result: Trace, force: float) -> Trace:
+    """Put the end of a branch that reached its end force exactly there."""
+    if result.end == END:
+        last = result.ladders[-1].at(result.points[-1], force)
+        if last is not None:
+            result.points[-1] = last
+            result.found[-1] = replace(result.found[-1], point=last)
+    return result
 
 
 def _at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float) -> tuple[Ladder, Point]:
@@ -362,5 +370,5 @@ def _follow_from(
         Event(END, lambda lam, _: lam - until, stop=True),
     ]
     stepping = Stepping(first=min(0.02, largest_step), largest=largest_step, most_work=MOST_WORK)
-    result = trace(start.ladder, point, stepping, events, _reporting(progress))
+    result = _end_exactly(trace(start.ladder, point, stepping, events, _reporting(progress)), until)
     return Branch(problem, None, result, result.end == END, result.end)

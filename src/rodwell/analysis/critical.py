@@ -85,7 +85,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     count
         How many, 1 to 200.
     rtol
-        Relative tolerance; the error is judged against |F| + γ cos α + 4π².
+        Relative tolerance; the error is judged against abs(F) + γ cos α + 4π².
 
     Returns
     -------

@@ -59,7 +59,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
-    return Solution(problem, point, ladder)
+    return Solution(problem, ladder.at(point, force) or point, ladder)
 
 
 def _winding(problem: Problem, family: Family) -> FloatArray:

@@ -87,6 +87,12 @@ class Ladder:
         error = np.abs(values - other) / CLAIMED_GAIN
         return Point(coarse, fine, values, error, float(np.max(error / scales)) / self.rtol)
 
+    def at(self, point: Point, lam: float) -> Point | None:
+        """Solve both meshes at exactly λ = ``lam``, from a point close to it; None if that fails."""
+        _, coarse, _ = self.coarse.at(point.coarse.c, lam)
+        _, fine, _ = self.fine.at(point.fine.c, lam)
+        return None if coarse is None or fine is None else self.point(coarse, fine)
+
     def resolve(self, coarse: State) -> tuple[Outcome, Ladder, Point | None]:
         """Complete a coarse state to a point within the tolerance, refining as often as that takes.
 

@@ -94,8 +94,8 @@ def locate(
 ) -> tuple[float, State, State, float]:
     """Zero of an event function of λ and the measured numbers on both meshes.
 
-    ``ends`` are its values, of opposite sign, at the ends of the fine span. Returns the place t, the states
-    on the coarse and the fine mesh, each at its own zero, and the error of λ.
+    ``ends`` are its values, of opposite sign, at the ends of the fine span. Returns the place t on the fine mesh, the
+    states there on the coarse and the fine mesh, and how far apart in λ the zeros of the two meshes are.
     """
 
     def value(span: Span, t: float) -> float:
@@ -104,8 +104,8 @@ def locate(
 
     place = bracketed_root(lambda t: value(fine, t), 0.0, 1.0, *ends)
     other = _near(lambda t: value(coarse, t), place, ends[1] > ends[0])
-    states = coarse(other), fine(place)
-    return place, *states, abs(states[0].lam - states[1].lam)
+    here = fine(place)
+    return place, coarse(place), here, abs(coarse(other).lam - here.lam)
 
 
 def _near(function: Callable[[float], float], place: float, rising: bool) -> float:
@@ -143,8 +143,8 @@ def index_crossings(coarse: Span, fine: Span) -> list[tuple[float, State, State,
         except LocationError:
             continue  # seen on one mesh only: an eigenvalue that vanishes to round-off, not a crossing
         fold = fine(place - FOLD_OFFSET).tangent_lam * fine(place + FOLD_OFFSET).tangent_lam < 0.0
-        states = coarse(other), fine(place)
-        out.append((place, *states, (before, after), abs(states[0].lam - states[1].lam), fold))
+        here = fine(place)
+        out.append((place, coarse(place), here, (before, after), abs(coarse(other).lam - here.lam), fold))
     return out
 
 

@@ -1,0 +1,68 @@
+"""Sphinx configuration. Everything that the pages quote from the program is produced while they are built."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+import make_pages  # noqa: E402 - beside this file
+
+from rodwell import __version__  # noqa: E402
+
+project = "rodwell"
+author = "The rodwell developers"
+copyright = author
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.viewcode",
+]
+exclude_patterns = ["_build", "_generated", "Thumbs.db", ".DS_Store"]
+highlight_language = "none"
+smartquotes_action = "D"  # dashes only: primes are derivatives
+
+# Mathematics without a network: one file of the bundled MathJax, which draws with outlines and loads no fonts.
+_bundle = importlib.util.find_spec("sphinx-mathjax-offline")
+if _bundle is None or not _bundle.submodule_search_locations:
+    raise RuntimeError("sphinx-mathjax-offline is missing: pip install '.[docs]'")
+mathjax_path = "tex-svg.js"
+mathjax3_config = {"svg": {"scale": 0.92}}
+html_static_path = ["_static", str(Path(_bundle.submodule_search_locations[0], "static", "mathjax", mathjax_path))]
+
+html_theme = "furo"
+html_title = f"rodwell {version}"
+html_css_files = ["rodwell.css"]
+html_copy_source = html_show_sourcelink = False
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "substitution"]
+myst_heading_anchors = 3
+myst_substitutions = make_pages.build()
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_type_aliases = {"FloatArray": "FloatArray"}
+napoleon_google_docstring = False
+napoleon_attr_annotations = False
+
+
+def _colons(app, what, name, obj, options, lines):
+    """Before napoleon: what stands before a colon in the first line of a property is not its type."""
+    if what in ("attribute", "property") and lines:
+        lines[0] = lines[0].replace(": ", " – ")
+
+
+def _absolute_values(app, what, name, obj, options, lines):
+    """Bars around a symbol are absolute values in docstrings, not substitutions."""
+    lines[:] = [re.sub(r"\|(\w[^|\s]*)\|", r"\\|\1\\|", line) for line in lines]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", _colons, priority=400)
+    app.connect("autodoc-process-docstring", _absolute_values, priority=600)

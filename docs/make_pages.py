@@ -1,0 +1,211 @@
+"""Parts of the pages that come from the program itself, written to ``_generated`` before each build.
+
+Tables (nomenclature, case file), the output of the commands and of the examples that the pages show, and the
+pictures of the drill-string case. Nothing of it is kept under version control.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import runpy
+import shutil
+from pathlib import Path
+from typing import Any
+
+from click.testing import CliRunner
+
+import rodwell
+from rodwell.analysis import nomenclature
+from rodwell.cli.main import cli
+from rodwell.practice import schema
+from rodwell.practice.case import SECTIONS
+from rodwell.practice.units import KINDS, readable
+
+HERE = Path(__file__).resolve().parent
+OUT = HERE / "_generated"
+RESULTS = OUT / "results" / "drill-string"
+
+COMMANDS = {
+    "run": "run examples/drill-string.toml",
+    "critical": "critical --weight 15 --alpha 90",
+    "liftoff": "liftoff --weight 15 --alpha 90",
+    "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
+}
+
+PRETTY = {
+    "1": "1",
+    "rad": "rad",
+    "L": "L",
+    "1/L": "1/L",
+    "B/L": "B/L",
+    "B/L^2": "B/L²",
+    "B/L^3": "B/L³",
+    "N m": "N·m",
+}
+
+
+def build() -> dict[str, str]:
+    """Write everything to ``_generated``; return the numbers that the text quotes, by name."""
+    OUT.mkdir(exist_ok=True)
+    shutil.copytree(HERE.parent / "examples", OUT / "examples", dirs_exist_ok=True)
+    _write("nomenclature.md", nomenclature_tables())
+    _write("case-keys.md", case_keys())
+    _write("twist.md", twist_table())
+    with contextlib.chdir(OUT):
+        for name, line in COMMANDS.items():
+            _write(f"{name}.txt", f"$ rodwell {line}\n{_run(line)}")
+        for example in sorted((HERE / "_examples").glob("*.py")):
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                runpy.run_path(str(example))
+            _write(f"{example.stem}.txt", printed.getvalue())
+    return _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+
+
+def _write(name: str, text: str) -> None:
+    """Write a file only if its text changed, so that an unchanged page is not built again."""
+    file = OUT / name
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        file.write_text(text, encoding="utf-8")
+
+
+def _run(line: str) -> str:
+    result = CliRunner().invoke(cli, line.split(), env={"COLUMNS": "103"}, catch_exceptions=False)
+    if result.exit_code != 0:
+        raise RuntimeError(f"rodwell {line} ended with {result.exit_code}: {result.output}")
+    return "\n".join(row.rstrip() for row in result.output.splitlines()) + "\n"
+
+
+def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    lines = [head, ("---",) * len(head), *rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
+
+
+def nomenclature_tables() -> str:
+    """The fields along the rod and the numbers of one state, as two tables."""
+    parts = []
+    titles = {"Fields along the rod": nomenclature.FIELDS, "Numbers of one state": nomenclature.SCALARS}
+    for title, names in titles.items():
+        rows = []
+        for name in names:
+            q = nomenclature.QUANTITIES[name]
+            unit = PRETTY[nomenclature.UNITS[q.dimension]]
+            si = nomenclature.SI_UNITS[q.dimension]
+            rows.append((q.symbol, f"`{q.name}`", q.meaning, unit, PRETTY.get(si, si), q.equation))
+        head = ("Symbol", "Name in code", "Meaning", "Unit", "SI", "Equation")
+        parts.append(f"## {title}\n\n{_table(head, rows)}")
+    return "\n".join(parts)
+
+
+def twist_table() -> str:
+    """Lift-off loads without and with end twist, on both arms."""
+    rows = []
+    for weight, mode in ((15, 1), (5, 2), (5, 1), (15, 2)):
+        problem = rodwell.Problem(weight, alpha=90)
+        plain = rodwell.follow(problem, mode)
+        arms = [rodwell.follow(problem.but(twist=0.5), mode, mirror=mirror) for mirror in (False, True)]
+        parity = {1: "even", -1: "odd"}[plain.mode.parity]
+        loads = [f"{branch.lift_off.force:.4f}".replace("-", "−") for branch in (plain, *arms)]
+        rows.append((f"{weight}, mode {mode}", parity, *loads))
+    head = ("γ, mode", "y", "lift-off, T₁ = 0", "T₁ = 0.5, arm ω₂(1) < 0", "T₁ = 0.5, arm ω₂(1) > 0")
+    return _table(head, rows)
+
+
+def _branch_point(weight: float, mode: int, until: float) -> str:
+    """Load of the first secondary bifurcation of a mode's branch, horizontal cylinder."""
+    branch = rodwell.follow(rodwell.Problem(weight, alpha=90), mode, until=until)
+    point = next(p for p in branch.special_points if p.kind == "branch_point")
+    return f"{point.force:.6f} B/L², where its stability index goes from {point.index_before} to {point.index_after}"
+
+
+MEANINGS: dict[str, dict[str, str]] = {
+    "rod": {
+        "length": "length L between the clamped ends; required",
+        "outer_diameter": "needed with `youngs_modulus`, `density` or `hole.diameter`",
+        "inner_diameter": "0 (solid) if not given",
+        "youngs_modulus": "with the diameters gives the bending stiffness",
+        "bending_stiffness": "B = EI, instead of `youngs_modulus`",
+        "density": "of the material; with diameters and gravity gives the weight",
+        "weight_per_length": "mg, instead of `density` (may be zero)",
+        "poisson": "Poisson's ratio ν, from above −1 to 0.5",
+    },
+    "hole": {
+        "diameter": "inner diameter of the hole; with the rod's outer diameter gives the clearance",
+        "clearance": "Δ, from axis to axis, instead of `diameter`",
+        "angle_from_vertical": "inclination α, from `0 deg` (vertical) to `90 deg` (horizontal)",
+        "angle_from_horizontal": "instead of `angle_from_vertical`; one of the two is required",
+        "gravity": "used with `density`",
+    },
+    "dimensionless": {
+        "weight": "γ = mg L³/B; required",
+        "alpha": "inclination α from the vertical, in degrees",
+        "clearance": "Δ/L",
+        "poisson": "Poisson's ratio ν",
+    },
+    "load": {
+        "until": "end force at s = 1 to which branches are followed, **tension positive** (compression negative); "
+        "chosen from the loads found if not given",
+        "twist": "end twisting moment T₁, a dead load",
+    },
+    "analysis": {
+        "modes": "how many buckling modes, 1 to 12",
+        "rtol": "relative tolerance of every number, 1e-11 to 1e-2",
+    },
+}
+
+
+def case_keys() -> str:
+    """Every key of a case file: one table for each section; the schema says which keys there are."""
+    kinds = {"Number": "number", "int": "whole number", "InnerLength": "length", "Stiffness": "bending stiffness"}
+    kinds |= {"ForcePerLength": "force per length"}
+    parts = []
+    for section, model in SECTIONS.items():
+        meanings = MEANINGS[section]
+        if set(meanings) != set(model.model_fields):
+            raise RuntimeError(f"docs/make_pages.py: keys of [{section}] differ from the schema's")
+        rows = []
+        for key, field in model.model_fields.items():
+            alias = str(model.__annotations__[key]).split(" | ")[0]
+            kind = kinds.get(alias, alias.lower())
+            examples = KINDS.get(kind, ("", ""))[1]
+            default = "" if field.default is None or field.is_required() else _default(field.default, kind)
+            rows.append(
+                (f"`{key}`", kind, " ".join(f"`{e}`" for e in examples.split(", ") if e), default, meanings[key])
+            )
+        text = (model.__doc__ or "").partition("\n")[0].partition(": ")[2]
+        parts.append(f"### `[{section}]`\n\n{text[:1].upper()}{text[1:]}\n")
+        parts.append(_table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
+    return "\n".join(parts)
+
+
+def _default(value: Any, kind: str) -> str:
+    unit = KINDS.get(kind, ("", ""))[0].replace("*", " ").replace("^2", "²")
+    return f"{value:g} {unit}".strip()
+
+
+def _numbers(answer: dict[str, Any]) -> dict[str, str]:
+    """Numbers of the drill-string case for the text, in SI and dimensionless."""
+    out = {}
+    for name, figure in answer["figures"].items():
+        si = figure["si"]
+        out[name] = readable(si["value"], si["unit"], 4).replace("N m", "N·m")
+        out[f"{name}_plain"] = f"{figure['value']:.6g} {PRETTY[figure['unit']]}".replace("-", "−")
+    out["compression_1"] = out["critical_load_1"].lstrip("−")
+    out["compression_2"] = out["critical_load_2"].lstrip("−")
+    out["lift_off_compression"] = out["lift_off_load"].lstrip("−")
+    out["gamma"] = f"{answer['problem']['weight']:.6g}"
+    out["certificate"] = f"{answer['certificate']:.0e}".replace("-", "−")
+    force = answer["figures"]["critical_load_1"]
+    unit = force["si"]["value"] / force["value"]
+    out["force_unit"] = readable(unit, "N", 6)
+    second = answer["branches"][1]["special_points"]
+    snap = next(p for p in second if p["kind"] == "branch_point")
+    out["second_stable"] = readable(snap["force"] * unit, "N", 4).lstrip("−")
+    for weight, mode, until in ((15, 1, -400.0), (15, 2, -200.0), (30, 3, -2000.0)):
+        out[f"branch_point_{weight}_{mode}"] = _branch_point(weight, mode, until).replace("-", "−")
+    return out
+
+
+assert {name for name in schema.CaseFile.model_fields if name != "title"} == set(SECTIONS)
