@@ -28,7 +28,7 @@ MOST_WORK = 1.5e6
 LARGEST_FORCE = 1e9
 """Largest end force, in B/L², that may be asked for."""
 
-ELEMENTS_PER_RADIAN = 0.55
+ELEMENTS_PER_RADIAN = 0.85
 
 
 def checked_rtol(rtol: float) -> float:

@@ -19,7 +19,7 @@ from rodwell.analysis.accuracy import (
 )
 from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.families import force_family
-from rodwell.analysis.measures import STEEPEST, Measured, measure
+from rodwell.analysis.measures import STEEPEST, Measured, measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
 from rodwell.numerics.continuation import INDEX, Event, Found, Stepping, Trace, trace
@@ -342,7 +342,7 @@ def _at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool
         wavenumber=mode.wavenumber,
         force_scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
     )
-    ladder = Ladder(family, measure, rtol, MOST_ELEMENTS_OF_BRANCH)
+    ladder = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH)
 
     def straight(on: SplineSpace) -> FloatArray:
         shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]

@@ -6,11 +6,10 @@ import numpy as np
 
 from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol, first_space
 from rodwell.analysis.families import CLAMPED, force_family
-from rodwell.analysis.measures import measure
+from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, Outcome
-from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.minimise import minimise
 from rodwell.numerics.spaces import FloatArray
 from rodwell.problem import Problem
@@ -56,7 +55,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         outcome, coarse, _ = family.at(c, force)
     if outcome is not Outcome.CONVERGED or coarse is None:
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
-    outcome, ladder, point = Ladder(family, measure, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+    outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
     return Solution(problem, ladder.at(point, force) or point, ladder)

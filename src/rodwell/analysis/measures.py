@@ -9,6 +9,7 @@ import numpy as np
 from rodwell.jit import kernel
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT
 
@@ -56,6 +57,15 @@ def _totals(table, weights, elements, c, clearance, lateral_weight):
         widest = max(widest, abs(y / clearance))
         steepest = max(steepest, abs(y1))
     return shortening, torque, bending, torque_size, sharpest, widest, steepest
+
+
+KIN = (slice(Measured.OMEGA2_0, Measured.OMEGA2_1 + 1),)
+"""Measured numbers of one kind: the end curvatures."""
+
+
+def measured_ladder(family: Family, rtol: float, most_elements: int) -> Ladder:
+    """Return the ladder on which states of ``family`` are measured to a tolerance."""
+    return Ladder(family, measure, rtol, most_elements, KIN)
 
 
 def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:

@@ -9,7 +9,7 @@ where that no longer helps (round-off), the point says so.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -64,17 +64,20 @@ class Ladder:
         Relative tolerance.
     most_elements
         Limit to the elements of the finer mesh.
-    floor
-        Excess below which refinement was found not to help (round-off).
+    kin
+        Groups of measured numbers of one kind, which share the largest error of the group: a single number may
+        agree on both meshes by chance.
     """
 
     def __init__(
-        self, family: Family, measure: Measure, rtol: float, most_elements: int = 20_000, floor: float = 1.0
+        self, family: Family, measure: Measure, rtol: float, most_elements: int = 20_000, kin: Sequence[slice] = ()
     ) -> None:
+        self.floor = 1.0  # excess below which refinement was found not to help (round-off)
+        self.kin = kin
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
-        self.measure, self.rtol, self.most_elements, self.floor = measure, rtol, most_elements, floor
+        self.measure, self.rtol, self.most_elements = measure, rtol, most_elements
 
     def lift(self, coarse: State) -> tuple[Outcome, State | None]:
         """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent."""
@@ -85,6 +88,8 @@ class Ladder:
         values, scales = self.measure(self.fine, fine)
         other, _ = self.measure(self.coarse, coarse)
         error = np.abs(values - other) / CLAIMED_GAIN
+        for group in self.kin:
+            error[group] = error[group].max()
         return Point(coarse, fine, values, error, float(np.max(error / scales)) / self.rtol)
 
     def at(self, point: Point, lam: float) -> Point | None:
@@ -133,7 +138,7 @@ class Ladder:
         space = self.coarse.space.refined(marked)
         if 2 * space.elements > self.most_elements:
             return None
-        return Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements)
+        return Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.kin)
 
 
 def _carry(state: State, up: Prolongation, family: Family) -> tuple[Outcome, State | None]:
