@@ -25,8 +25,8 @@ import numpy as np
 from scipy.linalg.lapack import dgbsv
 
 import rodwell
-from rodwell.analysis.branches import follow
 from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.follow import follow
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "drill-string.toml"

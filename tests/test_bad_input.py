@@ -12,9 +12,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rodwell.analysis.branches import Branch, follow
+from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.equilibrium import equilibrium
+from rodwell.analysis.follow import follow
 from rodwell.errors import InputError, NotConvergedError, RodwellError
 from rodwell.practice.answer import answer
 from rodwell.practice.case import SECTIONS, Case, CaseError

@@ -34,15 +34,16 @@ _HOME = {
     "SpecialPoint": "rodwell.analysis.branches",
     "critical_loads": "rodwell.analysis.critical",
     "equilibrium": "rodwell.analysis.equilibrium",
-    "follow": "rodwell.analysis.branches",
+    "follow": "rodwell.analysis.follow",
 }
 
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
-    from rodwell.analysis.branches import Branch, SpecialPoint, follow
+    from rodwell.analysis.branches import Branch, SpecialPoint
     from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.equilibrium import equilibrium
+    from rodwell.analysis.follow import follow
     from rodwell.analysis.solution import Solution
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer

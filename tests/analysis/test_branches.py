@@ -164,11 +164,10 @@ def test_measured_numbers_are_within_their_errors() -> None:
 
 def test_a_tolerance_out_of_reach_is_reported() -> None:
     """With few elements allowed, points do not meet the tolerance, and say so."""
-    from rodwell.analysis import branches
 
     problem = Problem(15.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(branches, "MOST_ELEMENTS_OF_BRANCH", 60)
+        patch.setattr("rodwell.analysis.follow.MOST_ELEMENTS_OF_BRANCH", 60)
         branch = follow(problem, 1, until=-300.0)
     assert branch.reached_end
     assert not branch.converged

@@ -77,7 +77,7 @@ def liftoff(weight: float, alpha: float, clearance: float, mode: int, twist: flo
 
     End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.
     """
-    from rodwell.analysis.branches import follow  # noqa: PLC0415
+    from rodwell.analysis.follow import follow  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem import Problem  # noqa: PLC0415
 

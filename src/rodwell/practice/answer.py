@@ -8,8 +8,9 @@ from functools import cached_property
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.analysis.branches import Branch, SpecialPoint, follow
+from rodwell.analysis.branches import Branch, SpecialPoint
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
+from rodwell.analysis.follow import follow
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
