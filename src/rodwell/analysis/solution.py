@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.families import parameters
 from rodwell.analysis.measures import Measured, pressure_maxima
 from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
+from rodwell.numerics.ladder import Ladder, Point, estimated_error
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics import braid
 from rodwell.physics.strand import contact_pressure
@@ -84,12 +84,12 @@ class Solution:
         """Return :meth:`fields` and :meth:`field_errors` together."""
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
         coarse, fine = (_fields(self.problem, f, state, places) for f, state in _levels(self))
-        return fine, {k: float(np.max(np.abs(fine[k] - coarse[k]))) / CLAIMED_GAIN for k in fine}
+        return fine, {k: float(np.max(estimated_error(fine[k], coarse[k]))) for k in fine}
 
     def largest(self, name: str) -> tuple[float, float, float]:
         """Largest size of a field over s, its error estimate, and where (the first place, if there are more)."""
         values, places = zip(*(_largest(self.problem, f, state, name) for f, state in _levels(self)), strict=True)
-        return values[1], abs(values[1] - values[0]) / CLAIMED_GAIN, places[1]
+        return values[1], float(estimated_error(values[1], values[0])), places[1]
 
     @cached_property
     def end_reactions(self) -> dict[str, tuple[float, float]]:
@@ -100,15 +100,15 @@ class Solution:
         """
         coarse, fine = (braid.end_force(*f.end_reactions(state), f.parameters(state.lam)) for f, state in _levels(self))
         return {
-            "shear": (fine.shear, abs(fine.shear - coarse.shear) / CLAIMED_GAIN),
-            "moment": (fine.omega2, abs(fine.omega2 - coarse.omega2) / CLAIMED_GAIN),
+            "shear": (fine.shear, float(estimated_error(fine.shear, coarse.shear))),
+            "moment": (fine.omega2, float(estimated_error(fine.omega2, coarse.omega2))),
         }
 
     @cached_property
     def total_wall_force(self) -> tuple[float, float]:
         """∫|p| ds, the contact force with all directions added, and its error estimate."""
         totals = [_total(f, state) for f, state in _levels(self)]
-        return totals[1], abs(totals[1] - totals[0]) / CLAIMED_GAIN
+        return totals[1], float(estimated_error(totals[1], totals[0]))
 
     @cached_property
     def certificate(self) -> float:
