@@ -377,6 +377,19 @@ def endless(*arguments, **options):
 module.follow = endless
 """
 
+COMPILED = """
+import rodwell.practice.answer as module
+
+def interrupted(*arguments, **options):  # what a compiled call raises when the signal meets it
+    print("ready", flush=True)
+    try:
+        time.sleep(120)
+    except KeyboardInterrupt as problem:
+        raise SystemError("returned a result with an exception set") from problem
+
+module.follow = interrupted
+"""
+
 WRITING = """
 import rodwell.report.write as module
 
@@ -390,7 +403,7 @@ module.draw = draw
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-@pytest.mark.parametrize("where", [COMPUTING, WRITING], ids=["computing", "writing"])
+@pytest.mark.parametrize("where", [COMPUTING, COMPILED, WRITING], ids=["computing", "compiled", "writing"])
 def test_ctrl_c(place: Path, where: str) -> None:
     with subprocess.Popen(
         [sys.executable, "-c", SCRIPT.format(where=where)],

@@ -43,8 +43,11 @@ def main() -> None:
         problem.show()
         sys.exit(problem.exit_code)
     except (click.Abort, KeyboardInterrupt):
-        click.echo("rodwell: interrupted; nothing was written", err=True)
-        sys.exit(INTERRUPTED)
+        _interrupted()
+    except SystemError as problem:
+        if not _caused_by_interrupt(problem):
+            raise
+        _interrupted()
     except InputError as problem:
         click.echo(f"rodwell: error: {problem}", err=True)
         sys.exit(INPUT_ERROR)
@@ -57,6 +60,20 @@ def main() -> None:
     except OSError as problem:
         click.echo(f"rodwell: error: {problem}", err=True)
         sys.exit(COMPUTATION_ERROR)
+
+
+def _interrupted() -> None:
+    click.echo("rodwell: interrupted; nothing was written", err=True)
+    sys.exit(INTERRUPTED)
+
+
+def _caused_by_interrupt(problem: BaseException | None) -> bool:
+    """Whether Ctrl-C lies behind an error: inside a compiled call it surfaces as the cause of a SystemError."""
+    while problem is not None:
+        if isinstance(problem, KeyboardInterrupt):
+            return True
+        problem = problem.__cause__ or problem.__context__
+    return False
 
 
 if __name__ == "__main__":
