@@ -122,7 +122,7 @@ def _branch_point(weight: float, mode: int, until: float) -> str:
 
 MEANINGS: dict[str, dict[str, str]] = {
     "rod": {
-        "length": "length L between the clamped ends; required",
+        "length": "length L between the ends; required",
         "outer_diameter": "needed with `youngs_modulus`, `density` or `hole.diameter`",
         "inner_diameter": "0 (solid) if not given",
         "youngs_modulus": "with the diameters gives the bending stiffness",
@@ -130,6 +130,7 @@ MEANINGS: dict[str, dict[str, str]] = {
         "density": "of the material; with diameters and gravity gives the weight",
         "weight_per_length": "mg, instead of `density` (may be zero)",
         "poisson": "Poisson's ratio ν, from above −1 to 0.5",
+        "ends": "conditions at s = 0 and s = 1, two of `clamped`, `pinned`, `guided`, `free`",
     },
     "hole": {
         "diameter": "inner diameter of the hole; with the rod's outer diameter gives the clearance",
@@ -143,6 +144,7 @@ MEANINGS: dict[str, dict[str, str]] = {
         "alpha": "inclination α from the vertical, in degrees",
         "clearance": "Δ/L",
         "poisson": "Poisson's ratio ν",
+        "ends": "as in [rod]",
     },
     "load": {
         "until": "end force at s = 1 to which branches are followed, **tension positive** (compression negative); "

@@ -128,7 +128,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "until huge": lambda: follow(Problem(16.5), until=-1e300),
     "until in tension": lambda: follow(Problem(16.5), until=1.0),
     "step": lambda: follow(Problem(16.5), largest_step="x"),  # type: ignore[arg-type]
-    "mode": lambda: follow(Problem(16.5), mode=None),  # type: ignore[arg-type]
+    "mode": lambda: follow(Problem(16.5), mode="1"),  # type: ignore[arg-type]
     "mode of another": lambda: follow(Problem(16.5), critical_loads(Problem(17.0), 1)[0]),
     "force": lambda: equilibrium(Problem(16.5, turns=1), "x"),  # type: ignore[arg-type]
     "clearance": lambda: Problem(16.5, clearance=1e-300),

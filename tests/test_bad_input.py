@@ -433,7 +433,9 @@ BAD_CALLS = [
     pytest.param(lambda: follow(HORIZONTAL, largest_step=-1), "largest_step", "from 0.0001 to 1", id="step-neg"),
     pytest.param(lambda: follow(HORIZONTAL, largest_step=2), "largest_step", "from 0.0001 to 1", id="step-large"),
     pytest.param(lambda: follow(HORIZONTAL, largest_step=NAN), "largest_step", "from 0.0001 to 1", id="step-nan"),
-    pytest.param(lambda: follow(HORIZONTAL.but(on_top=True)), "on_top", "give until", id="on-top-without-until"),
+    pytest.param(
+        lambda: follow(HORIZONTAL.but(on_top=True)), "until", "not pressed to the wall", id="on-top-without-until"
+    ),
     pytest.param(lambda: follow(HORIZONTAL.but(turns=1)), "turns", "turns must be 0", id="follow-coiled"),
     pytest.param(lambda: equilibrium(HORIZONTAL.but(turns=1), NAN), "force", "finite end force", id="force-nan"),
     pytest.param(lambda: equilibrium(HORIZONTAL.but(turns=1), INF), "force", "finite end force", id="force-inf"),
@@ -457,7 +459,7 @@ def test_until_is_the_critical_load(branch: Branch, first_load: float) -> None:
 
 
 def test_start_needs_an_end(branch: Branch) -> None:
-    with pytest.raises(InputError, match=r"^until: is needed to follow a branch from a given state"):
+    with pytest.raises(InputError, match=r"^until: must be given to follow a branch from a given state"):
         follow(HORIZONTAL, start=branch[3])
     with pytest.raises(InputError, match=r"^until = .*must differ"):
         follow(HORIZONTAL, start=branch[3], until=branch[3].force)

@@ -14,9 +14,39 @@ LARGEST_TURNS = 1000
 SMALLEST_CLEARANCE = 1e-7
 
 
+LIMITS = {
+    "weight": (0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
+    "alpha": (0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
+    "clearance": (0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
+    "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
+    "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
+}
+"""Lowest and highest value of each number, and what is allowed in words."""
+
+ENDS = ("clamped", "pinned", "guided", "free")
+"""End conditions: y and y' held, y held, y' held, none held."""
+
+HOLD_ANGLE = ("clamped", "pinned")
+"""End conditions that hold y."""
+
+
+def checked_ends(ends: object) -> tuple[str, str]:
+    """Return the end conditions at s = 0 and s = 1 from a pair or a text like "clamped-pinned", or raise."""
+    parts = tuple(ends.split("-")) if isinstance(ends, str) else ends
+    if isinstance(parts, list | tuple) and len(parts) == 2 and all(part in ENDS for part in parts):
+        return str(parts[0]), str(parts[1])
+    raise InputError("ends", ends, f"must be two of {', '.join(ENDS)}, that at s = 0 first: for example clamped-pinned")
+
+
+def ends_text(problem: Problem) -> str:
+    """End conditions in words."""
+    first, last = problem.ends
+    return f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+
+
 @dataclass(frozen=True)
 class Problem:
-    """A heavy rod, clamped at both ends, on a cylinder of any inclination.
+    """A heavy rod on a cylinder of any inclination.
 
     Units: bending stiffness B = 1 and rod length L = 1. Forces are in B/L², moments in B/L, lengths in L.
     Tension is positive.
@@ -36,17 +66,23 @@ class Problem:
     turns
         Whole turns n of the end s = 1 around the cylinder: ξ₂(1) = ξ₂(0) + 2πn. 0 in the paper.
     on_top
-        The rod lies on top of the cylinder's inner wall, ξ₂(0) = π (paper, section 4.3), not at the bottom.
+        The rod lies on top of the cylinder, ξ₂(0) = π (paper, section 4.3), not at the bottom.
+    outside
+        The rod lies on the outside of the cylinder: contact asks p > 0.
+    ends
+        End conditions at s = 0 and s = 1: two of "clamped" (y and y' held), "pinned" (y held), "guided" (y' held: the
+        end slides around the wall) and "free" (none). A text like "clamped-pinned" will do.
 
     Notes
     -----
-    Both ends are clamped: y and y' are held, which are (B2), (B4), (B7), (B8) of the paper. The end force
-    acts at s = 1, the upper end of an inclined cylinder; the axial resultant is N(s) = F + γ cos α (s − 1).
+    With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
+    end force acts at s = 1, the upper end of an inclined cylinder, along the cylinder's axis; the axial resultant is
+    N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
 
     Raises
     ------
     InputError
-        For values outside the ranges above, NaN and infinities included.
+        For values outside the ranges above, NaN and infinities included, and for combinations that make no sense.
     """
 
     weight: float
@@ -56,20 +92,17 @@ class Problem:
     twist: float = 0.0
     turns: int = 0
     on_top: bool = False
+    outside: bool = False
+    ends: tuple[str, str] = ("clamped", "clamped")
 
     def __post_init__(self) -> None:
-        limits = (
-            ("weight", 0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
-            ("alpha", 0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
-            ("clearance", 0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
-            ("poisson", -1.0, 0.5, "above -1 and at most 0.5"),
-            ("twist", -LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
-        )
-        for name, low, high, allowed in limits:
+        for name, (low, high, allowed) in LIMITS.items():
             object.__setattr__(self, name, checked_number(name, getattr(self, name), low, high, allowed))
         object.__setattr__(self, "turns", checked_whole("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS))
-        if not isinstance(self.on_top, bool):
-            raise InputError("on_top", self.on_top, "must be True or False")
+        for flag in ("on_top", "outside"):
+            if not isinstance(getattr(self, flag), bool):
+                raise InputError(flag, getattr(self, flag), "must be True or False")
+        object.__setattr__(self, "ends", checked_ends(self.ends))
         if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
             allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
             raise InputError("clearance", self.clearance, allowed)
@@ -79,6 +112,32 @@ class Problem:
             raise InputError(
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
+        self._check_ends()
+
+    def _check_ends(self) -> None:
+        """Refuse what the ends cannot hold."""
+        ends = "-".join(self.ends)
+        if self.twist != 0.0 and "free" in self.ends:
+            raise InputError("twist", self.twist, f"a free end takes no torque: twist must be 0 with ends {ends}")
+        if self.turns != 0 and not (self.ends[0] in HOLD_ANGLE and self.ends[1] in HOLD_ANGLE):
+            raise InputError("turns", self.turns, f"ends {ends} let the rod unwind: clamp or pin both")
+        if self.on_top and self.lateral_weight > 0.0 and not self.holds_angle:
+            raise InputError("ends", ends, "nothing keeps the rod on top: clamp or pin at least one end")
+
+    @property
+    def holds_angle(self) -> bool:
+        """Whether an end holds y, the place around the cylinder."""
+        return self.ends[0] in HOLD_ANGLE or self.ends[1] in HOLD_ANGLE
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the problem is the same seen from either end: equal ends and no axial weight."""
+        return self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
+
+    @property
+    def pressed(self) -> bool:
+        """Whether lateral weight presses the straight rod on the wall: at the bottom inside, or outside on top."""
+        return self.lateral_weight > 0.0 and self.on_top == self.outside
 
     @property
     def axial_weight(self) -> float:

@@ -64,7 +64,7 @@ def test_index_is_the_count_of_negative_eigenvalues(fig3c: dict[int, Branch]) ->
         band = np.empty((n, space.degree + 1))
         assembly.assemble(
             family.model, space.local_tag, space.table, space.points, space.weights, fine.c,
-            family.parameters(fine.lam), family.rates, np.empty(n), np.empty(n), band,
+            family.parameters(fine.lam), family.rates(fine.lam), np.empty(n), np.empty(n), band,
         )  # fmt: skip
         full = np.zeros((n, n))
         for k in range(space.degree + 1):
@@ -167,7 +167,7 @@ def test_a_tolerance_out_of_reach_is_reported() -> None:
 
     problem = Problem(15.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("rodwell.analysis.follow.MOST_ELEMENTS_OF_BRANCH", 60)
+        patch.setattr("rodwell.analysis.starts.MOST_ELEMENTS_OF_BRANCH", 60)
         branch = follow(problem, 1, until=-300.0)
     assert branch.reached_end
     assert not branch.converged
@@ -265,3 +265,80 @@ def test_which_twist_delays_lift_off(weight: float, mode: int, odd: bool) -> Non
     else:
         assert lift_off(0.5, mirror=False) == pytest.approx(lift_off(-0.5, mirror=False), rel=1e-7)
         assert plain < lift_off(0.5, mirror=False)
+
+
+LIFTING = [5.0, 16.0, 40.0, 300.0]
+
+
+@pytest.mark.parametrize("weight", LIFTING)
+def test_errors_at_lift_off_include_that_of_its_place(weight: float) -> None:
+    """Against a tolerance a hundred times finer: reactions change fast along the branch, so the place matters."""
+    rough, fine = follow(Problem(weight), rtol=1e-6).lift_off, follow(Problem(weight), rtol=1e-9).lift_off
+    assert rough is not None
+    assert fine is not None
+    assert abs(rough.force - fine.force) <= rough.error + fine.error
+    pairs = [(rough.solution.total_wall_force, fine.solution.total_wall_force)]
+    pairs += [(rough.solution.end_reactions[k], fine.solution.end_reactions[k]) for k in ("shear", "moment")]
+    pairs += [(rough.solution.number(k), fine.solution.number(k)) for k in (Measured.SHORTENING, Measured.ENERGY)]
+    for (a, error_a), (b, error_b) in pairs:
+        assert abs(a - b) <= error_a + error_b
+
+
+def test_an_index_change_in_the_first_step_from_a_state_is_found() -> None:
+    start = follow(Problem(15.0), until=-362.579)[-1]
+    branch = follow(Problem(15.0), start=start, until=-365.6, largest_step=1.0)
+    assert special(branch, "branch_point") == pytest.approx([-362.629366], abs=1e-6)
+
+
+def test_a_start_takes_its_own_tolerance_and_no_mode() -> None:
+    start = follow(Problem(15.0), until=-150.0, rtol=1e-5)[-1]
+    assert follow(Problem(15.0), start=start, until=-160.0, rtol=1e-9)[-1].ladder.rtol == 1e-9
+    assert follow(Problem(15.0), start=start, until=-160.0, rtol=1e-9).converged
+    for wrong in ({"mode": 1}, {"mirror": True}):
+        with pytest.raises(InputError, match="neither mode nor mirror"):
+            follow(Problem(15.0), start=start, until=-160.0, **wrong)  # type: ignore[arg-type]
+
+
+def test_touch_down_is_told_from_lift_off() -> None:
+    """From below the lift-off load upwards contact becomes complete, and then the rod straight."""
+    below = follow(Problem(15.0), until=-140.0)[-1]
+    branch = follow(Problem(15.0), start=below, until=-100.0)
+    assert [p.kind for p in branch.special_points] == ["touch_down", "branch_point", "end"]
+    assert branch.lift_off is None
+    assert special(branch, "touch_down") == pytest.approx([-123.173074], abs=5e-7)
+    assert branch.ended_because == "it meets the straight rod"
+    assert branch.force[-1] == pytest.approx(critical_loads(Problem(15.0), 1)[0].force, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "until", "changed"),
+    [("alpha", 60.0, {"alpha": 60.0}), ("clearance", 0.012, {"clearance": 0.012}), ("weight", 18.0, {"weight": 18.0})],
+)
+def test_another_parameter_leads_to_the_state_of_the_other_problem(
+    parameter: str, until: float, changed: dict[str, float]
+) -> None:
+    """Round the other way: first along the force in one problem, then along a parameter at constant force."""
+    problem, force = Problem(15.0), -150.0
+    along = follow(problem, start=follow(problem, until=force)[-1], until=until, parameter=parameter)
+    direct = follow(problem.but(**changed), until=force)[-1]
+    assert along.reached_end
+    assert along[-1].problem == direct.problem
+    assert along[-1].force == force
+    for which in (Measured.ENERGY, Measured.P_MAX, Measured.SHORTENING):
+        (a, error_a), (b, error_b) = along[-1].number(which), direct.number(which)
+        assert abs(a - b) <= error_a + error_b
+
+
+def test_twist_reaches_the_state_of_the_twisted_rod() -> None:
+    problem = Problem(15.0)
+    along = follow(problem, start=follow(problem, until=-118.0)[-1], until=0.4, parameter="twist")
+    direct = follow(problem.but(twist=0.4), until=-118.0)[-1]
+    assert along[-1].number(Measured.ENERGY)[0] == pytest.approx(direct.number(Measured.ENERGY)[0], rel=1e-8)
+
+
+def test_a_coiled_rod_keeps_its_symmetry_past_its_branch_point() -> None:
+    coil = equilibrium(Problem(15.0, turns=1), -160.0)
+    branch = follow(coil.problem, start=coil, until=-300.0)
+    assert branch.reached_end
+    assert branch.converged
+    assert [p.kind for p in branch.special_points] == ["branch_point", "lift_off", "end"]

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
+from rodwell.numerics.ends import Ends
 from rodwell.numerics.spaces import Prolongation, SplineSpace, graded_mesh
 
 DEGREES = st.integers(4, 9)
@@ -48,7 +49,7 @@ def test_quadrature_table_is_the_basis_at_the_points() -> None:
 def test_projection_reproduces_a_polynomial_with_clamped_ends() -> None:
     space = SplineSpace(np.linspace(0.0, 1.0, 6), 7)
     s = space.points
-    c = space.project(s**2 * (1.0 - s) ** 2, held=2)
+    c = space.project(s**2 * (1.0 - s) ** 2, Ends((2, 2)))
     places = np.linspace(0.0, 1.0, 23)
     assert space.evaluate(c, places, 1)[0] == pytest.approx(places**2 * (1.0 - places) ** 2, abs=1e-14)
 

@@ -138,10 +138,10 @@ def _reweighted(state: rodwell.Solution) -> object:
     """The ladder of a state with another weight: its fields then belong to no equilibrium."""
     import dataclasses
 
-    from rodwell.analysis.families import parameters
+    from rodwell.analysis.families import path
     from rodwell.numerics.ladder import Ladder
 
-    family = dataclasses.replace(state.ladder.coarse, base=parameters(state.problem.but(weight=41.0)))
+    family = dataclasses.replace(state.ladder.coarse, path=path(state.problem.but(weight=41.0), "force"))
     return Ladder(family, state.ladder.measure, state.ladder.rtol)
 
 

@@ -29,7 +29,7 @@ PARAMETER_SETS = st.tuples(
 
 
 def density(s: float, u: np.ndarray, p: np.ndarray) -> float:
-    """e(s, y, y', y'') as written in the theory, less its value at y = 0."""
+    """e(s, y, y', y'') as written in the theory, less its value at y = 0 and the null Lagrangian T₁ ξ₂'."""
     force, axial, lateral, clearance, twist = p
     y, y1, y2 = u
     root = np.sqrt(1.0 - y1**2)
@@ -39,7 +39,7 @@ def density(s: float, u: np.ndarray, p: np.ndarray) -> float:
         + 0.5 * y1**4 / clearance**2
         - clearance * lateral * np.cos(y / clearance)
         - axial_force * root
-        + twist / clearance * y1 * root
+        + twist / clearance * y1 * (root - 1.0)
     )
     return full + clearance * lateral + axial_force
 
@@ -76,7 +76,7 @@ def test_derivatives_agree_with_finite_differences(state: tuple[float, ...], p: 
     assert np.array_equal(hessian, hessian.T)
 
 
-@pytest.mark.parametrize("which", range(5), ids=PARAMETERS)
+@pytest.mark.parametrize("which", range(5), ids=PARAMETERS[:5])
 def test_mixed_derivative_follows_each_parameter(which: int) -> None:
     s, u, p = 0.3, np.array([0.011, 0.2, 1.7]), np.array([-150.0, 20.0, 12.0, 0.02, 0.8])
     rates = np.zeros(5)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rodwell import Problem, critical_loads
-from rodwell.analysis.families import force_family
+from rodwell.analysis.families import family as equilibria
+from rodwell.analysis.families import spline_ends
 from rodwell.analysis.solution import Solution
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.spaces import SplineSpace
@@ -19,9 +20,9 @@ PLACES = np.linspace(0.0, 1.0, 4001)
 def solve(elements: int, degree: int, start: tuple[SplineSpace, np.ndarray]) -> tuple[Family, State]:
     """The state at FORCE on a uniform mesh, from a state known on another space."""
     space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree)
-    family = force_family(PROBLEM, space, parity=0, wavenumber=8.0, force_scale=50.0)
+    family = equilibria(PROBLEM, space, parity=0, wavenumber=8.0, scale=50.0)
     other, c = start
-    _, state, _ = family.at(space.project(other.evaluate(c, space.points, 1)[0], held=2), FORCE)
+    _, state, _ = family.at(space.project(other.evaluate(c, space.points, 1)[0], spline_ends(PROBLEM)), FORCE)
     assert state is not None
     return family, state
 

@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.accuracy import checked_force
-from rodwell.analysis.critical import Mode
+from rodwell.analysis.critical import EULER, Mode
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
-from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.continuation import INDEX, Found, Trace
+from rodwell.errors import InputError, NotConvergedError, checked_number
+from rodwell.numerics.continuation import INDEX, TURN, Found, Trace
 from rodwell.numerics.families import Outcome
+from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError, Span
 from rodwell.numerics.spaces import FloatArray
+from rodwell.physics.parameters import FORCE
 from rodwell.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr
 
-LIFT_OFF, END, CRITICAL, FOLD, BRANCH_POINT = "lift_off", "end", "critical", "fold", "branch_point"
+LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
+CRITICAL, FOLD, BRANCH_POINT, UNCERTAIN = "critical", "fold", "branch_point", "uncertain"
+
+KINDS = (LIFT_OFF, END, INDEX, TURN)
+"""What continuation finds that makes a special point; what else ends a branch is told in words."""
 
 OUT_OF_RANGE = Outcome.OUT_OF_RANGE.value
 """Why a branch ends where the rod turns across the cylinder."""
@@ -39,9 +44,15 @@ class SpecialPoint:
     Attributes
     ----------
     kind
-        "critical" (the branch leaves the straight rod), "lift_off", "branch_point", "fold" or "end".
-    force, error
-        End force at s = 1 in B/L² (tension positive) and the estimate of its error.
+        "critical" (the branch leaves the straight rod), "lift_off" (contact is lost first, in the direction of
+        travel), "touch_down" (contact is complete again), "branch_point" (other branches meet this one), "fold" (the
+        parameter turns back), "end", or "uncertain": a change of the stability index that only one of the two
+        meshes shows, since an eigenvalue vanishes to round-off.
+    force
+        End force at s = 1 in B/L², tension positive.
+    value, error
+        The branch's parameter there and the estimate of its error: the end force, unless the branch is followed in
+        another parameter.
     s
         Where along the rod: the places that lift off; empty for other kinds.
     index_before, index_after
@@ -52,6 +63,7 @@ class SpecialPoint:
 
     kind: str
     force: float
+    value: float
     error: float
     s: tuple[float, ...]
     index_before: int
@@ -59,15 +71,39 @@ class SpecialPoint:
     solution: Solution
 
 
+@dataclass(frozen=True)
+class Origin:
+    """Where a branch comes from.
+
+    Attributes
+    ----------
+    name
+        Name of the branch, as diagrams list it.
+    mode
+        The buckling mode by which it leaves the straight rod; None if it starts elsewhere.
+    switched
+        Whether its first point is a branch point, which it shares with another branch.
+    parent
+        Name of the branch that it leaves there.
+    """
+
+    name: str
+    mode: Mode | None = None
+    switched: bool = False
+    parent: str | None = None
+
+
 class Branch:
-    """A branch of equilibria in the end force, points in order of travel.
+    """A branch of equilibria in one parameter, points in order of travel.
 
     Attributes
     ----------
     problem
-        The problem.
-    mode
-        The buckling mode it starts from; None for a branch that does not start at the straight rod.
+        The problem; where the branch is followed in one of its values, that of the first point.
+    parameter
+        What varies along it: "force", "weight", "alpha", "clearance" or "twist".
+    origin
+        Its name and where it comes from.
     special_points
         In order of travel.
     reached_end
@@ -76,8 +112,10 @@ class Branch:
         Why it ended.
     """
 
-    def __init__(self, problem: Problem, mode: Mode | None, result: Trace, reached: bool, why: str) -> None:
-        self.problem, self.mode = problem, mode
+    def __init__(
+        self, problem: Problem, origin: Origin, result: Trace, reached: bool, why: str, parameter: str = "force"
+    ) -> None:
+        self.problem, self.origin, self.parameter = problem, origin, parameter
         self._trace = result
         self.reached_end, self.ended_because = reached, why
         self.special_points = self._special_points()
@@ -86,27 +124,54 @@ class Branch:
         return len(self._trace.points)
 
     def __getitem__(self, i: int) -> Solution:
-        return Solution(self.problem, self._trace.points[i], self._trace.ladders[i])
+        return self._solution(self._trace.points[i], self._trace.ladders[i])
 
     def __iter__(self) -> Iterator[Solution]:
         return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
-        name = f"mode {self.mode.number}" if self.mode else "no mode"
-        return f"<Branch of {name}: {len(self)} points, F = {self.force[0]:.6g} … {self.force[-1]:.6g} B/L²>"
+        first, last = self.values[0], self.values[-1]
+        return f"<Branch {self.name}: {len(self)} points, {self.parameter} = {first:.6g} … {last:.6g}>"
+
+    @property
+    def name(self) -> str:
+        """Name of the branch."""
+        return self.origin.name
+
+    @property
+    def mode(self) -> Mode | None:
+        """The buckling mode by which it leaves the straight rod; None if it starts elsewhere."""
+        return self.origin.mode
+
+    @cached_property
+    def values(self) -> FloatArray:
+        """The parameter at each point, (n,)."""
+        return np.array([p.lam for p in self._trace.points])
 
     @cached_property
     def force(self) -> FloatArray:
         """End force F at s = 1 in B/L², tension positive, (n,)."""
-        return np.array([p.lam for p in self._trace.points])
+        pairs = zip(self._trace.points, self._trace.ladders, strict=True)
+        return np.array([ladder.fine.parameters(p.lam)[FORCE] for p, ladder in pairs])
 
     @cached_property
     def stability_index(self) -> FloatArray:
         """Stability index of each point, (n,): 0 is stable under dead loads, for a rod kept on the wall."""
         index = np.array([p.fine.index for p in self._trace.points])
-        if self.mode is not None and len(index) > 1:
-            index[0] = index[1]  # the first point is the straight rod, whose index is not the branch's
+        if self.origin.switched and len(index) > 1:
+            index[0] = self._index_at_start()
         return index
+
+    def _index_at_start(self) -> int:
+        """Index just after the start: the first point is a state of the branch that it leaves."""
+        changes = [f for f in self._trace.found if f.name == INDEX]
+        after_first = self._trace.points[min(1, len(self) - 1)].fine.index
+        return changes[0].index_before if changes else int(after_first)
+
+    @property
+    def last(self) -> tuple[Ladder, Point]:
+        """Ladder and state of the last point, from which the branch can be continued."""
+        return self._trace.ladders[-1], self._trace.points[-1]
 
     def numbers(self, which: Measured) -> FloatArray:
         """Measured numbers of all points, (n,)."""
@@ -118,8 +183,18 @@ class Branch:
 
     @property
     def converged(self) -> bool:
-        """Whether every measured number of every point meets the tolerance."""
-        return all(p.accurate for p in self._trace.points)
+        """Whether every measured number of every point meets the tolerance, special points and their place included."""
+        rtol = self._trace.ladders[0].rtol
+        return all(p.accurate for p in self._trace.points) and all(
+            p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
+        )
+
+    @property
+    def _scale(self) -> float:
+        """Size against which errors of the parameter are judged, where it is near zero itself."""
+        if self.parameter == "force":
+            return EULER + self.problem.axial_weight
+        return float(np.ptp(self.values))
 
     @property
     def lift_off(self) -> SpecialPoint | None:
@@ -128,7 +203,7 @@ class Branch:
         Without lateral weight nothing but the buckled rod itself presses it to the wall: lift-off then
         coincides with buckling, and this is the critical point.
         """
-        if self.problem.lateral_weight == 0.0 and self.mode is not None:
+        if self.lift_off_at_buckling:
             return self.special_points[0]
         return next((p for p in self.special_points if p.kind == LIFT_OFF), None)
 
@@ -137,40 +212,43 @@ class Branch:
         """Whether lift-off coincides with buckling: no lateral weight (weightless rod or vertical cylinder)."""
         return self.problem.lateral_weight == 0.0 and self.mode is not None
 
-    def at(self, force: float) -> Solution:
-        """Return the state at an end force within the branch, converged like its points.
+    def at(self, value: float) -> Solution:
+        """Return the first state at a value of the parameter within the branch, converged like its points.
 
         Raises
         ------
         InputError
-            If the branch does not pass that force.
+            If the branch does not pass that value.
         NotConvergedError
             If the state could not be computed.
         """
-        force = checked_force("force", force)
-        inside = np.nonzero((self.force[:-1] - force) * (self.force[1:] - force) <= 0.0)[0]
+        value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
+        inside = np.nonzero((self.values[:-1] - value) * (self.values[1:] - value) <= 0.0)[0]
         if inside.size == 0:
-            low, high = self.force.min(), self.force.max()
-            raise InputError("force", force, f"this branch covers {low:.6g} to {high:.6g} B/L²; follow it further")
+            low, high = self.values.min(), self.values.max()
+            unit = " B/L²" if self.parameter == "force" else ""
+            raise InputError(
+                self.parameter, value, f"this branch covers {low:.6g} to {high:.6g}{unit}; follow it further"
+            )
         i = int(inside[0])
         for near in (i, i + 1):
-            if force == self.force[near]:
+            if value == self.values[near]:
                 return self[near]
         try:
-            return self._between(i, force)
+            return self._between(i, value)
         except LocationError as problem:
-            raise NotConvergedError(f"no state at F = {force:g}: {problem}") from None
+            raise NotConvergedError(f"no state at {self.parameter} = {value:g}: {problem}") from None
 
-    def _between(self, i: int, force: float) -> Solution:
-        """State at ``force`` between points i and i+1, found along the branch and then solved at that force."""
+    def _between(self, i: int, value: float) -> Solution:
+        """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
         ladder, last = self._trace.ladders[i + 1], self._trace.points[i + 1]
         _, first = ladder.adopt(self._trace.ladders[i], self._trace.points[i])
         if first is None:
             raise LocationError("the point before it could not be solved on a finer mesh")
-        coarse = Span(ladder.coarse, first.coarse, last.coarse).at_lam(force)
-        fine = Span(ladder.fine, first.fine, last.fine).at_lam(force)
+        coarse = Span(ladder.coarse, first.coarse, last.coarse).at_lam(value)
+        fine = Span(ladder.fine, first.fine, last.fine).at_lam(value)
         near = ladder.point(coarse, fine)
-        return Solution(self.problem, ladder.at(near, force) or near, ladder)
+        return self._solution(ladder.at(near, value) or near, ladder)
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -179,27 +257,58 @@ class Branch:
 
         return branch_dataset(self)
 
+    def _solution(self, point: Point, ladder: Ladder) -> Solution:
+        problem = self.problem
+        if self.parameter != "force":
+            problem = problem.but(**{self.parameter: point.lam})
+        return Solution(problem, point, ladder)
+
     def _special_points(self) -> tuple[SpecialPoint, ...]:
         points, ladders = self._trace.points, self._trace.ladders
         out = []
-        if self.mode is not None:
-            first = Solution(self.problem, points[0], ladders[0])
+        if self.origin.switched:
+            first = self._solution(points[0], ladders[0])
             places = self[1].highest_pressure[2] if self.lift_off_at_buckling and len(self) > 1 else ()
-            index = int(self.stability_index[0])
-            before = points[0].fine.index
-            out.append(SpecialPoint(CRITICAL, self.mode.force, self.mode.error, places, before, index, first))
-        out += [self._special(found) for found in self._trace.found if found.name != OUT_OF_RANGE]
+            kind, error = BRANCH_POINT, float(points[0].lam_gap)
+            if self.mode is not None:
+                kind, error = CRITICAL, self.mode.error
+            before, index = points[0].fine.index, int(self.stability_index[0])
+            out.append(SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first))
+        out += [self._special(found) for found in self._trace.found if found.name in KINDS]
         if not out or out[-1].kind != END:
-            last = Solution(self.problem, points[-1], ladders[-1])
+            last = self._solution(points[-1], ladders[-1])
             index = last.stability_index
-            out.append(SpecialPoint(END, last.force, 0.0, (), index, index, last))
+            out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last))
         return tuple(out)
 
     def _special(self, found: Found) -> SpecialPoint:
-        solution = Solution(self.problem, found.point, found.ladder)
+        solution = self._solution(found.point, found.ladder)
         kind = found.name
         if kind == INDEX:
-            kind = FOLD if found.fold else BRANCH_POINT
-        places = solution.highest_pressure[2] if kind == LIFT_OFF else ()
+            kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
+        elif kind == TURN:
+            straight = np.max(np.abs(found.point.fine.c)) < 1e-4 * self.problem.clearance
+            kind = BRANCH_POINT if straight or found.point.fine.symmetry != 0 else FOLD
+        elif kind == LIFT_OFF and not found.rising:
+            kind = TOUCH_DOWN
+        places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
         error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
-        return SpecialPoint(kind, found.point.lam, error, places, found.index_before, found.index_after, solution)
+        index = found.index_before, found.index_after
+        return SpecialPoint(kind, solution.force, found.point.lam, error, places, *index, solution)
+
+    def renamed(self, origin: Origin) -> Branch:
+        """Return the same branch under another name."""
+        return Branch(self.problem, origin, self._trace, self.reached_end, self.ended_because, self.parameter)
+
+
+def continued(branch: Branch, result: Trace, reached: bool, why: str) -> Branch:
+    """Return ``branch`` followed by ``result``, a trace from its last point."""
+    old = branch._trace
+    merged = replace(
+        old,
+        points=old.points[:-1] + result.points,
+        ladders=old.ladders[:-1] + result.ladders,
+        found=[f for f in old.found if f.name != END] + result.found,
+        end=result.end,
+    )
+    return Branch(branch.problem, branch.origin, merged, reached, why, branch.parameter)

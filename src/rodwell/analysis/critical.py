@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.accuracy import ELEMENTS_PER_RADIAN, MOST_ELEMENTS, RTOL, checked_rtol, first_space
-from rodwell.analysis.families import CLAMPED, parameters
+from rodwell.analysis.families import parameters, spline_ends
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics import eigen
-from rodwell.numerics.corrector import held_out
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
 from rodwell.problem import Problem
@@ -138,15 +137,11 @@ def _starting_space(problem: Problem, count: int) -> SplineSpace:
 def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray | None) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
     factors = second_variation(space.points, parameters(problem))
-    inner = slice(CLAMPED, space.size - CLAMPED)
-    stiffness, gram = (
-        held_out(band, CLAMPED, space.size - CLAMPED) for band in (space.form(factors), space.slope_gram)
-    )
+    ends = spline_ends(problem)
+    stiffness, gram = ends.restrict(space.form(factors)), ends.restrict(space.slope_gram)
 
     def full(block: FloatArray) -> FloatArray:
-        out = np.zeros((len(block), space.size))
-        out[:, inner] = block
-        return out
+        return np.array([ends.spread(free) for free in block])
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
         fields = np.array([space.at_points(v) for v in full(block)])
@@ -155,11 +150,11 @@ def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray |
         g = np.einsum("iq,q,jq->ij", fields[:, 1], space.weights, fields[:, 1], optimize=True)
         return k, g
 
-    # ∫φ² ≤ ∫φ'²/π² for functions that vanish at both ends bounds what a negative foundation can do
-    below = -problem.axial_weight + min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
+    below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
     try:
         values, vectors = eigen.lowest(
-            stiffness, gram, quadrature, count, below, None if start is None else start[:, inner]
+            stiffness, gram, quadrature, count, below, None if start is None else start[:, ends.free(space.size)]
         )
     except eigen.EigenError as problem_found:
         raise NotConvergedError(f"critical loads: {problem_found}") from None
@@ -168,7 +163,7 @@ def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray |
 
 def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray) -> FloatArray:
     """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric."""
-    if problem.axial_weight != 0.0:
+    if not problem.symmetric:
         return vectors
     out = vectors[: len(values)].copy()
     i = 0
@@ -187,7 +182,7 @@ def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vec
 
 def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray) -> Mode:
     parity = 0
-    if problem.axial_weight == 0.0:
+    if problem.symmetric:
         parity = 1 if vector @ vector[::-1] > 0.0 else -1
         vector = 0.5 * (vector + parity * vector[::-1])
     if space.evaluate(vector, np.array([1.0]), 3)[2, 0] < 0.0:

@@ -29,7 +29,7 @@ _MEASURED = {
 CONVENTIONS = (
     "Units B = L = 1 (bending stiffness, rod length). Tension positive. The end force acts at s = 1. "
     "Contact pressure p < 0 presses the rod on the wall from inside; lift-off where max p = 0. "
-    "Both ends clamped. Stability index: negative eigenvalues of the second variation under dead loads "
+    "Stability index: negative eigenvalues of the second variation under dead loads "
     "F and T1, for a rod kept on the wall."
 )
 
@@ -55,6 +55,7 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
         "s": Variable(("s",), s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
         "field": Variable(("field",), _text(FIELDS), {"long_name": "names of the fields"}),
         "force": Variable(("point",), branch.force, _about("force")),
+        "parameter": Variable(("point",), branch.values, {"long_name": f"what varies: {branch.parameter}"}),
     }
     for which, name in _MEASURED.items():
         out[name] = Variable(("point",), branch.numbers(which), _about(name))
@@ -97,6 +98,10 @@ def branch_attributes(branch: Branch) -> dict[str, Any]:
         "twist": problem.twist,
         "turns": problem.turns,
         "on_top": int(problem.on_top),
+        "outside": int(problem.outside),
+        "ends": "-".join(problem.ends),
+        "name": branch.name,
+        "parameter": branch.parameter,
         "mode": branch.mode.number if branch.mode else 0,
         "rtol": branch[0].ladder.rtol,
         "ended_because": branch.ended_because,

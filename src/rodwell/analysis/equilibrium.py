@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol, first_space
-from rodwell.analysis.families import CLAMPED, force_family
+from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
@@ -43,12 +43,12 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     space = first_space(problem, min(force, 0.0), max(force, 0.0))
     wavenumber = 2.0 * np.pi * abs(problem.turns)
-    family = force_family(
+    family = equilibria(
         problem,
         space,
-        parity=-1 if problem.axial_weight == 0.0 else 0,
+        parity=-1 if problem.symmetric else 0,
         wavenumber=wavenumber,
-        force_scale=max(abs(force), wavenumber**2),
+        scale=max(abs(force), wavenumber**2),
     )
     outcome, c = minimise(family, _winding(problem, family), force)
     if outcome is Outcome.CONVERGED:
@@ -62,10 +62,10 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
 
 
 def _winding(problem: Problem, family: Family) -> FloatArray:
-    """Coefficients of the even winding with clamped ends: 2πnΔ at s = 1, level at both ends."""
-    space = family.space
+    """Coefficients of the even winding between its ends: 2πnΔ at s = 1, level at both ends."""
+    space, held = family.space, family.ends
     end = 2.0 * np.pi * problem.turns * problem.clearance
     s = space.points
-    ramp = np.concatenate([np.zeros(CLAMPED), np.full(space.size - CLAMPED, end)])
+    ramp = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
     gap = end * (s - np.sin(2.0 * np.pi * s) / (2.0 * np.pi)) - space.at_points(ramp)[0]
-    return ramp + space.project(gap, CLAMPED)
+    return ramp + space.project(gap, held)

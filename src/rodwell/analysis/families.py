@@ -2,42 +2,98 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics.model import RodOnCylinder
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, PARAMETERS, TWIST
+from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, PARAMETERS, SIDE, TWIST
 from rodwell.problem import Problem
 
-CLAMPED = 2
-"""Spline coefficients held at a clamped end: those of y and y'."""
+if TYPE_CHECKING:
+    from rodwell.analysis.solution import Solution
+
+HELD = {"clamped": (2, False), "pinned": (1, False), "guided": (1, True), "free": (0, False)}
+"""Of the first two spline coefficients at an end, how many are held, and whether the outermost follows the next."""
 
 
 def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
-    """Physical parameters of ``problem`` in the order that kernels take them, (5,)."""
+    """Physical parameters of ``problem`` in the order that kernels take them, (6,)."""
     out = np.empty(len(PARAMETERS))
     out[FORCE], out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = force, problem.axial_weight, problem.foundation
-    out[CLEARANCE], out[TWIST] = problem.clearance, problem.twist
+    out[CLEARANCE], out[TWIST], out[SIDE] = problem.clearance, problem.twist, -1.0 if problem.outside else 1.0
     return out
 
 
-def force_family(problem: Problem, space: SplineSpace, *, parity: int, wavenumber: float, force_scale: float) -> Family:
-    """Equilibria of ``problem`` as the end force F varies.
+def spline_ends(problem: Problem) -> Ends:
+    """What the end conditions of ``problem`` hold.
+
+    Without lateral weight, a rod with no end that holds y can be turned around the cylinder as a whole; y(0) = 0 then
+    picks one of these equal states.
+    """
+    first, last = problem.ends
+    if problem.lateral_weight == 0.0 and not problem.holds_angle:
+        first = {"guided": "clamped", "free": "pinned"}[first]
+    (held_0, tied_0), (held_1, tied_1) = HELD[first], HELD[last]
+    return Ends((held_0, held_1), (tied_0, tied_1))
+
+
+def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
+    """Parameters of ``problem`` as one of :data:`PATHS` varies: see :class:`rodwell.numerics.families.Family`."""
+    out = np.zeros((4, len(PARAMETERS)))
+    out[0] = parameters(problem, force)
+    if parameter == "weight":
+        out[1, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = _per_weight(problem)
+        out[0, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = 0.0
+    elif parameter == "alpha":
+        out[2, AXIAL_WEIGHT] = problem.weight
+        out[3, LATERAL_WEIGHT] = -problem.weight if problem.on_top else problem.weight
+        out[0, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = 0.0
+    else:
+        which = {"force": FORCE, "clearance": CLEARANCE, "twist": TWIST}[parameter]
+        out[1, which], out[0, which] = 1.0, 0.0
+    return out
+
+
+def parameter_value(solution: Solution, parameter: str) -> float:
+    """Value of a parameter of :data:`PATHS` at a state."""
+    return solution.force if parameter == "force" else float(getattr(solution.problem, parameter))
+
+
+def _per_weight(problem: Problem) -> tuple[float, float]:
+    unit = problem.but(weight=1.0)
+    return unit.axial_weight, unit.foundation
+
+
+PATHS = ("force", "weight", "alpha", "clearance", "twist")
+"""Parameters in which a branch can be followed: F, γ, α in degrees, Δ/L, T₁."""
+
+
+def family(
+    problem: Problem,
+    space: SplineSpace,
+    *,
+    parity: int,
+    wavenumber: float,
+    scale: float,
+    parameter: str = "force",
+    force: float = 0.0,
+) -> Family:
+    """Equilibria of ``problem`` as one of its parameters varies (at the end force ``force``, if that is another).
 
     ``wavenumber`` sets the slope that counts as one unit of arclength, Δ k (an amplitude of one radian);
-    ``force_scale`` the change of force that does.
+    ``scale`` the change of the parameter that does.
     """
-    rates = np.zeros(len(PARAMETERS))
-    rates[FORCE] = 1.0
     return Family(
         model=RodOnCylinder(),
-        base=parameters(problem),
-        rates=rates,
+        path=path(problem, parameter, force),
         space=space,
-        held=(CLAMPED, CLAMPED),
+        ends=spline_ends(problem),
         parity=parity,
         scale_c=problem.clearance,
         slope_scale=problem.clearance * wavenumber,
-        lam_scale=force_scale,
+        lam_scale=scale,
     )

@@ -1,33 +1,41 @@
-"""Following a branch of buckled states from the straight rod, or from a given state."""
+"""Following a branch of buckled states: from the straight rod, from a given state, or from a branch point."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from rodwell.analysis.accuracy import (
-    MOST_ELEMENTS_OF_BRANCH,
-    MOST_WORK,
-    RTOL,
-    checked_force,
-    checked_rtol,
-    first_space,
+from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol
+from rodwell.analysis.branches import (
+    BRANCH_POINT,
+    END,
+    LIFT_OFF,
+    OUT_OF_RANGE,
+    Branch,
+    Origin,
+    SpecialPoint,
+    continued,
 )
-from rodwell.analysis.branches import END, LIFT_OFF, OUT_OF_RANGE, Branch
 from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
-from rodwell.analysis.families import force_family
-from rodwell.analysis.measures import STEEPEST, Measured, measured_ladder
+from rodwell.analysis.families import PATHS, parameter_value
+from rodwell.analysis.measures import STEEPEST, Measured
 from rodwell.analysis.solution import Solution
+from rodwell.analysis.starts import Start, at_branch_point, at_critical, at_state
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
-from rodwell.numerics.continuation import Event, Stepping, Trace, trace
+from rodwell.numerics.continuation import TURN, Event, Found, Stepping, Trace, trace
 from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-from rodwell.problem import Problem
+from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
-LARGEST_ANGLE_OF_FIRST_STEP = 0.05
-"""Radians around the cylinder that the first step on a buckled branch reaches, about."""
+LARGEST_STEP = 0.04
+"""Default of the longest step: one unit is an amplitude of about 1 rad, or the whole range of the parameter."""
+
+FIRST_STEP = 0.05
+"""First step on a branch that leaves another: radians around the cylinder, about."""
+
+FIRST_STEP_ON = 0.02
+"""First step from a given state."""
 
 LARGEST_BRAID_ANGLE = 89.5
 """Degrees of |η| at which a branch ends: the theory holds below 90°."""
@@ -35,41 +43,58 @@ LARGEST_BRAID_ANGLE = 89.5
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
 
+STRAIGHT = "it meets the straight rod"
+FLAT = 1e-5
+"""Largest angle around the cylinder, in rad, of a rod that counts as straight where a branch turns back."""
+
+LEFT = "the parameter reached the end of its range, or came back past its start"
+
+REJOINS = "it meets a symmetric branch, where it turns into its own mirror image"
+
 Progress = Callable[[float], None]
-"""Called with the end force of each new point."""
+"""Called with the parameter of each new point."""
+
+_CONTACT = Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX])
+_ACROSS = Event(OUT_OF_RANGE, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)))
 
 
 def follow(
     problem: Problem,
-    mode: int | Mode = 1,
+    mode: int | Mode | None = None,
     *,
     until: float | None = None,
     mirror: bool = False,
     start: Solution | None = None,
+    parameter: str = "force",
     rtol: float = RTOL,
-    largest_step: float = 0.04,
+    largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
 ) -> Branch:
-    """Follow a branch of buckled states in the end force, from the straight rod or from a given state.
+    """Follow a branch of buckled states in the end force, from the straight rod, or in any parameter from a state.
 
     Parameters
     ----------
     problem
-        The rod, clamped at both ends; twist stays constant.
+        The rod; what is not the parameter stays constant.
     mode
-        Number of the buckling mode to start from, 1 for the first met, or a :class:`Mode` already computed.
+        Number of the buckling mode to start from, 1 (the default) for the first met, or a :class:`Mode` already
+        computed.
     until
-        End force at s = 1 in B/L² (tension positive) at which to end. Without it, the branch ends at lift-off.
+        Value of the parameter at which to end: by default the end force at s = 1 in B/L², tension positive.
+        Without it, the branch ends at lift-off.
     mirror
         The other of the two arms that leave the straight rod: the paper draws ω₂(1) < 0, this is ω₂(1) > 0.
     start
         A state to start from instead (for example a coiled one, from :func:`equilibrium`); needs ``until``.
+    parameter
+        What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance" or "twist".
     rtol
         Relative tolerance of every measured number and special point.
     largest_step
-        Longest step. One unit is an amplitude of about 1 rad around the cylinder, or the whole range of force.
+        Longest step. One unit is an amplitude of about 1 rad around the cylinder, or the whole range of the
+        parameter.
     progress
-        Called with the force of each new point.
+        Called with the parameter of each new point.
 
     Returns
     -------
@@ -79,17 +104,35 @@ def follow(
     Raises
     ------
     InputError
-        If an argument is out of range.
+        If an argument is out of range, or does not go with the others.
     NotConvergedError
         If the branch cannot even be started.
     """
     rtol = checked_rtol(rtol)
-    until = None if until is None else checked_force("until", until)
     largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
+    if parameter not in PATHS:
+        raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:
-        return _follow_from(problem, start, until, largest_step, progress)
-    if until is None and problem.on_top and problem.lateral_weight > 0.0:
-        raise InputError("on_top", True, "a rod on top is not pressed to the wall, so it has no lift-off: give until")
+        if mode is not None or mirror:
+            raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
+        return _from_state(problem, start, parameter, until, rtol, largest_step, progress)
+    if parameter != "force":
+        raise InputError("parameter", parameter, "needs a state to start from: give start (for example branch[-1])")
+    return _from_straight(problem, 1 if mode is None else mode, until, mirror, rtol, largest_step, progress)
+
+
+def _from_straight(
+    problem: Problem,
+    mode: int | Mode,
+    until: float | None,
+    mirror: bool,
+    rtol: float,
+    largest_step: float,
+    progress: Progress | None,
+) -> Branch:
+    until = None if until is None else checked_force("until", until)
+    if until is None and problem.lateral_weight > 0.0 and not problem.pressed:
+        raise InputError("until", None, "must be given: the rod is not pressed to the wall, so there is no lift-off")
     found = _mode(problem, mode, rtol)
     if until is not None and until >= found.force:
         raise InputError(
@@ -97,30 +140,176 @@ def follow(
             until,
             f"must be below the critical load {found.force:.8g} B/L², where the branch starts towards compression",
         )
-    ladder, point = _at_critical(problem, found, until, mirror, rtol)
-    length = LARGEST_ANGLE_OF_FIRST_STEP
-    stepping = Stepping(first=min(length, largest_step), largest=largest_step, most_work=MOST_WORK)
-    events = [Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX], stop=until is None), _TURNED_ACROSS]
+    start = at_critical(problem, found, until, mirror, rtol)
+    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
     limit = found.force - REACH * found.wavenumber**2 if until is None else until
-    events.append(Event(END, lambda lam, _: lam - limit, stop=True))
-    if problem.lateral_weight == 0.0:
-        events.pop(0)  # lift-off coincides with buckling
-        if until is None:
-            stepping = Stepping(first=length, largest=length, most_points=2)
-    result = _end_exactly(trace(ladder, point, stepping, events, _reporting(progress)), limit)
-    if until is None and problem.lateral_weight == 0.0 and len(result.points) > 1:
-        result.end = LIFT_OFF
-    reached = result.end == (LIFT_OFF if until is None else END)
+    if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
+        stepping = replace(stepping, most_points=2)
+    stops = (END, OUT_OF_RANGE, LIFT_OFF) if until is None else (END, OUT_OF_RANGE)
+    result = _traced(problem, start, limit, stepping, stops, switched=True, progress=progress)
     if len(result.points) == 1:
         raise NotConvergedError(
             f"mode {found.number} could not be followed from its critical load {found.force:.6g} B/L²: {result.end}"
         )
-    return Branch(problem, found, result, reached, result.end)
+    if until is None and problem.lateral_weight == 0.0:
+        result.end = LIFT_OFF
+    reached = result.end == (LIFT_OFF if until is None else END)
+    origin = Origin(f"mode {found.number}" + (", mirror arm" if mirror else ""), found, switched=True)
+    return Branch(problem, origin, result, reached, result.end)
 
 
-_TURNED_ACROSS = Event(
-    OUT_OF_RANGE, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)), stop=True
-)
+def _from_state(
+    problem: Problem,
+    start: Solution,
+    parameter: str,
+    until: float | None,
+    rtol: float,
+    largest_step: float,
+    progress: Progress | None,
+) -> Branch:
+    if until is None:
+        raise InputError("until", None, "must be given to follow a branch from a given state")
+    until = checked_end(problem, parameter, until)
+    if start.problem != problem:
+        raise InputError("start", start.problem, "belongs to another problem")
+    if until == parameter_value(start, parameter):
+        raise InputError("until", until, "must differ from the value at the start")
+    stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
+    begin = at_state(problem, start, parameter, until, rtol)
+    result = _traced(
+        problem, begin, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=False, progress=progress
+    )
+    origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
+    return Branch(problem, origin, result, result.end == END, result.end, parameter)
+
+
+def checked_end(problem: Problem, parameter: str, until: float) -> float:
+    """Return the end of a branch in a parameter, if the problem allows that value, or raise."""
+    if parameter == "force":
+        return checked_force("until", until)
+    if parameter == "clearance" and problem.turns != 0:
+        raise InputError("parameter", parameter, "a coiled rod cannot be followed in it: its end would have to move")
+    return float(getattr(problem.but(**{parameter: until}), parameter))
+
+
+def branch_off(
+    point: SpecialPoint,
+    *,
+    until: float,
+    mirror: bool = False,
+    rtol: float = RTOL,
+    largest_step: float = LARGEST_STEP,
+    progress: Progress | None = None,
+    origin: Origin | None = None,
+) -> Branch:
+    """Follow the branch that leaves another at a branch point, until it meets a symmetric branch again, or ``until``.
+
+    Parameters
+    ----------
+    point
+        A special point of kind "branch_point", from ``Branch.special_points``.
+    until
+        Value of the branch's parameter (the end force, usually) at which to end on the way down; on the way up it
+        ends at the same distance.
+    mirror
+        The other of the two directions. On a symmetric branch it gives the mirror image.
+    rtol, largest_step, progress
+        As for :func:`follow`.
+    origin
+        Name and parent, for diagrams.
+
+    Raises
+    ------
+    InputError
+        If the point is of another kind or an argument is out of range.
+    NotConvergedError
+        If the branch cannot be started.
+    """
+    if point.kind != BRANCH_POINT:
+        raise InputError("point", point.kind, "must be a special point of kind branch_point")
+    until = checked_force("until", until)
+    start = at_branch_point(point, mirror, checked_rtol(rtol))
+    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
+    result = _traced(
+        point.solution.problem, start, until, stepping, (END, OUT_OF_RANGE), switched=True, progress=progress
+    )
+    if len(result.points) == 1:
+        raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
+    name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
+    return Branch(point.solution.problem, name, result, result.end in (END, REJOINS), result.end)
+
+
+def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
+    """Return a branch continued from its last point down to the end force ``until``.
+
+    Raises
+    ------
+    InputError
+        If ``until`` is out of range.
+    """
+    until = checked_force("until", until)
+    ladder, point = branch.last
+    stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
+    result = _traced(
+        branch.problem, (ladder, point), until, stepping, (END, OUT_OF_RANGE), switched=False, progress=progress
+    )
+    return continued(branch, result, result.end == END, result.end)
+
+
+def _traced(
+    problem: Problem,
+    start: Start,
+    until: float,
+    stepping: Stepping,
+    stops: Sequence[str],
+    *,
+    parameter: str = "force",
+    switched: bool,
+    progress: Progress | None,
+) -> Trace:
+    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
+    ladder, point = start
+    events = [_ACROSS, Event(END, lambda lam, _: lam - until)]
+    if problem.lateral_weight > 0.0 or problem.turns != 0:
+        events.append(_CONTACT)
+
+    if parameter != "force":
+        low, high, _ = LIMITS[parameter]
+        back = low if until > point.lam else high
+        if back == 0.0 and parameter == "clearance":
+            back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
+        events.append(Event(LEFT, lambda lam, _: lam - back))
+        stops = (*stops, LEFT)
+
+    def stop(found: Found) -> str:
+        state = found.point.fine
+        if found.name == TURN and np.max(np.abs(state.c)) <= FLAT * ladder.coarse.scale_c:
+            return STRAIGHT
+        if found.name == TURN and ladder.coarse.parity == 0 and state.symmetry != 0:
+            return REJOINS
+        return found.name if found.name in stops else ""
+
+    report = None if progress is None else lambda p: progress(p.lam)
+    return _end_exactly(trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report), until)
+
+
+def _end_exactly(result: Trace, value: float) -> Trace:
+    """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
+    last: Point | None = None
+    if result.end == END:
+        last = result.ladders[-1].at(result.points[-1], value)
+    elif result.end == STRAIGHT:
+        last = _flattened(result.ladders[-1], result.points[-1])
+    if last is not None:
+        result.points[-1] = last
+        result.found[-1] = replace(result.found[-1], point=last)
+    return result
+
+
+def _flattened(ladder: Ladder, point: Point) -> Point:
+    """The straight rod where a branch reaches it."""
+    pairs = ((ladder.coarse, point.coarse), (ladder.fine, point.fine))
+    return ladder.point(*(f.state(np.zeros_like(x.c), x.lam, x.tangent, x.tangent_lam, x.index) for f, x in pairs))
 
 
 def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
@@ -130,60 +319,3 @@ def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
     if mode.problem != problem:
         raise InputError("mode", f"mode {mode.number} of {mode.problem}", "belongs to another problem")
     return mode
-
-
-def _reporting(progress: Progress | None) -> Callable[[Point], None] | None:
-    return None if progress is None else lambda point: progress(point.lam)
-
-
-def _end_exactly(result: Trace, force: float) -> Trace:
-    """Put the end of a branch that reached its end force exactly there."""
-    if result.end == END:
-        last = result.ladders[-1].at(result.points[-1], force)
-        if last is not None:
-            result.points[-1] = last
-            result.found[-1] = replace(result.found[-1], point=last)
-    return result
-
-
-def _at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float) -> tuple[Ladder, Point]:
-    """Ladder for the branch, and the straight rod at the critical load with the mode as tangent."""
-    reach = until if until is not None else mode.force - mode.wavenumber**2
-    space = first_space(problem, min(reach, mode.force), max(reach, mode.force))
-    family = force_family(
-        problem,
-        space,
-        parity=mode.parity if problem.twist == 0.0 or mode.parity < 0 else 0,
-        wavenumber=mode.wavenumber,
-        force_scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
-    )
-    ladder = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH)
-
-    def straight(on: SplineSpace) -> FloatArray:
-        shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
-        return on.project(-shape if mirror else shape, held=2)
-
-    # the index just above the critical load: as many modes as have been met before this one
-    states = [f.state(np.zeros(f.space.size), mode.force, straight(f.space), 0.0, mode.number - 1)
-              for f in (ladder.coarse, ladder.fine)]  # fmt: skip
-    return ladder, ladder.point(*states)
-
-
-def _follow_from(
-    problem: Problem, start: Solution, until: float | None, largest_step: float, progress: Progress | None
-) -> Branch:
-    if until is None or until == start.force:
-        raise InputError("until", until, "is needed to follow a branch from a given state, and must differ from it")
-    if start.problem != problem:
-        raise InputError("start", start.problem, "belongs to another problem")
-    point = start.point
-    if (until - start.force) * point.coarse.tangent_lam < 0.0:
-        point = Point(point.coarse.reversed(), point.fine.reversed(), point.values, point.error, point.excess)
-    events = [
-        Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX]),
-        _TURNED_ACROSS,
-        Event(END, lambda lam, _: lam - until, stop=True),
-    ]
-    stepping = Stepping(first=min(0.02, largest_step), largest=largest_step, most_work=MOST_WORK)
-    result = _end_exactly(trace(start.ladder, point, stepping, events, _reporting(progress)), until)
-    return Branch(problem, None, result, result.end == END, result.end)

@@ -7,12 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.analysis.families import parameters
 from rodwell.analysis.measures import Measured, pressure_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point, estimated_error
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics import braid
+from rodwell.physics.parameters import FORCE
 from rodwell.physics.strand import contact_pressure
 from rodwell.problem import Problem
 
@@ -39,7 +39,7 @@ class Solution:
     @property
     def force(self) -> float:
         """End force F at s = 1 in B/L², tension positive."""
-        return self.point.lam
+        return float(self.ladder.fine.parameters(self.point.lam)[FORCE])
 
     @property
     def stability_index(self) -> int:
@@ -93,12 +93,13 @@ class Solution:
 
     @cached_property
     def end_reactions(self) -> dict[str, tuple[float, float]]:
-        """What the clamp at s = 1 exerts on the rod across the axis, each with its error estimate.
+        """What the fitting at s = 1 exerts on the rod across the axis, each with its error estimate.
 
-        ``shear``: force F₃(1) = ω₂′(1) in B/L², along u₁; ``moment``: bending moment M₂(1) = ω₂(1) in B/L, about d₁.
-        The axial force there is F, the twisting moment −T₁.
+        ``shear``: circumferential force in B/L², at a clamped end F₃(1) = ω₂′(1) along u₁; ``moment``: bending moment
+        M₂(1) = ω₂(1) in B/L, about d₁. What the end does not hold is zero. The axial force there is F, the twisting
+        moment −T₁.
         """
-        coarse, fine = (braid.end_force(*f.end_reactions(state), f.parameters(state.lam)) for f, state in _levels(self))
+        coarse, fine = (_end(f, state) for f, state in _levels(self))
         return {
             "shear": (fine.shear, float(estimated_error(fine.shear, coarse.shear))),
             "moment": (fine.omega2, float(estimated_error(fine.omega2, coarse.omega2))),
@@ -133,6 +134,12 @@ def _levels(solution: Solution) -> tuple[tuple[Family, State], tuple[Family, Sta
     return (ladder.coarse, point.coarse), (ladder.fine, point.fine)
 
 
+def _end(family: Family, state: State) -> braid.EndForce:
+    """What acts on the rod at s = 1, and where that is."""
+    y, y1 = state.space.evaluate(state.c, np.array([1.0]), 2)[:, 0]
+    return braid.end_force(*family.end_reactions(state), float(y), float(y1), family.parameters(state.lam))
+
+
 def _total(family: Family, state: State) -> float:
     space = state.space
     u = space.evaluate(state.c, space.points, 4)
@@ -144,7 +151,7 @@ def _fields(problem: Problem, family: Family, state: State, s: FloatArray) -> di
     p = family.parameters(state.lam)
     space, c = state.space, state.c
     u = space.evaluate(c, s, 4)
-    end = braid.end_force(*family.end_reactions(state), p)
+    end = _end(family, state)
 
     def rates(places: FloatArray) -> FloatArray:
         values = space.evaluate(c, places, 4)
@@ -181,8 +188,3 @@ def _running_integrals(rates, s: FloatArray, space: SplineSpace) -> tuple[FloatA
     right = np.concatenate([np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], start], axis=1)
     where = np.searchsorted(nodes, s)
     return left[:, where], right[:, where]
-
-
-def straight_pressure(problem: Problem) -> float:
-    """Contact pressure −wₗ cos ξ₂ of the straight rod, the same everywhere (force per length)."""
-    return -float(parameters(problem)[2])

@@ -23,8 +23,8 @@ INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
 def cli() -> None:
     """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
 
-    Forces are those at the end s = 1 (the upper end of an inclined cylinder), tension positive; both ends
-    clamped. Start with:  rodwell run examples/drill-string.toml
+    Forces are those at the end s = 1 (the upper end of an inclined cylinder), tension positive; ends are
+    clamped unless said otherwise. Start with:  rodwell run examples/drill-string.toml
     """
 
 

@@ -13,6 +13,12 @@ UNIT = "B/L²"
 def problem_options(function: Any) -> Any:
     """Options that describe the problem."""
     for option in (
+        click.option(
+            "--ends",
+            default="clamped-clamped",
+            show_default=True,
+            help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free.",
+        ),
         click.option("--clearance", default=0.01, show_default=True, help="Δ/L, distance between the axes."),
         click.option("--alpha", type=float, required=True, help="Angle of the cylinder from the vertical, degrees."),
         click.option("--weight", type=float, required=True, help="γ = mg L³/B, weight of the rod."),
@@ -32,16 +38,16 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON."
 @rtol_option
 @json_option
 def critical(
-    weight: float, alpha: float, clearance: float, modes: int, on_top: bool, rtol: float, as_json: bool
+    weight: float, alpha: float, clearance: float, ends: str, modes: int, on_top: bool, rtol: float, as_json: bool
 ) -> None:
     """Critical loads of the straight rod.
 
     End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows.
     """
     from rodwell.analysis.critical import critical_loads  # noqa: PLC0415
-    from rodwell.problem import Problem  # noqa: PLC0415
+    from rodwell.problem import Problem, checked_ends, ends_text  # noqa: PLC0415
 
-    problem = Problem(weight=weight, alpha=alpha, clearance=clearance, on_top=on_top)
+    problem = Problem(weight=weight, alpha=alpha, clearance=clearance, on_top=on_top, ends=checked_ends(ends))
     loads = critical_loads(problem, modes, rtol=rtol)
     if as_json:
         click.echo(
@@ -50,12 +56,12 @@ def critical(
                     "critical_loads": [float(f) for f in loads.forces],
                     "error": [float(e) for e in loads.errors],
                     "unit": "B/L^2",
-                    "convention": "end force at s = 1, tension positive; both ends clamped",
+                    "convention": "end force at s = 1, tension positive; " + ends_text(problem),
                 }
             )
         )
         return
-    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), both ends clamped:")
+    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     for mode in loads:
         symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
         click.echo(f"  mode {mode.number:>2}  {mode.force:+.10g}  ± {mode.error:.1e}   {symmetry}")
@@ -72,16 +78,19 @@ def critical(
 @click.option("--twist", default=0.0, show_default=True, help="End twisting moment T₁ in B/L.")
 @rtol_option
 @json_option
-def liftoff(weight: float, alpha: float, clearance: float, mode: int, twist: float, rtol: float, as_json: bool) -> None:
+def liftoff(
+    weight: float, alpha: float, clearance: float, ends: str, mode: int, twist: float, rtol: float, as_json: bool
+) -> None:
     """Load at which the buckled rod lifts off the wall, and where.
 
     End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.
     """
     from rodwell.analysis.follow import follow  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
-    from rodwell.problem import Problem  # noqa: PLC0415
+    from rodwell.problem import Problem, checked_ends, ends_text  # noqa: PLC0415
 
-    branch = follow(Problem(weight=weight, alpha=alpha, clearance=clearance, twist=twist), mode, rtol=rtol)
+    problem = Problem(weight=weight, alpha=alpha, clearance=clearance, twist=twist, ends=checked_ends(ends))
+    branch = follow(problem, mode, rtol=rtol)
     lift, found = branch.lift_off, branch.mode
     assert found is not None
     if lift is None:
@@ -94,19 +103,23 @@ def liftoff(weight: float, alpha: float, clearance: float, mode: int, twist: flo
                 {
                     "critical_load": found.force,
                     "critical_load_error": found.error,
-                    "lift_off": {"force": lift.force, "error": lift.error, "s": list(lift.s)},
+                    "lift_off": {
+                        "force": lift.force,
+                        "error": lift.error,
+                        "s": [] if branch.lift_off_at_buckling else list(lift.s),
+                    },
                     "coincides_with_buckling": branch.lift_off_at_buckling,
                     "converged": branch.converged,
                     "unit": "B/L^2",
-                    "convention": "end force at s = 1, tension positive; both ends clamped",
+                    "convention": "end force at s = 1, tension positive; " + ends_text(problem),
                 }
             )
         )
         return
-    places = ", ".join(f"{s:.6g}" for s in lift.s)
-    click.echo(f"End force at s = 1 in {UNIT} (tension positive), both ends clamped:")
+    where = "" if branch.lift_off_at_buckling else "   at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
+    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {found.number}  {found.force:+.10g}  ± {found.error:.1e}")
-    click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}   at s/L = {places}")
+    click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{where}")
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
     if not branch.converged:

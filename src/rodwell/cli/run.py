@@ -72,6 +72,7 @@ def _summary(answer: Answer, folder: Path) -> None:
     from rich.table import Table  # noqa: PLC0415
 
     from rodwell.practice.meaning import sentences  # noqa: PLC0415
+    from rodwell.problem import ends_text  # noqa: PLC0415
     from rodwell.report.html import rows  # noqa: PLC0415
     from rodwell.report.write import FILES  # noqa: PLC0415
 
@@ -82,7 +83,7 @@ def _summary(answer: Answer, folder: Path) -> None:
     problem = answer.case.problem
     console.print(
         f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
-        f"both ends clamped   forces at s = 1, tension positive"
+        f"{ends_text(problem)}   forces at s = 1, tension positive"
     )
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")

@@ -1,7 +1,8 @@
 """Pseudo-arclength continuation with events.
 
 The loop knows no event by name: an event is a function of λ and of the measured numbers whose zeros matter.
-Changes of the stability index are located too, each resolved into the crossings that make it up.
+Changes of the stability index are located too, each resolved into the crossings that make it up, and so are
+places where λ turns back. A step that cannot be explained in this way is repeated with half the length.
 """
 
 from __future__ import annotations
@@ -11,35 +12,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from rodwell.numerics.events import INDEX, TURN, Event, Found, events_between
 from rodwell.numerics.families import Outcome, State
-from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.location import LocationError, Span, index_crossings, locate
+from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.location import LocationError
 from rodwell.numerics.spaces import FloatArray
 
-INDEX = "index"
-"""Name under which changes of the stability index are reported."""
+__all__ = ["INDEX", "TURN", "Event", "Found", "Stepping", "Trace", "trace"]
 
-
-@dataclass(frozen=True)
-class Event:
-    """A function of λ and the measured numbers whose zeros are to be found; ``stop`` ends the branch there."""
-
-    name: str
-    function: Callable[[float, FloatArray], float]
-    stop: bool = False
-
-
-@dataclass(frozen=True)
-class Found:
-    """A located zero: name, point and its ladder, error of its λ, stability index on either side."""
-
-    name: str
-    point: Point
-    ladder: Ladder
-    lam_error: float
-    index_before: int
-    index_after: int
-    fold: bool = False
+STRAYED = 0.2
+"""A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +47,10 @@ class Trace:
 
 
 Progress = Callable[[Point], None]
+Stop = Callable[[Found], str]
+"""Why the branch ends at something located, or "" if it goes on."""
+
+_Bend = tuple[FloatArray, float] | None
 
 
 def trace(
@@ -72,64 +58,76 @@ def trace(
     start: Point,
     stepping: Stepping,
     events: Sequence[Event],
+    *,
+    stop: Stop,
+    switched: bool,
     progress: Progress | None = None,
 ) -> Trace:
-    """Follow the branch from ``start`` along its tangent until a stopping event or the limit of points.
+    """Follow the branch from ``start`` along its tangent until something found stops it, or a limit is met.
 
-    A step is repeated with half the length if the corrector fails, if the branch turns by more than allowed,
-    or if an event in it cannot be located. If the step falls below ``stepping.smallest``, the branch ends
-    and ``Trace.end`` says why.
+    A step is repeated with half the length if the corrector fails, if the branch turns by more than allowed, if the
+    end strays from where it was predicted, or if an event in it cannot be located. If the step falls below
+    ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
+    branch point, whose stability index is that of the branch left.
     """
     result = Trace([start], [ladder])
-    length = stepping.first
-    bend: tuple[FloatArray, float] | None = None
-    work = 0.0
+    length, work = stepping.first, 0.0
+    bend: _Bend = None
     while True:
-        last, ladder = result.points[-1], result.ladders[-1]
-        work += 4.0 * ladder.fine.space.elements  # about that many solves a step
+        work += 4.0 * result.ladders[-1].fine.space.elements  # about that many solves a step
         result.end = _limit(result, work, stepping)
         if result.end:
             return result
-        why, new_ladder, point, turn = _step(ladder, last.coarse, length, bend, stepping)
-        found: list[Found] = []
-        if point is not None:
-            base: Point | None = last
-            if new_ladder is not ladder:
-                outcome, base = new_ladder.adopt(ladder, last)
-                why = outcome.value
-            try:
-                if base is not None:
-                    found = _events_between(new_ladder, base, point, events, first=len(result.points) == 1)
-            except LocationError as problem:
-                base, why = None, str(problem)
-            if base is None:
-                point = None
-            else:
-                result.points[-1], result.ladders[-1] = base, new_ladder
-                last = base
-        if point is None:
+        advance = _advance(result, length, bend, stepping, events, stop, switched)
+        if isinstance(advance, str):
             length, bend = 0.5 * length, None
             if length < stepping.smallest:
-                result.end = why
+                result.end = advance
                 return result
             continue
-        result.found += found
-        stops = [f for f in found if any(e.stop and e.name == f.name for e in events)]
-        if stops:
-            result.points.append(stops[0].point)
-            result.ladders.append(new_ladder)
-            result.end = stops[0].name
+        if result.end:
             return result
-        result.points.append(point)
-        result.ladders.append(new_ladder)
         if progress is not None:
-            progress(point)
-        travelled = last.coarse.along(point.coarse)
-        bend = (
-            (point.coarse.tangent - last.coarse.tangent) / travelled,
-            (point.coarse.tangent_lam - last.coarse.tangent_lam) / travelled,
-        )
+            progress(result.points[-1])
+        bend, turn = advance
         length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
+
+
+def _advance(
+    result: Trace, length: float, bend: _Bend, stepping: Stepping, events: Sequence[Event], stop: Stop, switched: bool
+) -> tuple[_Bend, float] | str:
+    """Make one step and add it to ``result`` with its events; return how the branch bends, or what went wrong."""
+    last, ladder = result.points[-1], result.ladders[-1]
+    why, new_ladder, point, turn = _step(ladder, last.coarse, length, bend, stepping)
+    if point is None:
+        return why
+    base = last
+    if new_ladder is not ladder:
+        outcome, adopted = new_ladder.adopt(ladder, last)
+        if adopted is None:
+            return outcome.value
+        base = adopted
+    try:
+        opening = len(result.points) == 1
+        found = events_between(new_ladder, base, point, events, opening=opening, leaves=opening and switched)
+    except LocationError as problem:
+        return str(problem)
+    result.points[-1], result.ladders[-1] = base, new_ladder
+    end = next((i for i, item in enumerate(found) if stop(item)), None)
+    if end is not None:
+        found = found[: end + 1]
+        result.end, point, new_ladder = stop(found[end]), found[end].point, found[end].ladder
+    result.found += found
+    result.points.append(point)
+    result.ladders.append(new_ladder)
+    if end is not None:
+        return None, turn
+    travelled = base.coarse.along(point.coarse)
+    rate = (
+        (point.coarse.tangent - base.coarse.tangent) / travelled,
+        (point.coarse.tangent_lam - base.coarse.tangent_lam) / travelled,
+    )
+    return rate, turn
 
 
 def _limit(result: Trace, work: float, stepping: Stepping) -> str:
@@ -142,45 +140,17 @@ def _limit(result: Trace, work: float, stepping: Stepping) -> str:
 
 
 def _step(
-    ladder: Ladder, state: State, length: float, bend: tuple[FloatArray, float] | None, stepping: Stepping
+    ladder: Ladder, state: State, length: float, bend: _Bend, stepping: Stepping
 ) -> tuple[str, Ladder, Point | None, float]:
     """Try one step: returns what went wrong (or ""), the ladder, the point or None, the turn of the tangent."""
-    outcome, coarse, _ = ladder.coarse.step(state, length, bend)
+    outcome, coarse, strayed = ladder.coarse.step(state, length, bend)
     if coarse is None:
         return outcome.value, ladder, None, 0.0
     cosine = float(state.row @ coarse.tangent + state.row_lam * coarse.tangent_lam)
     turn = float(np.arccos(min(1.0, cosine)))
     if turn > stepping.sharpest_turn:
         return "the branch turns too sharply to be followed", ladder, None, turn
+    if strayed > STRAYED * length:
+        return "the steps stray from the branch", ladder, None, turn
     outcome, ladder, point = ladder.resolve(coarse)
     return (outcome.value if outcome is not Outcome.CONVERGED else ""), ladder, point, turn
-
-
-def _events_between(ladder: Ladder, before: Point, after: Point, events: Sequence[Event], first: bool) -> list[Found]:
-    """All events between two points on one ladder, in order; up to the first that stops the branch."""
-    spans = (
-        Span(ladder.coarse.sharp(), before.coarse, after.coarse),
-        Span(ladder.fine.sharp(), before.fine, after.fine),
-    )
-    crossings: list[tuple[float, Found]] = []
-    if not first:  # the index of the straight rod is not that of the branch which leaves it
-        for place, coarse, fine, indices, error, fold in index_crossings(*spans):
-            point = ladder.point(coarse, fine)
-            crossings.append((place, Found(INDEX, point, ladder, error / CLAIMED_GAIN, *indices, fold)))
-    for event in events:
-        ends = event.function(before.lam, before.values), event.function(after.lam, after.values)
-        if ends[0] == 0.0 or (ends[0] < 0.0) == (ends[1] < 0.0):
-            continue
-        place, coarse, fine, error = locate(*spans, ladder.measure, event.function, ends)
-        index = fine.index if not first else after.fine.index
-        crossings.append(
-            (place, Found(event.name, ladder.point(coarse, fine), ladder, error / CLAIMED_GAIN, index, index))
-        )
-    crossings.sort(key=lambda item: item[0])
-    stops = {e.name for e in events if e.stop}
-    out: list[Found] = []
-    for _, item in crossings:
-        out.append(item)
-        if item.name in stops:
-            break
-    return out

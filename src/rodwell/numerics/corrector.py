@@ -1,6 +1,6 @@
 """Newton's method for equilibria on a hyperplane: the compiled heart of continuation.
 
-Equilibria g(c, λ) = ∂E/∂c = 0 depend on one number λ, with parameters ``p(λ) = p₀ + λ rates``. A hyperplane
+Equilibria g(c, λ) = ∂E/∂c = 0 depend on one number λ through the parameters p(λ). A hyperplane
 ``row·c + row_λ λ = target`` picks one of them; ``row = 0, row_λ = 1`` means "at this λ". With the Hessian H
 and m = ∂g/∂λ each iteration solves the bordered system
 
@@ -9,7 +9,8 @@ and m = ∂g/∂λ each iteration solves the bordered system
     ⎣row  row_λ⎦ ⎣δλ⎦      ⎣row·c + … − target⎦
 
 The tangent follows from b, the stability index from the pivots of H: one factorisation gives all three.
-Only the unknowns ``first … last−1`` vary; the others are held by the end conditions. A ``parity`` of ±1 keeps
+Only the unknowns ``first … last−1`` vary; the others are held by the end conditions or tied to their neighbour
+(:mod:`rodwell.numerics.ends`). A ``parity`` of ±1 keeps
 increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
 which a nearly singular H would blow up near a symmetry-breaking bifurcation.
 """
@@ -23,7 +24,9 @@ import numpy as np
 from rodwell.jit import kernel
 from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
+from rodwell.numerics.ends import gather, restrict, spread
 
+DEGREE = np.pi / 180.0
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
 
 
@@ -39,24 +42,24 @@ def symmetrise(x, parity):
 
 
 @kernel
-def held_out(band, first, last):
-    """Rows and columns ``first … last−1`` of a banded matrix: couplings to held unknowns drop out."""
-    n, width = last - first, band.shape[1]
-    inner = np.zeros((n, width))
-    for j in range(n):
-        for k in range(min(width, n - j)):
-            inner[j, k] = band[first + j, k]
-    return inner
+def on_path(path, lam, parameters, rates):
+    """Write the parameters p(λ) and their derivatives, see :func:`correct`."""
+    angle = lam * DEGREE
+    cos, sin = np.cos(angle), np.sin(angle)
+    for i in range(parameters.size):
+        parameters[i] = path[0, i] + lam * path[1, i] + cos * path[2, i] + sin * path[3, i]
+        rates[i] = path[1, i] + DEGREE * (cos * path[3, i] - sin * path[2, i])
 
 
 @kernel
 def correct(
-    model, local_tag, table, points, weights, first, last, parity,
-    c, lam, base, rates, row, row_lam, target, scale_c, scale_lam, tolerance, most,
+    model, local_tag, table, points, weights, first, last, tied_first, tied_last, parity,
+    c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
     extra, tangent,
 ):  # fmt: skip
     """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
 
+    The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
     the first step below ``tolerance`` (convergence is quadratic: the error left is about its square) and
     fails after ``most`` steps, or as soon as a step is not smaller than the one before it. ``extra`` steps
@@ -71,21 +74,24 @@ def correct(
     gradient, mixed = np.empty(n), np.empty(n)
     band = np.empty((n, table.shape[2]))
     a, b = np.zeros(n), np.zeros(n)
-    parameters = np.empty(base.size)
+    parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
     previous = np.inf
     negative, energy, step, settled = -1, np.nan, np.inf, 0
     for iteration in range(1, most + extra + 1):
-        for i in range(base.size):
-            parameters[i] = base[i] + lam * rates[i]
+        on_path(path, lam, parameters, rates)
         energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
             return OUT_OF_RANGE, lam, negative, energy, step, iteration
-        inner = held_out(band, first, last)
+        inner = restrict(band, first, last, tied_first, tied_last)
+        gather(gradient, first, last, tied_first, tied_last)
+        gather(mixed, first, last, tied_first, tied_last)
         negative = factorise(inner)
         for i in range(first, last):
             a[i], b[i] = -gradient[i], mixed[i]
         solve(inner, a[first:last])
         solve(inner, b[first:last])
+        spread(a, first, last, tied_first, tied_last)
+        spread(b, first, last, tied_first, tied_last)
         symmetrise(a, parity)
         symmetrise(b, parity)
         gap, lever = target - row_lam * lam, row_lam
@@ -94,7 +100,7 @@ def correct(
             lever -= row[i] * b[i]
         dlam = gap / lever
         step = abs(dlam) / scale_lam
-        for i in range(first, last):
+        for i in range(n):
             dc = a[i] - dlam * b[i]
             c[i] += dc
             step = max(step, abs(dc) / scale_c)

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.numerics import assembly, banded, corrector
+from rodwell.numerics.ends import Ends
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
 
@@ -28,6 +29,9 @@ class Outcome(Enum):
     DIVERGED = "Newton's method diverged: start nearer, or take a smaller step"
     OUT_OF_RANGE = "the rod turned across the cylinder (|η| = 90°): the load is beyond the theory's range"
 
+
+SYMMETRIC = 1e-5
+"""Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
 
 _OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
 
@@ -50,6 +54,14 @@ class State:
     index: int
     energy: float
 
+    @property
+    def symmetry(self) -> int:
+        """1 if the state is even about the middle, −1 if odd (up to a constant: a coil), 0 if neither."""
+        mirrored, size = self.c[::-1], SYMMETRIC * float(np.max(np.abs(self.c)))
+        if np.max(np.abs(self.c - mirrored)) <= size:
+            return 1
+        return -1 if np.max(np.abs(self.c + mirrored - (self.c[0] + self.c[-1]))) <= size else 0
+
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""
         return replace(self, tangent=-self.tangent, tangent_lam=-self.tangent_lam, row=-self.row, row_lam=-self.row_lam)
@@ -61,17 +73,16 @@ class State:
 
 @dataclass(frozen=True)
 class Family:
-    """Equilibria of ``model`` at ``base + λ rates`` with given end values: see the module's text.
+    """Equilibria of ``model`` along a path in its parameters, with given ends: see the module's text.
 
-    ``held`` is the number of coefficients held at each end (2 clamped, 1 pinned, 0 free); ``parity`` 1 or −1
-    keeps increments even or odd about the middle, 0 leaves them.
+    ``path`` (4, k) gives the parameters p(λ) = path[0] + λ path[1] + cos λ path[2] + sin λ path[3], λ in degrees in the
+    latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them.
     """
 
     model: Any
-    base: FloatArray
-    rates: FloatArray
+    path: FloatArray
     space: SplineSpace
-    held: tuple[int, int]
+    ends: Ends
     parity: int
     scale_c: float
     slope_scale: float
@@ -94,7 +105,16 @@ class Family:
 
     def parameters(self, lam: float) -> FloatArray:
         """Return all parameters of the model at λ."""
-        return self.base + lam * self.rates
+        return np.asarray(self._on_path(lam)[0])
+
+    def rates(self, lam: float) -> FloatArray:
+        """Return the derivatives of all parameters of the model by λ."""
+        return np.asarray(self._on_path(lam)[1])
+
+    def _on_path(self, lam: float) -> FloatArray:
+        out = np.empty((2, self.path.shape[1]))
+        corrector.on_path(self.path, lam, out[0], out[1])
+        return out
 
     def covector(self, tangent: FloatArray, tangent_lam: float) -> tuple[FloatArray, float, FloatArray, float]:
         """Return row, row_λ and the tangent, normalised in the metric."""
@@ -118,10 +138,10 @@ class Family:
         space = self.space
         c = c.copy()
         tangent = np.empty_like(c)
-        last = space.size - self.held[1]
+        free = self.free
         status, lam, index, energy, _, steps = corrector.correct(
-            self.model, space.local_tag, space.table, space.points, space.weights, self.held[0], last, self.parity,
-            c, lam, self.base, self.rates, row, row_lam, target, self.scale_c, self.lam_scale,
+            self.model, space.local_tag, space.table, space.points, space.weights, free.start, free.stop,
+            *self.ends.tied, self.parity, c, lam, self.path, row, row_lam, target, self.scale_c, self.lam_scale,
             self.tolerance, self.most_steps, self.extra_steps, tangent,
         )  # fmt: skip
         if status != corrector.CONVERGED:
@@ -140,18 +160,18 @@ class Family:
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
         energy = assembly.assemble(
             self.model, space.local_tag, space.table, space.points, space.weights, c,
-            self.parameters(lam), self.rates, gradient, mixed, band,
+            self.parameters(lam), self.rates(lam), gradient, mixed, band,
         )  # fmt: skip
         return energy, gradient, band
 
     @property
     def free(self) -> slice:
         """The coefficients that are not held."""
-        return slice(self.held[0], self.space.size - self.held[1])
+        return self.ends.free(self.space.size)
 
     def free_part(self, band: FloatArray) -> FloatArray:
-        """Rows and columns of the free coefficients of a banded matrix."""
-        return np.asarray(corrector.held_out(band, self.free.start, self.free.stop))
+        """Band of the free unknowns of a banded matrix."""
+        return self.ends.restrict(band)
 
     def end_reactions(self, state: State) -> tuple[float, float]:
         """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
@@ -174,10 +194,9 @@ class Family:
         factors = self.free_part(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
         for _ in range(iterations):
-            new = banded.multiply(space.slope_gram, vector)[self.free]
+            new = self.ends.gather(banded.multiply(space.slope_gram, vector))
             banded.solve(factors, new)
-            vector[:] = 0.0
-            vector[self.free] = new / np.max(np.abs(new))
+            vector[:] = self.ends.spread(new / np.max(np.abs(new)))
         above, below = assembly.variation(
             self.model,
             space.table,
@@ -185,7 +204,7 @@ class Family:
             space.weights,
             state.c,
             self.parameters(state.lam),
-            self.rates,
+            self.rates(state.lam),
             vector,
         )
         return float(above / below)
@@ -196,12 +215,22 @@ class Family:
 
     def step(
         self, state: State, length: float, bend: tuple[FloatArray, float] | None = None
-    ) -> tuple[Outcome, State | None, int]:
-        """One pseudo-arclength step from ``state`` along its tangent, which turns at the rate ``bend``."""
+    ) -> tuple[Outcome, State | None, float]:
+        """One pseudo-arclength step from ``state`` along its tangent, which turns at the rate ``bend``.
+
+        Returns what came of it, the new state, and how far that lies from where it was predicted.
+        """
         c = state.c + length * state.tangent
         lam = state.lam + length * state.tangent_lam
         if bend is not None:
             c += 0.5 * length**2 * bend[0]
             lam += 0.5 * length**2 * bend[1]
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
-        return self.correct(c, lam, state.row, state.row_lam, target)
+        outcome, new, _ = self.correct(c, lam, state.row, state.row_lam, target)
+        return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam)
+
+    def distance(self, c: FloatArray, lam: float) -> float:
+        """Length of a difference of states in the metric."""
+        weight_c, weight_lam = self._metric
+        square = weight_c * float(c @ banded.multiply(self.space.slope_gram, c)) + weight_lam * lam**2
+        return float(np.sqrt(max(square, 0.0)))

@@ -56,6 +56,11 @@ class Point:
         return self.fine.lam
 
     @property
+    def lam_gap(self) -> float:
+        """Error estimate of a λ that was located on both meshes."""
+        return abs(self.fine.lam - self.coarse.lam) / CLAIMED_GAIN
+
+    @property
     def accurate(self) -> bool:
         """Whether every measured number meets the tolerance."""
         return self.excess <= 1.0
@@ -83,7 +88,7 @@ class Ladder:
         self, family: Family, measure: Measure, rtol: float, most_elements: int = 20_000, kin: Sequence[slice] = ()
     ) -> None:
         self.floor = 1.0  # excess below which refinement was found not to help (round-off)
-        self.kin = kin
+        self.kin = tuple(kin)
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
@@ -97,10 +102,14 @@ class Ladder:
         """Measure a pair of states."""
         values, scales = self.measure(self.fine, fine)
         other, _ = self.measure(self.coarse, coarse)
-        error = estimated_error(values, other)
+        error = estimated_error(values, other) + ROUND_OFF * np.where(np.isfinite(scales), scales, 0.0)
         for group in self.kin:
             error[group] = error[group].max()
         return Point(coarse, fine, values, error, float(np.max(error / scales)) / self.rtol)
+
+    def _without_gain(self, point: Point) -> Point:
+        """Return a point of which refinement is known not to help: no gain is claimed for its errors."""
+        return replace(point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess)
 
     def at(self, point: Point, lam: float) -> Point | None:
         """Solve both meshes at exactly λ = ``lam``, from a point close to it; None if that fails."""
@@ -118,7 +127,7 @@ class Ladder:
             return outcome, self, None
         ladder, point = self, self.point(coarse, fine)
         while point.excess > ladder.floor:
-            finer = ladder._refined(point)
+            finer = ladder.refined(point)
             if finer is None:
                 break
             outcome, better = finer.adopt(ladder, point)
@@ -127,9 +136,10 @@ class Ladder:
             if better.excess > 1.0 and better.excess > 0.25 * point.excess:
                 # round-off: a finer mesh does not help, and no gain may be claimed
                 ladder.floor = 10.0 * point.excess
-                point = replace(point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess)
                 break
             ladder, point = finer, better
+        if 1.0 < point.excess <= ladder.floor:
+            point = self._without_gain(point)
         return Outcome.CONVERGED, ladder, point
 
     def adopt(self, other: Ladder, point: Point) -> tuple[Outcome, Point | None]:
@@ -140,7 +150,7 @@ class Ladder:
         outcome, fine = self.lift(coarse)
         return outcome, None if fine is None else self.point(coarse, fine)
 
-    def _refined(self, point: Point) -> Ladder | None:
+    def refined(self, point: Point) -> Ladder | None:
         """Return a ladder with smaller elements where ``point`` is least resolved, or None at the limit."""
         marked = _least_resolved(self.coarse.space, point.coarse, self.fine.space, point.fine)
         if self.coarse.parity != 0:  # keeping a symmetry takes a symmetric mesh
@@ -148,7 +158,9 @@ class Ladder:
         space = self.coarse.space.refined(marked)
         if 2 * space.elements > self.most_elements:
             return None
-        return Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.kin)
+        finer = Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.kin)
+        finer.floor = self.floor
+        return finer
 
 
 def _carry(state: State, up: Prolongation, family: Family) -> tuple[Outcome, State | None]:

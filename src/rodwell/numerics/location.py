@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rodwell.numerics.families import Family, State
-from rodwell.numerics.spaces import FloatArray
-
-if TYPE_CHECKING:
-    from rodwell.numerics.ladder import Measure
 
 PLACE_TOLERANCE = 1e-12
 """Width, as a part of the span, to which a zero is bracketed."""
@@ -85,27 +80,29 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     return best
 
 
-def locate(
-    coarse: Span,
-    fine: Span,
-    measure: Measure,
-    function: Callable[[float, FloatArray], float],
-    ends: tuple[float, float],
-) -> tuple[float, State, State, float]:
-    """Zero of an event function of λ and the measured numbers on both meshes.
+@dataclass(frozen=True)
+class Place:
+    """A zero found on both meshes: t on the fine one, and the states at the zero of each mesh.
 
-    ``ends`` are its values, of opposite sign, at the ends of the fine span. Returns the place t on the fine mesh, the
-    states there on the coarse and the fine mesh, and how far apart in λ the zeros of the two meshes are.
+    The two states differ by what the zero's place is uncertain too, so what is measured of them has errors that
+    include it.
     """
 
-    def value(span: Span, t: float) -> float:
-        state = span(t)
-        return function(state.lam, measure(span.family, state)[0])
+    t: float
+    coarse: State
+    fine: State
 
-    place = bracketed_root(lambda t: value(fine, t), 0.0, 1.0, *ends)
-    other = _near(lambda t: value(coarse, t), place, ends[1] > ends[0])
-    here = fine(place)
-    return place, coarse(place), here, abs(coarse(other).lam - here.lam)
+    @property
+    def gap(self) -> float:
+        """How far apart in λ the zeros of the two meshes are."""
+        return abs(self.coarse.lam - self.fine.lam)
+
+
+def locate(coarse: Span, fine: Span, function: Callable[[Span, State], float], ends: tuple[float, float]) -> Place:
+    """Zero of a function of a state on both meshes; ``ends`` are its values at the ends of the fine span."""
+    place = bracketed_root(lambda t: function(fine, fine(t)), 0.0, 1.0, *ends)
+    other = _near(lambda t: function(coarse, coarse(t)), place, ends[1] > ends[0])
+    return Place(place, coarse(other), fine(place))
 
 
 def _near(function: Callable[[float], float], place: float, rising: bool) -> float:
@@ -125,26 +122,37 @@ def _near(function: Callable[[float], float], place: float, rising: bool) -> flo
     raise LocationError("an event was found on the finer mesh only")
 
 
-def index_crossings(coarse: Span, fine: Span) -> list[tuple[float, State, State, tuple[int, int], float, bool]]:
+@dataclass(frozen=True)
+class Crossing:
+    """A change of the stability index: where, from what to what, and whether it is a fold (λ turns back there).
+
+    ``place`` is None where only one mesh shows it: the eigenvalue vanishes to round-off (the translation eigenvalue
+    of a long rod is exponentially small), so its sign means nothing.
+    """
+
+    place: Place | None
+    t: float
+    before: int
+    after: int
+    fold: bool
+
+
+def index_crossings(coarse: Span, fine: Span) -> list[Crossing]:
     """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
 
     A change by one that stands alone is then located as a zero of the eigenvalue that crosses, which is
-    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one. What
-    the other mesh does not confirm is round-off (eigenvalues that are exponentially small) and left out.
-
-    Each item: place t, states on both meshes, index before and after, error of λ, and whether the place is a
-    fold (λ turns back there) rather than a branch point.
+    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
     """
     out = []
     for low, high, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
-        place = _crossing(fine, low, high)
+        t = _crossing(fine, low, high)
         try:
-            other = _near(_Crossing(coarse, place), place, rising=after < before) if high > low else place
+            other = _near(_Crossing(coarse, t), t, rising=after < before) if high > low else t
         except LocationError:
-            continue  # seen on one mesh only: an eigenvalue that vanishes to round-off, not a crossing
-        fold = fine(place - FOLD_OFFSET).tangent_lam * fine(place + FOLD_OFFSET).tangent_lam < 0.0
-        here = fine(place)
-        out.append((place, coarse(place), here, (before, after), abs(coarse(other).lam - here.lam), fold))
+            out.append(Crossing(None, t, before, after, fold=False))
+            continue
+        fold = fine(t - FOLD_OFFSET).tangent_lam * fine(t + FOLD_OFFSET).tangent_lam < 0.0
+        out.append(Crossing(Place(t, coarse(other), fine(t)), t, before, after, fold))
     return out
 
 
@@ -152,6 +160,7 @@ ALONE = 1e-2
 """Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
 
 FOLD_OFFSET = 1e-5
+"""How far from a crossing, as a part of the span, the sense of travel is compared."""
 
 
 def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, float, int, int]]:

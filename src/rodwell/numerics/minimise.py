@@ -47,8 +47,8 @@ def _downhill(family: Family, gradient: FloatArray, band: FloatArray, sigma: flo
         if banded.factorise(factors) == 0:
             break
         sigma = max(1.0, 4.0 * sigma)
-    step = np.zeros_like(gradient)
-    step[family.free] = -gradient[family.free]
-    banded.solve(factors, step[family.free])
+    free = -family.ends.gather(gradient)
+    banded.solve(factors, free)
+    step = family.ends.spread(free)
     corrector.symmetrise(step, family.parity)
     return step, sigma

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rodwell.numerics import assembly, banded, bsplines
+from rodwell.numerics.ends import Ends
 
 FloatArray = NDArray[np.float64]
 
@@ -88,22 +89,16 @@ class SplineSpace:
         new = middles if marked is None else middles[marked]
         return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree)
 
-    def project(self, values: FloatArray, held: int) -> FloatArray:
-        """Coefficients of the L² projection of a function known at the quadrature points, (m,).
-
-        ``held`` coefficients at each end stay zero (2 for a function with vanishing ends and end slopes).
-        """
+    def project(self, values: FloatArray, ends: Ends) -> FloatArray:
+        """Coefficients of the L² projection of a function known at the quadrature points, (m,), held ends zero."""
         local = np.einsum("eqa,eq->ea", self._element_table[:, :, 0], self._by_element(self.weights * values))
         load = np.zeros(self.size)
         for a in range(self.degree + 1):
             load[a : a + self.elements] += local[:, a]
-        inner = slice(held, self.size - held)
-        mass = self.form(np.array([1.0, 0.0, 0.0]))[inner].copy()
+        mass, free = ends.restrict(self.form(np.array([1.0, 0.0, 0.0]))), ends.gather(load)
         banded.factorise(mass)
-        out = np.zeros(self.size)
-        out[inner] = load[inner]
-        banded.solve(mass, out[inner])
-        return out
+        banded.solve(mass, free)
+        return ends.spread(free)
 
     @property
     def _element_table(self) -> FloatArray:

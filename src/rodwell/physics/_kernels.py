@@ -9,7 +9,7 @@ from rodwell.jit import kernel
 def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     """Energy density and its derivatives at one place ``s``: see :func:`rodwell.jit.density`.
 
-    ``u`` (3,) holds y, y', y''; the order of ``parameters`` (5,) is that of ``rodwell.physics.parameters``.
+    ``u`` (3,) holds y, y', y''; the order of ``parameters`` (6,) is that of ``rodwell.physics.parameters``.
     Returns the energy per length relative to the straight rod.
     """
     force = parameters[0]
@@ -28,37 +28,40 @@ def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     sin_half, cos_half = math.sin(half_angle), math.cos(half_angle)
     cos_eta = math.sqrt((1.0 - y1) * (1.0 + y1))
     sec_eta = 1.0 / cos_eta
-    t0 = cos_eta*curvature
-    t1 = t0*twist
-    t2 = 2*sin_half**2
-    t3 = curvature**2
-    t4 = sec_eta**2
-    t5 = y2**2
-    t6 = s - 1
-    t7 = axial_weight*t6 + force
-    t8 = y1**2
-    t9 = t7*t8
-    t10 = y1**3
-    t11 = sec_eta**4
-    t12 = t11*t5
-    t13 = curvature*sec_eta
-    t14 = t13*t8
-    t15 = sec_eta*t7
-    t16 = lateral_weight*(1 - t2)
-    t17 = sec_eta**3
-    t18 = sec_eta*y1
-    energy = clearance*lateral_weight*t2 + t1*y1 + (1/2)*t3*y1**4 + (1/2)*t4*t5 + t9/(cos_eta + 1)
+    t0 = 2*sin_half**2
+    t1 = curvature**2
+    t2 = sec_eta**2
+    t3 = y2**2
+    t4 = 1/(cos_eta + 1)
+    t5 = t4*twist
+    t6 = y1**3
+    t7 = curvature*t6
+    t8 = s - 1
+    t9 = axial_weight*t8 + force
+    t10 = y1**2
+    t11 = t10*t9
+    t12 = sec_eta**4
+    t13 = t12*t3
+    t14 = curvature*t10
+    t15 = sec_eta*t14
+    t16 = sec_eta*t9
+    t17 = t14*t4
+    t18 = lateral_weight*(1 - t0)
+    t19 = sec_eta*y1
+    t20 = t1*t10
+    t21 = sec_eta**3
+    energy = clearance*lateral_weight*t0 + (1/2)*t1*y1**4 + t11*t4 + (1/2)*t2*t3 - t5*t7
     gradient[0] = 2*cos_half*lateral_weight*sin_half
-    gradient[1] = t1 + 2*t10*t3 + t12*y1 - t14*twist + t15*y1
-    gradient[2] = t4*y2
-    hessian[0, 0] = curvature*t16
+    gradient[1] = 2*t1*t6 + t13*y1 - t15*twist + t16*y1 - t17*twist
+    gradient[2] = t2*y2
+    hessian[0, 0] = curvature*t18
     hessian[1, 0] = 0
-    hessian[1, 1] = -curvature*t10*t17*twist + 4*sec_eta**6*t5*t8 + t12 - 3*t13*twist*y1 + t15 + t17*t9 + 6*t3*t8
+    hessian[1, 1] = -3*curvature*t19*twist + 4*sec_eta**6*t10*t3 + t11*t21 + t13 + t16 + 6*t20 - t21*t7*twist
     hessian[2, 0] = 0
-    hessian[2, 1] = 2*t11*y1*y2
-    hessian[2, 2] = t4
-    mixed[0] = -clearance_rate*t16*t3*y + 2*cos_half*lateral_weight_rate*sin_half
-    mixed[1] = axial_weight_rate*t18*t6 + clearance_rate*(-cos_eta*t3*twist - 4*curvature**3*t10 + sec_eta*t3*t8*twist) + force_rate*t18 + twist_rate*(t0 - t14)
+    hessian[2, 1] = 2*t12*y1*y2
+    hessian[2, 2] = t2
+    mixed[0] = -clearance_rate*t1*t18*y + 2*cos_half*lateral_weight_rate*sin_half
+    mixed[1] = axial_weight_rate*t19*t8 + clearance_rate*(-4*curvature**3*t6 + sec_eta*t20*twist + t20*t5) + force_rate*t19 + twist_rate*(-t15 - t17)
     mixed[2] = 0
     hessian[0, 1] = hessian[1, 0]
     hessian[0, 2] = hessian[2, 0]

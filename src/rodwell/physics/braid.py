@@ -4,7 +4,12 @@ Vectors are given in the braid frame {t₁, d₁, u₁} of the rod unless said o
 rod at the bottom and ξ₂ − π for a rod on top; lateral weight carries the sign that goes with it. Units B = L = 1.
 
 Conditions (B9)–(B14): the end loads at s = 1 act on the rod alone, the cylinder is free of load there. What the
-supports of the cylinder must bear is therefore found at s = 0.
+supports of the cylinder must bear is therefore found at s = 0. For other ends than clamped ones the constants of
+integration follow from the same rule. An end that holds y bears the circumferential force F₃(1), one that holds
+y′ the moment M₂(1); what an end does not hold vanishes (natural conditions). At an end that can turn (pinned,
+free) the rod keeps the curvature ω₃ = sin²η/Δ, though no fitting bends it: the moment ω₃ u₁ there comes from the
+rim of contact, as a pair of opposite radial forces close together, which does no work and acts on the cylinder
+in return.
 """
 
 from __future__ import annotations
@@ -22,20 +27,29 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EndForce:
-    """Braid force at s = 1 across the axis, F₃(1) = ω₂'(1), (B12), and moment arm ω₂(1), (B13)–(B14)."""
+    """What acts on the rod at s = 1 besides F and T₁, and where that is.
+
+    ``shear`` is the circumferential force, F₃(1) = ω₂'(1) at a clamped end, (B12); ``omega2`` the curvature there,
+    (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end.
+    """
 
     shear: float
     omega2: float
+    angle: float = 0.0
+    slope: float = 0.0
 
 
-def end_force(moment: float, reaction: float, parameters: FloatArray) -> EndForce:
-    """Shear and bending moment at the clamped end s = 1 from the natural boundary terms of the energy.
+def end_force(moment: float, reaction: float, y: float, y1: float, parameters: FloatArray) -> EndForce:
+    """Shear and bending moment at the end s = 1 from the natural boundary terms of the energy.
 
-    ``moment`` is ∂e/∂y″ = y″(1), so ω₂(1) = −y″(1); ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′ = T₁/Δ − y‴(1), so
-    ω₂′(1) = −y‴(1) = reaction − T₁/Δ. They come from virtual work, which knows them far better than the
-    derivatives of a spline at its end.
+    ``moment`` is ∂e/∂y″ = y″/cos²η, so ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a clamped
+    end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁
+    has a part T₁ (cos η − 1)/Δ in it.
+    They come from virtual work, which knows them far better than the derivatives of a spline at its end.
     """
-    return EndForce(reaction - float(parameters[TWIST] / parameters[CLEARANCE]), -moment)
+    clearance, twist = float(parameters[CLEARANCE]), float(parameters[TWIST])
+    cos_eta = float(np.sqrt(1.0 - y1 * y1))
+    return EndForce(reaction - twist * (cos_eta - 1.0) / clearance, -moment * cos_eta, y / clearance, y1)
 
 
 def rates(
@@ -79,7 +93,7 @@ def reconstruct(
     from_left, from_right
         Integrals of :func:`rates` (6, m): from 0 to s, and from s to 1.
     parameters
-        Physical parameters (5,).
+        Physical parameters (6,).
     end
         Loads at s = 1.
 
@@ -115,7 +129,7 @@ def reconstruct(
     d1 = np.array([cos_a, -sin_a, np.zeros_like(s)])
     u1 = np.array([cos_eta * sin_a, cos_eta * cos_a, -sin_eta])
     force = np.array([np.zeros_like(s), np.full_like(s, end.shear), axial_resultant(s, parameters)])
-    moment = np.array([end.omega2, 0.0, -twist])[:, None] - from_right[3:]
+    moment = _end_moment(end, twist)[:, None] - from_right[3:]
     for name, vector in (("braid_F", force), ("braid_M", moment)):
         for i, axis in enumerate((t1, d1, u1), start=1):
             out[f"{name}{i}"] = np.sum(vector * axis, axis=0)
@@ -135,6 +149,14 @@ def reconstruct(
     out["lambda"] = out["cylinder_M3"] / cos_eta
     out["tangential_balance"] = _tangential_balance(f1, omega2, omega3, angle, from_right[0], parameters)
     return out
+
+
+def _end_moment(end: EndForce, twist: float) -> FloatArray:
+    """Braid moment M(1) = −T₁ t₁ + ω₂ d₁ along i, j, k, (B13)–(B14)."""
+    sin_a, cos_a, cos_eta = np.sin(end.angle), np.cos(end.angle), np.sqrt(1.0 - end.slope**2)
+    t1 = np.array([end.slope * sin_a, end.slope * cos_a, cos_eta])
+    d1 = np.array([cos_a, -sin_a, 0.0])
+    return np.asarray(end.omega2 * d1 - twist * t1)
 
 
 def _tangential_balance(

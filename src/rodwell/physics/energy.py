@@ -21,10 +21,10 @@ import sympy as sp
 from rodwell.physics.parameters import PARAMETERS
 
 s, y, y1, y2 = sp.symbols("s y y1 y2", real=True)
-force, axial_weight, lateral_weight, clearance, twist = sp.symbols(PARAMETERS, real=True)
+force, axial_weight, lateral_weight, clearance, twist, side = sp.symbols(PARAMETERS, real=True)
 
 FIELDS = (y, y1, y2)
-SYMBOLS = (force, axial_weight, lateral_weight, clearance, twist)
+SYMBOLS = (force, axial_weight, lateral_weight, clearance, twist, side)
 
 
 class OneMinusCos(sp.Function):  # type: ignore[misc]
@@ -62,7 +62,9 @@ def energy_density() -> sp.Expr:
     * lateral weight, (29): ``−Δ wₗ cos ξ₂``, less its value for ``ξ₂ = 0``,
     * end force with axial weight: ``−N(s) z'`` with ``z' = cos η`` (44), less its value for ``η = 0``;
       ``N(s) = F + wₐ (s − 1)`` is the axial resultant, (22)–(24),
-    * dead end torque: ``−T₁ ω₁`` with ``ω₁ = −sin η cos η/Δ`` (20)₁.
+    * dead end torque: ``−T₁ ω₁`` with ``ω₁ = −sin η cos η/Δ`` (20)₁, and ``−T₁ ξ₂'``: the torque works on the whole
+      rotation ξ₁ + ξ₂ of the end. The latter is a null Lagrangian, which matters only where an end slides around
+      the cylinder (in the paper both ends are held).
     """
     cos_eta = CosEta(y1)
     omega2 = y2 / cos_eta
@@ -73,7 +75,7 @@ def energy_density() -> sp.Expr:
         + omega3**2 / 2
         + clearance * lateral_weight * OneMinusCos(y / clearance)
         + axial_force * OneMinusCosEta(y1)
-        + twist * y1 * cos_eta / clearance
+        - twist * y1 * OneMinusCosEta(y1) / clearance
     )
 
 
@@ -127,8 +129,9 @@ def generate() -> str:
     lines = [f"    {name} = {sp.pycode(expr)}" for name, expr in replacements]
     lines += [f"    {target} = {sp.pycode(expr)}" for target, expr in zip(outputs, reduced, strict=True)]
     lines += [f"    hessian[{j}, {i}] = hessian[{i}, {j}]" for i in range(3) for j in range(i)]
-    unpack = [f"    {name} = parameters[{i}]" for i, name in enumerate(PARAMETERS)]
-    unpack += [f"    {name}_rate = rates[{i}]" for i, name in enumerate(PARAMETERS)]
+    used = [(i, p.name) for i, p in enumerate(SYMBOLS) if p in density.free_symbols]
+    unpack = [f"    {name} = parameters[{i}]" for i, name in used]
+    unpack += [f"    {name}_rate = rates[{i}]" for i, name in used]
     return _TEMPLATE.format(body="\n".join([*unpack, PRELUDE, *lines]))
 
 
@@ -143,7 +146,7 @@ from rodwell.jit import kernel
 def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     """Energy density and its derivatives at one place ``s``: see :func:`rodwell.jit.density`.
 
-    ``u`` (3,) holds y, y', y''; the order of ``parameters`` (5,) is that of ``rodwell.physics.parameters``.
+    ``u`` (3,) holds y, y', y''; the order of ``parameters`` (6,) is that of ``rodwell.physics.parameters``.
     Returns the energy per length relative to the straight rod.
     """
 {body}

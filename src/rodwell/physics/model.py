@@ -10,7 +10,7 @@ from numba.extending import overload
 
 from rodwell.jit import contact, density
 from rodwell.physics._kernels import rod_density
-from rodwell.physics.strand import contact_pressure
+from rodwell.physics.strand import towards_lift_off
 
 
 class RodOnCylinder(NamedTuple):
@@ -42,6 +42,6 @@ def _contact(model, s, u, parameters) -> Callable[..., float] | None:  # type: i
         return None
 
     def rod(model, s, u, parameters):  # type: ignore[no-untyped-def]
-        return contact_pressure(s, u[0], u[1], u[2], u[3], parameters)
+        return towards_lift_off(s, u[0], u[1], u[2], u[3], parameters)
 
     return rod

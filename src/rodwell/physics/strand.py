@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.jit import formula
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
+from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 
 
 @formula
@@ -47,11 +47,17 @@ def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
 
 
 @formula
+def towards_lift_off(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
+    """Contact pressure with the sign that makes it negative in contact: p inside the cylinder, −p outside."""
+    return parameters[SIDE] * contact_pressure(s, y, y1, y2, y3, parameters)
+
+
+@formula
 def contact_pressure(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     """Contact pressure p = p₂⁽¹⁾, (55): force balance of the rod (48) along d₁.
 
     ``p = dF₂⁽¹⁾/ds + ω₃ F₁⁽¹⁾ − ω₁ F₃⁽¹⁾ − wₗ cos ξ₂`` with ``dF₂⁽¹⁾/ds = −ω₂'(3ω₁ + T₁) − 3 cos 2η ω₂²/Δ``.
-    Contact with a surrounding cylinder holds while p < 0.
+    Contact holds while p < 0 with a surrounding cylinder, while p > 0 with one that the rod lies on from outside.
     """
     clearance = parameters[CLEARANCE]
     _, omega1, omega2, omega3, omega2_rate = curvatures(y1, y2, y3, clearance)

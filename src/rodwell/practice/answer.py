@@ -9,13 +9,14 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branches import Branch, SpecialPoint
-from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
-from rodwell.analysis.follow import follow
+from rodwell.analysis.critical import EULER, CriticalLoads, Mode, critical_loads
+from rodwell.analysis.follow import extended, follow
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
+from rodwell.problem import ends_text
 
 Progress = Callable[[str, float], None]
 """Called with what is being done and how much of the whole is done (0 to 1)."""
@@ -26,13 +27,17 @@ STRAIGHT_AT = 1e-6
 
 @dataclass(frozen=True)
 class Figure:
-    """A number of the answer: value and error estimate in units B = L = 1, and what it is."""
+    """A number of the answer: value and error estimate in units B = L = 1, and what it is.
+
+    ``scale`` is the size of its kind, against which the error is judged.
+    """
 
     name: str
     label: str
     value: float
     error: float
     dimension: str
+    scale: float
     note: str = ""
 
     def physical(self, case: Case) -> tuple[float, float, str] | None:
@@ -95,8 +100,11 @@ class Answer:
 
     @property
     def converged(self) -> bool:
-        """Whether every reported number meets the tolerance."""
-        return all(branch.converged for branch in self.branches)
+        """Whether every reported number meets the tolerance: branches, special points and key figures."""
+        rtol = self.case.rtol
+        return all(branch.converged for branch in self.branches) and all(
+            figure.error <= rtol * figure.scale for figure in self.figures.values()
+        )
 
     @cached_property
     def worst_certificate(self) -> float:
@@ -116,7 +124,7 @@ class Answer:
             if self.first.lift_off_at_buckling:
                 note = "coincides with buckling: no lateral weight presses the rod to the wall"
             label = "Lift-off load, end force at s = 1"
-            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", note))
+            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", _force_scale(lift.force), note))
         if self.at_lift_off is not None:
             out += _state_figures(self.at_lift_off)
         return {figure.name: figure for figure in out}
@@ -128,13 +136,14 @@ class Answer:
         return {
             "title": case.title,
             "rodwell_version": __version__,
-            "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; both ends clamped",
+            "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; " + ends_text(problem),
             "problem": {
                 "weight": problem.weight,
                 "alpha": problem.alpha,
                 "clearance": problem.clearance,
                 "poisson": problem.poisson,
                 "twist": problem.twist,
+                "ends": list(problem.ends),
             },
             "critical_loads": [float(f) for f in self.critical.forces],
             "critical_errors": [float(e) for e in self.critical.errors],
@@ -157,7 +166,12 @@ class Answer:
 def _critical_figure(mode: Mode) -> Figure:
     symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
     label = f"Critical load of mode {mode.number}, end force at s = 1"
-    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", symmetry)
+    scale = _force_scale(mode.force) + mode.problem.axial_weight
+    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
+
+
+def _force_scale(force: float) -> float:
+    return abs(force) + EULER
 
 
 def _state_figures(state: Solution) -> list[Figure]:
@@ -167,17 +181,20 @@ def _state_figures(state: Solution) -> list[Figure]:
 
     def largest(name: str, field: str, label: str) -> Figure:
         value, error, place = state.largest(field)
-        return Figure(name, label, value, error, QUANTITIES[field].dimension, f"at s/L = {place:.4g}")
+        return Figure(name, label, value, error, QUANTITIES[field].dimension, value, f"at s/L = {place:.4g}")
 
     largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|")
+    largest_bending = largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|")
     self_balanced = abs(torque) <= STRAIGHT_AT * largest_torque.value
+    wall_force = state.total_wall_force
     return [
         largest("largest_wall_force", "contact_pressure", "Largest contact force on the wall per length, outward"),
         Figure(
             "total_wall_force",
             "Total contact force on the wall, all directions added",
-            *state.total_wall_force,
+            *wall_force,
             "force",
+            wall_force[0],
         ),
         largest_torque,
         Figure(
@@ -186,14 +203,25 @@ def _state_figures(state: Solution) -> list[Figure]:
             0.0 if self_balanced else torque,
             torque_error,
             "moment",
+            largest_torque.value,
             "none: the twisting moment balances itself" if self_balanced else "",
         ),
-        largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|"),
-        Figure("end_shear", "Sideways force at the clamped end s = 1, F₃(1)", *state.end_reactions["shear"], "force"),
+        largest_bending,
         Figure(
-            "end_moment", "Bending moment at the clamped end s = 1, M₂(1)", *state.end_reactions["moment"], "moment"
+            "end_shear",
+            f"Sideways force at the end s = 1 ({state.problem.ends[1]}), F₃(1)",
+            *state.end_reactions["shear"],
+            "force",
+            _force_scale(state.force),
         ),
-        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length"),
+        Figure(
+            "end_moment",
+            f"Bending moment at the end s = 1 ({state.problem.ends[1]}), M₂(1)",
+            *state.end_reactions["moment"],
+            "moment",
+            largest_bending.value,
+        ),
+        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length", shortening),
     ]
 
 
@@ -234,11 +262,10 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
-    to_lift_off = follow(problem, critical[0], rtol=case.rtol)
-    until = _reach(case, critical, to_lift_off)
-    branches = []
+    first, until = _first_branch(case, critical)
+    branches = [first]
     followed = [mode for mode in critical if mode.force > until]
-    for number, mode in enumerate(followed):
+    for number, mode in enumerate(followed[1:], start=1):
         share = (0.9 / len(followed), 0.1 + 0.9 * number / len(followed))
 
         def report(force: float, mode: Mode = mode, share: tuple[float, float] = share) -> None:
@@ -246,17 +273,28 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
             tell(f"mode {mode.number} at F = {force:.4g} B/L²", share[1] + share[0] * min(max(part, 0.0), 1.0))
 
         branches.append(follow(problem, mode, until=until, rtol=case.rtol, progress=report))
-    _check_reached(case, branches[0], until)
     tell("done", 1.0)
     return Answer(case, critical, tuple(branches), until)
 
 
-def _reach(case: Case, critical: CriticalLoads, to_lift_off: Branch) -> float:
-    """End force to follow branches to: as asked, if it buckles the rod; otherwise past lift-off and all modes."""
-    first = critical[0].force
-    if case.until is not None and case.until < first:
-        return case.until
-    lift = to_lift_off.lift_off
+def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, float]:
+    """Branch of the first mode, and the end force to follow branches to.
+
+    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes.
+    """
+    first = critical[0]
+    if case.until is not None and case.until < first.force:
+        branch = follow(case.problem, first, until=case.until, rtol=case.rtol)
+        _check_reached(case, branch, case.until)
+        return branch, case.until
+    to_lift_off = follow(case.problem, first, rtol=case.rtol)
+    until = _reach(critical, to_lift_off)
+    return (extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off), until
+
+
+def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
+    """End force past lift-off and all modes."""
+    first, lift = critical[0].force, to_lift_off.lift_off
     beyond = [1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2]
     if lift is not None:
         beyond.append(1.3 * (first - lift.force))
@@ -264,7 +302,7 @@ def _reach(case: Case, critical: CriticalLoads, to_lift_off: Branch) -> float:
 
 
 def _check_reached(case: Case, branch: Branch, until: float) -> None:
-    if branch.reached_end or case.until is None:
+    if branch.reached_end:
         return
     unit, factor = "B/L²", 1.0
     if case.scales is not None:

@@ -17,7 +17,7 @@ from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.physical import physical_problem
 from rodwell.practice.scales import Scales
-from rodwell.problem import Problem
+from rodwell.problem import Problem, checked_ends
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.Rod,
@@ -240,6 +240,7 @@ def _dimensionless(given: schema.Dimensionless | None, twist: float) -> Problem:
             clearance=given.clearance,
             poisson=given.poisson,
             twist=twist,
+            ends=checked_ends(given.ends),
         )
     except InputError as problem:
         section = "load" if problem.field == "twist" else "dimensionless"

@@ -4,15 +4,31 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.branches import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.units import readable
 
 ASSUMPTIONS = (
-    "both ends clamped (y and y′ held), end force and end torque dead loads at s = 1",
+    "end force and end torque are dead loads at s = 1",
     "rod inextensible, unshearable, linearly elastic, straight when free",
     "cylinder rigid and straight; contact without friction",
     "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
 )
+
+
+ENDS_HOLD = {
+    "clamped": "clamped (y and y′ held)",
+    "pinned": "pinned (y held, free to turn)",
+    "guided": "guided (y′ held, free to slide around the wall)",
+    "free": "free (only the axial force)",
+}
+
+
+def assumptions(answer: Answer) -> tuple[str, ...]:
+    """What the numbers assume, the ends first."""
+    first, last = (ENDS_HOLD[end] for end in answer.case.problem.ends)
+    ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+    return (ends, *ASSUMPTIONS)
 
 
 def force_text(answer: Answer, value: float, error: float | None = None) -> str:
@@ -81,6 +97,12 @@ def _applied(answer: Answer) -> list[str]:
 
 def _lift_off(answer: Answer) -> str:
     lift = answer.lift_off
+    if lift is None and not answer.first.reached_end:
+        lowest, highest = (force_text(answer, float(f(answer.first.force))) for f in (np.min, np.max))
+        return (
+            f"No lift-off was found on the first mode, but its branch could be followed only over end forces from "
+            f"{lowest} to {highest} at s = 1: {answer.first.ended_because}."
+        )
     if lift is None:
         down_to = force_text(answer, answer.until)
         return f"The first mode does not lift off the wall down to the end force {down_to} at s = 1."
@@ -97,17 +119,25 @@ def _lift_off(answer: Answer) -> str:
 
 
 def _stability(answer: Answer) -> str:
-    branch, lift = answer.first, answer.lift_off
-    end = lift.force if lift is not None and not branch.lift_off_at_buckling else answer.until
-    index = branch.stability_index[1:][branch.force[1:] >= end]
-    if index.size == 0:
-        index = branch.stability_index[1:2]
-    what = "up to lift-off" if lift is not None and not branch.lift_off_at_buckling else "over the range shown"
+    """Where the buckled shape is stable, from the special points up to lift-off in the order of travel."""
+    branch = answer.first
+    points = list(branch.special_points)
+    to_lift_off = answer.at_lift_off is not None
+    if to_lift_off:
+        points = points[: 1 + next(i for i, p in enumerate(points) if p.kind == LIFT_OFF)]
+    what = "up to lift-off" if to_lift_off else "over the range shown"
     if branch.lift_off_at_buckling:
         what += ", if kept on the wall"
-    if np.all(index == 0):
+    lost = next((p for p in points if p.index_after > 0), None)
+    if lost is None:
         return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
-    return f"The buckled shape of mode 1 is not stable everywhere {what}: the rod snaps to another shape."
+    if lost.kind == CRITICAL:
+        return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
+    where = force_text(answer, lost.force)
+    return (
+        f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
+        "there the rod takes another shape."
+    )
 
 
 def _wall(answer: Answer) -> str:

@@ -7,7 +7,7 @@ import math
 from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.scales import Scales
-from rodwell.problem import Problem
+from rodwell.problem import Problem, checked_ends
 
 
 def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: float) -> tuple[Problem, Scales]:
@@ -39,12 +39,14 @@ def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: fl
             clearance=clearance / rod.length,
             poisson=rod.poisson,
             twist=twist / scales.factor("moment"),
+            ends=checked_ends(rod.ends),
         )
     except InputError as found:
         names = {
             "weight": "rod.length",
             "poisson": "rod.poisson",
             "twist": "load.twist",
+            "ends": "rod.ends",
             "clearance": "hole.diameter",
         }
         name = names.get(found.field, found.field)

@@ -7,7 +7,9 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from rodwell.errors import InputError
 from rodwell.practice.units import to_si
+from rodwell.problem import checked_ends
 
 
 def _quantity(kind: str, above: float = -math.inf, least: float = -math.inf) -> BeforeValidator:
@@ -45,6 +47,15 @@ Acceleration = Annotated[float, _quantity("acceleration", least=0.0)]
 Number = Annotated[float, BeforeValidator(_plain)]
 
 
+def _ends(text: object) -> str:
+    try:
+        return "-".join(checked_ends(text))
+    except InputError as problem:
+        raise ValueError(problem.problem) from None
+
+
+Ends = Annotated[str, BeforeValidator(_ends)]
+
 MOST_MODES = 12
 """Branches that one case may ask for."""
 
@@ -66,6 +77,7 @@ class Rod(Section):
     density: Density | None = None
     weight_per_length: ForcePerLength | None = None
     poisson: Number = 0.3
+    ends: Ends = "clamped-clamped"
 
 
 class Hole(Section):
@@ -85,6 +97,7 @@ class Dimensionless(Section):
     alpha: Number = 90.0
     clearance: Number = 0.01
     poisson: Number = 0.3
+    ends: Ends = "clamped-clamped"
 
 
 class Load(Section):

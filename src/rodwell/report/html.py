@@ -13,7 +13,7 @@ import jinja2
 from rodwell._version import __version__
 from rodwell.practice.answer import Answer, Figure
 from rodwell.practice.case import Case
-from rodwell.practice.meaning import ASSUMPTIONS, sentences
+from rodwell.practice.meaning import assumptions, sentences
 from rodwell.practice.units import readable
 
 TEMPLATE = Path(__file__).with_name("report.html.j2")
@@ -92,7 +92,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         answer=answer,
         verdict=text[0],
         text=text[1:],
-        assumptions=ASSUMPTIONS,
+        assumptions=assumptions(answer),
         rows=rows(answer),
         inputs=inputs(answer.case),
         derived=derived(answer.case),

@@ -1,0 +1,119 @@
+"""Where branches start: ladder and first point, from a critical load, a known state, or a branch point."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, first_space
+from rodwell.analysis.branches import SpecialPoint
+from rodwell.analysis.critical import Mode
+from rodwell.analysis.families import family, parameter_value
+from rodwell.analysis.measures import measured_ladder
+from rodwell.analysis.solution import Solution
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.problem import Problem
+
+Start = tuple[Ladder, Point]
+
+INVERSE_ITERATIONS = 8
+
+
+def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float) -> Start:
+    """The straight rod at the critical load, with the mode as tangent."""
+    reach = until if until is not None else mode.force - mode.wavenumber**2
+    space = first_space(problem, min(reach, mode.force), max(reach, mode.force))
+    equilibria = family(
+        problem,
+        space,
+        parity=kept_parity(problem, mode.parity),
+        wavenumber=mode.wavenumber,
+        scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
+    )
+    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+
+    def straight(on: SplineSpace) -> FloatArray:
+        shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
+        return on.project(-shape if mirror else shape, equilibria.ends)
+
+    # the index just above the critical load: as many modes as have been met before this one
+    states = [f.state(np.zeros(f.space.size), mode.force, straight(f.space), 0.0, mode.number - 1)
+              for f in (ladder.coarse, ladder.fine)]  # fmt: skip
+    return ladder, ladder.point(*states)
+
+
+def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:
+    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of the parameter.
+
+    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only.
+    """
+    if not problem.symmetric or parameter == "alpha":
+        return 0
+    twisted = problem.twist != 0.0 or parameter == "twist"
+    return 0 if twisted and parity > 0 else parity
+
+
+def at_state(problem: Problem, start: Solution, parameter: str, until: float, rtol: float) -> Start:
+    """A known state, heading for ``until``."""
+    here = parameter_value(start, parameter)
+    old = start.point
+    equilibria = family(
+        problem,
+        old.coarse.space,
+        parity=kept_parity(problem, old.fine.symmetry, parameter),
+        wavenumber=_wavenumber(old.fine),
+        scale=abs(until - here),
+        parameter=parameter,
+        force=start.force,
+    )
+    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+    states = []
+    for level, c in ((ladder.coarse, old.coarse.c), (ladder.fine, old.fine.c)):
+        outcome, state, _ = level.sharp().at(c, here)
+        if state is None:
+            raise NotConvergedError(f"the state to start from could not be solved again: {outcome.value}")
+        states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
+    return ladder, ladder.point(*states)
+
+
+def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
+    """A branch point, with the direction that leads off the branch as tangent.
+
+    That is the null vector of the Hessian, normal to the branch: on a symmetric branch it breaks the symmetry.
+    """
+    solution = point.solution
+    old, parent = solution.ladder, solution.point
+    equilibria = replace(old.coarse, parity=0)
+    ladder = measured_ladder(equilibria, rtol, old.most_elements)
+    coarse = _null_vector(ladder.coarse, parent.coarse, np.random.default_rng(0).standard_normal(parent.coarse.c.size))
+    fine = _null_vector(ladder.fine, parent.fine, ladder.up(coarse))
+    if mirror:
+        coarse, fine = -coarse, -fine
+    states = [
+        replace(f.state(state.c, state.lam, vector, 0.0, point.index_before), energy=state.energy)
+        for f, state, vector in ((ladder.coarse, parent.coarse, coarse), (ladder.fine, parent.fine, fine))
+    ]
+    return ladder, ladder.point(*states)
+
+
+def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatArray:
+    """Null vector of the Hessian of a branch point, free of the branch's own direction."""
+    equilibria.nearest_curvature(state, vector, INVERSE_ITERATIONS)
+    if state.symmetry != 0:  # the pitchfork breaks the symmetry of the branch
+        vector = 0.5 * (vector - state.symmetry * vector[::-1])
+    else:
+        vector = vector - float(state.row @ vector) * state.tangent
+    if vector[np.argmax(np.abs(vector))] < 0.0:
+        vector = -vector
+    return vector
+
+
+def _wavenumber(state: State) -> float:
+    """√(∫y''²/∫y'²) of a state, in rad/L."""
+    _, slope, bend = state.space.at_points(state.c)
+    weights = state.space.weights
+    return float(np.sqrt((weights @ bend**2) / max(weights @ slope**2, 1e-300)))

@@ -1,0 +1,177 @@
+"""What happens between two points of a branch, in order: zeros of events, changes of the index, turning points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from rodwell.numerics.families import State
+from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
+from rodwell.numerics.location import FOLD_OFFSET, Crossing, LocationError, Place, Span, index_crossings, locate
+from rodwell.numerics.spaces import FloatArray
+
+INDEX, TURN = "index", "turn"
+"""Names under which changes of the stability index, and turning points without one, are reported."""
+
+AT_START = 1e-6
+"""Part of the first step in which a zero is taken to be the start itself."""
+
+MOST_REFINEMENTS = 2
+"""How often the meshes are refined for a located point that does not meet the tolerance."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """A function of λ and the measured numbers whose zeros are to be found."""
+
+    name: str
+    function: Callable[[float, FloatArray], float]
+
+
+@dataclass(frozen=True)
+class Found:
+    """Something located: name, point and its ladder, error of its λ, stability index on either side.
+
+    ``rising`` is the sense of an event's function along the branch. ``fold`` says that λ turns back where the index
+    changes. ``certain`` is False for a change of the index that only one mesh shows: the eigenvalue
+    vanishes to round-off.
+    """
+
+    name: str
+    point: Point
+    ladder: Ladder
+    lam_error: float
+    index_before: int
+    index_after: int
+    rising: bool = False
+    fold: bool = False
+    certain: bool = True
+
+
+_Placed = tuple[float, Found]
+
+
+def events_between(
+    ladder: Ladder, before: Point, after: Point, events: Sequence[Event], *, opening: bool, leaves: bool
+) -> list[Found]:
+    """All that happens between two points on one ladder, in order.
+
+    ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
+    that it is where the branch leaves another: its index and its sense in λ are not this branch's.
+    """
+    segment = _Segment(ladder, before, after)
+    placed: list[_Placed] = []
+    if not leaves:
+        placed = segment.index_changes()
+        placed += segment.turns([t for t, found in placed if found.fold])
+    changes = sorted(placed, key=lambda item: item[0])
+    for event in events:
+        placed += segment.zeros(event, after.fine.index if leaves else before.fine.index, changes)
+    placed = [(t, found) for t, found in placed if t > AT_START or not opening]
+    return [found for _, found in sorted(placed, key=lambda item: item[0])]
+
+
+class _Segment:
+    """The stretch of a branch between two points on one ladder."""
+
+    def __init__(self, ladder: Ladder, before: Point, after: Point) -> None:
+        self.ladder, self.before, self.after = ladder, before, after
+        self.spans = (
+            Span(ladder.coarse.sharp(), before.coarse, after.coarse),
+            Span(ladder.fine.sharp(), before.fine, after.fine),
+        )
+
+    def index_changes(self) -> list[_Placed]:
+        """Changes of the stability index; together they make up the whole difference of the two ends."""
+        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.spans)]
+
+    def _changed(self, crossing: Crossing) -> Found:
+        index = crossing.before, crossing.after
+        if crossing.place is None:  # no place on the coarse mesh: nothing is known of the error but the step
+            error = abs(self.after.lam - self.before.lam)
+            point = self.ladder.point(self.spans[0](crossing.t), self.spans[1](crossing.t))
+            return Found(INDEX, point, self.ladder, error, *index, certain=False)
+
+        def again(finer: _Segment) -> Place | None:
+            near = [c for c in index_crossings(*finer.spans) if c.place is not None and (c.before, c.after) == index]
+            return min(near, key=lambda c: abs(c.t - crossing.t)).place if near else None
+
+        return self._refined(
+            crossing.place, again, lambda ladder, at: _found(INDEX, ladder, at, *index, fold=crossing.fold)
+        )
+
+    def turns(self, folds: list[float]) -> list[_Placed]:
+        """The place where λ turns back, unless it is one of the ``folds``."""
+        first, last = self.spans[1].first.tangent_lam, self.spans[1].last.tangent_lam
+        if first * last >= 0.0:
+            return []
+        place = locate(*self.spans, _sense, (first, last))
+        if any(abs(place.t - t) < 10.0 * FOLD_OFFSET for t in folds):
+            return []
+        index = place.fine.index
+        return [(place.t, _found(TURN, self.ladder, place, index, index))]
+
+    def zeros(self, event: Event, index: int, changes: list[_Placed]) -> list[_Placed]:
+        """The zero of an event, if its values at the two ends have opposite signs; ``index`` is that at the start."""
+        ends = event.function(self.before.lam, self.before.values), event.function(self.after.lam, self.after.values)
+        if ends[0] == 0.0 or (ends[0] < 0.0) == (ends[1] < 0.0):
+            return []
+
+        def value(span: Span, state: State) -> float:
+            return event.function(state.lam, self.ladder.measure(span.family, state)[0])
+
+        place = locate(*self.spans, value, ends)
+        for t, change in changes:
+            if t < place.t:
+                index = change.index_after
+
+        def again(finer: _Segment) -> Place | None:
+            values = (event.function(p.lam, p.values) for p in (finer.before, finer.after))
+            return locate(*finer.spans, value, tuple(values))  # type: ignore[arg-type]
+
+        rising = ends[1] > ends[0]
+        found = self._refined(
+            place, again, lambda ladder, at: _found(event.name, ladder, at, index, index, rising=rising)
+        )
+        return [(place.t, found)]
+
+    def _refined(
+        self, place: Place, again: Callable[[_Segment], Place | None], found: Callable[[Ladder, Place], Found]
+    ) -> Found:
+        """Describe a located point on meshes that are refined until it meets the tolerance, or it no longer helps."""
+        best, segment = found(self.ladder, place), self
+        for _ in range(MOST_REFINEMENTS):
+            if best.point.accurate:
+                break
+            finer = segment.on_finer(best.point)
+            try:
+                new = None if finer is None else again(finer)
+            except LocationError:
+                break
+            if finer is None or new is None:
+                break
+            better = found(finer.ladder, new)
+            if better.point.excess > 0.5 * best.point.excess:
+                break
+            best, segment = better, finer
+        return best
+
+    def on_finer(self, point: Point) -> _Segment | None:
+        """Return the same stretch on meshes with smaller elements where ``point`` is least resolved."""
+        finer = self.ladder.refined(point)
+        if finer is None:
+            return None
+        ends = [finer.adopt(self.ladder, p)[1] for p in (self.before, self.after)]
+        return None if ends[0] is None or ends[1] is None else _Segment(finer, ends[0], ends[1])
+
+
+def _found(
+    name: str, ladder: Ladder, place: Place, before: int, after: int, *, rising: bool = False, fold: bool = False
+) -> Found:
+    point = ladder.point(place.coarse, place.fine)
+    return Found(name, point, ladder, place.gap / CLAIMED_GAIN, before, after, rising=rising, fold=fold)
+
+
+def _sense(_: Span, state: State) -> float:
+    """Sense of travel in λ."""
+    return state.tangent_lam
