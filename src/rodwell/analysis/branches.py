@@ -33,6 +33,10 @@ KINDS = (LIFT_OFF, END, INDEX, TURN)
 OUT_OF_RANGE = Outcome.OUT_OF_RANGE.value
 """Why a branch ends where the rod turns across the cylinder."""
 
+STRAIGHT = "it meets the straight rod"
+REJOINS = "it meets a symmetric branch, where it turns into its own mirror image"
+"""Why a branch ends at another."""
+
 ROUND_OFF = 2e-13
 """Relative error that round-off in some hundred operations may leave in a located load."""
 
@@ -274,21 +278,23 @@ class Branch:
                 kind, error = CRITICAL, self.mode.error
             before, index = points[0].fine.index, int(self.stability_index[0])
             out.append(SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first))
-        out += [self._special(found) for found in self._trace.found if found.name in KINDS]
+        met = self._trace.found[-1:] if self._trace.end in (REJOINS, STRAIGHT) else []
+        for found in self._trace.found:
+            if found.name in KINDS:
+                out.append(self._special(found, met=found in met))
         if not out or out[-1].kind != END:
             last = self._solution(points[-1], ladders[-1])
             index = last.stability_index
             out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last))
         return tuple(out)
 
-    def _special(self, found: Found) -> SpecialPoint:
+    def _special(self, found: Found, *, met: bool) -> SpecialPoint:
         solution = self._solution(found.point, found.ladder)
         kind = found.name
         if kind == INDEX:
             kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
         elif kind == TURN:
-            straight = np.max(np.abs(found.point.fine.c)) < 1e-4 * self.problem.clearance
-            kind = BRANCH_POINT if straight or found.point.fine.symmetry != 0 else FOLD
+            kind = BRANCH_POINT if met else FOLD
         elif kind == LIFT_OFF and not found.rising:
             kind = TOUCH_DOWN
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()

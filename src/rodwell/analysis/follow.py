@@ -13,6 +13,8 @@ from rodwell.analysis.branches import (
     END,
     LIFT_OFF,
     OUT_OF_RANGE,
+    REJOINS,
+    STRAIGHT,
     Branch,
     Origin,
     SpecialPoint,
@@ -22,7 +24,7 @@ from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.families import PATHS, parameter_value
 from rodwell.analysis.measures import STEEPEST, Measured
 from rodwell.analysis.solution import Solution
-from rodwell.analysis.starts import Start, at_branch_point, at_critical, at_state
+from rodwell.analysis.starts import Start, at_branch_point, at_critical, at_state, rejoined
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
 from rodwell.numerics.continuation import TURN, Event, Found, Stepping, Trace, trace
 from rodwell.numerics.ladder import Ladder, Point
@@ -43,13 +45,10 @@ LARGEST_BRAID_ANGLE = 89.5
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
 
-STRAIGHT = "it meets the straight rod"
 FLAT = 1e-5
 """Largest angle around the cylinder, in rad, of a rod that counts as straight where a branch turns back."""
 
 LEFT = "the parameter reached the end of its range, or came back past its start"
-
-REJOINS = "it meets a symmetric branch, where it turns into its own mirror image"
 
 Progress = Callable[[float], None]
 """Called with the parameter of each new point."""
@@ -282,20 +281,28 @@ def _traced(
         stops = (*stops, LEFT)
 
     def stop(found: Found) -> str:
-        state = found.point.fine
-        if found.name == TURN and np.max(np.abs(state.c)) <= FLAT * ladder.coarse.scale_c:
+        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * ladder.coarse.scale_c:
             return STRAIGHT
-        if found.name == TURN and ladder.coarse.parity == 0 and state.symmetry != 0:
+        if found.name == TURN and rejoined(problem, found) is not None:
             return REJOINS
         return found.name if found.name in stops else ""
 
     report = None if progress is None else lambda p: progress(p.lam)
-    return _end_exactly(trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report), until)
+    result = trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report)
+    return _end_exactly(problem, result, until)
 
 
-def _end_exactly(result: Trace, value: float) -> Trace:
-    """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
+def _end_exactly(problem: Problem, result: Trace, value: float) -> Trace:
+    """Put the end of a branch that reached its end exactly there; that of one which met another branch, on it."""
     last: Point | None = None
+    if result.end == REJOINS:
+        meeting = rejoined(problem, result.found[-1])
+        if meeting is not None:
+            result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
+            result.found[-1] = replace(
+                result.found[-1], ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error
+            )
+        return result
     if result.end == END:
         last = result.ladders[-1].at(result.points[-1], value)
     elif result.end == STRAIGHT:

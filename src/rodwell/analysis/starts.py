@@ -13,6 +13,7 @@ from rodwell.analysis.families import family, parameter_value
 from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import NotConvergedError
+from rodwell.numerics.events import INDEX, Found, events_between
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.spaces import FloatArray, SplineSpace
@@ -110,6 +111,41 @@ def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatA
     if vector[np.argmax(np.abs(vector))] < 0.0:
         vector = -vector
     return vector
+
+
+NEARLY = 1e-2
+"""Largest asymmetry, relative to the state, of a turning point that may lie on a symmetric branch."""
+
+AROUND = (1e-4, 1e-3, 1e-2)
+"""How far from the turning point, in the family's scale of λ, the branch point of the symmetric branch is sought."""
+
+
+def rejoined(problem: Problem, turn: Found) -> Found | None:
+    """The branch point of a symmetric branch at which a branch without that symmetry turns back, if there is one.
+
+    The turning point itself is hard to locate: the Hessian is singular there. On the symmetric branch, with its
+    symmetry kept, the same point is a plain change of the stability index.
+    """
+    old, state = turn.ladder, turn.point.fine
+    if old.coarse.parity != 0 or not state.space.symmetric:
+        return None
+    parity = kept_parity(problem, state.symmetry_within(NEARLY))
+    if parity == 0:
+        return None
+    ladder = measured_ladder(replace(old.coarse, parity=parity), old.rtol, old.most_elements)
+    shapes = (turn.point.coarse.symmetrised(parity), state.symmetrised(parity))
+    for part in AROUND:
+        points = []
+        for lam in (state.lam - part * ladder.coarse.lam_scale, state.lam + part * ladder.coarse.lam_scale):
+            pair = [f.sharp().at(c, lam)[1] for f, c in zip((ladder.coarse, ladder.fine), shapes, strict=True)]
+            if pair[0] is not None and pair[1] is not None:
+                points.append(ladder.point(pair[0], pair[1]))
+        if len(points) < 2 or points[0].fine.index == points[1].fine.index:
+            continue
+        changes = [f for f in events_between(ladder, *points, (), opening=False, leaves=False) if f.name == INDEX]
+        if len(changes) == 1 and changes[0].certain:
+            return changes[0]
+    return None
 
 
 def _wavenumber(state: State) -> float:

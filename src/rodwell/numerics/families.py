@@ -57,10 +57,20 @@ class State:
     @property
     def symmetry(self) -> int:
         """1 if the state is even about the middle, −1 if odd (up to a constant: a coil), 0 if neither."""
-        mirrored, size = self.c[::-1], SYMMETRIC * float(np.max(np.abs(self.c)))
-        if np.max(np.abs(self.c - mirrored)) <= size:
-            return 1
-        return -1 if np.max(np.abs(self.c + mirrored - (self.c[0] + self.c[-1]))) <= size else 0
+        return self.symmetry_within(SYMMETRIC)
+
+    def symmetry_within(self, tolerance: float) -> int:
+        """Symmetry up to a part ``tolerance`` of the largest coefficient; the mesh must be symmetric."""
+        size = tolerance * float(np.max(np.abs(self.c)))
+        for parity in (1, -1):
+            if np.max(np.abs(self.c - self.symmetrised(parity))) <= 0.5 * size:
+                return parity
+        return 0
+
+    def symmetrised(self, parity: int) -> FloatArray:
+        """Coefficients of the even (1) or odd (−1) part; of a coil, odd about its middle."""
+        middle = self.c[0] + self.c[-1] if parity < 0 else 0.0
+        return 0.5 * (self.c + parity * self.c[::-1] + middle)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""

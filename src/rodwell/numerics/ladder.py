@@ -153,7 +153,7 @@ class Ladder:
     def refined(self, point: Point) -> Ladder | None:
         """Return a ladder with smaller elements where ``point`` is least resolved, or None at the limit."""
         marked = _least_resolved(self.coarse.space, point.coarse, self.fine.space, point.fine)
-        if self.coarse.parity != 0:  # keeping a symmetry takes a symmetric mesh
+        if self.coarse.space.symmetric:  # keeping a symmetry, or seeing one, takes a symmetric mesh
             marked |= marked[::-1]
         space = self.coarse.space.refined(marked)
         if 2 * space.elements > self.most_elements:

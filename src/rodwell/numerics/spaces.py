@@ -100,6 +100,11 @@ class SplineSpace:
         banded.solve(mass, free)
         return ends.spread(free)
 
+    @cached_property
+    def symmetric(self) -> bool:
+        """Whether the mesh is symmetric about the middle."""
+        return bool(np.allclose(self.breaks, 1.0 - self.breaks[::-1], rtol=0.0, atol=1e-13))
+
     @property
     def _element_table(self) -> FloatArray:
         return self.table.reshape(self.elements, -1, 3, self.degree + 1)
