@@ -161,7 +161,7 @@ MEANINGS: dict[str, dict[str, str]] = {
 def case_keys() -> str:
     """Every key of a case file: one table for each section; the schema says which keys there are."""
     kinds = {"Number": "number", "int": "whole number", "InnerLength": "length", "Stiffness": "bending stiffness"}
-    kinds |= {"ForcePerLength": "force per length"}
+    kinds |= {"ForcePerLength": "force per length", "Ends": "text"}
     parts = []
     for section, model in SECTIONS.items():
         meanings = MEANINGS[section]
@@ -184,7 +184,7 @@ def case_keys() -> str:
 
 def _default(value: Any, kind: str) -> str:
     unit = KINDS.get(kind, ("", ""))[0].replace("*", " ").replace("^2", "²")
-    return f"{value:g} {unit}".strip()
+    return value if isinstance(value, str) else f"{value:g} {unit}".strip()
 
 
 def _numbers(answer: dict[str, Any]) -> dict[str, str]:

@@ -284,7 +284,7 @@ class Branch:
                 out.append(self._special(found, met=found in met))
         if not out or out[-1].kind != END:
             last = self._solution(points[-1], ladders[-1])
-            index = last.stability_index
+            index = self._trace.found[-1].index_after if met else last.stability_index
             out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last))
         return tuple(out)
 
