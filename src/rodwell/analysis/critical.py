@@ -119,7 +119,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
                 "ask for fewer modes or a larger rtol"
             )
         space, values, vectors = finer, better, shapes
-    shapes = _with_symmetry(problem, finer, better[:count], shapes)
+    better, shapes = _with_symmetry(problem, finer, better[:count], shapes)
     return CriticalLoads(_mode(problem, finer, i + 1, -better[i], error[i], shapes[i]) for i in range(int(count)))
 
 
@@ -161,11 +161,14 @@ def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray |
     return values, full(vectors)
 
 
-def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric."""
+def _with_symmetry(
+    problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric; values likewise."""
     if not problem.symmetric:
-        return vectors
-    out = vectors[: len(values)].copy()
+        return values, vectors
+    out, values = vectors[: len(values)].copy(), values.copy()
+    factors = second_variation(space.points, parameters(problem)) * space.weights
     i = 0
     while i < len(values):
         j = i + 1
@@ -176,8 +179,13 @@ def _with_symmetry(problem: Problem, space: SplineSpace, values: FloatArray, vec
         reflection = (slopes * space.weights) @ mirrored.T
         _, turn = np.linalg.eigh(0.5 * (reflection + reflection.T))
         out[i:j] = turn.T @ out[i:j]
+        if j > i + 1:  # values of the vectors as they are now
+            fields = [space.at_points(v) for v in out[i:j]]
+            quotients = np.array([np.sum(factors * f**2) / (space.weights @ f[1] ** 2) for f in fields])
+            order = np.argsort(quotients)
+            values[i:j], out[i:j] = quotients[order], out[i:j][order]
         i = j
-    return out
+    return values, out
 
 
 def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray) -> Mode:

@@ -66,8 +66,8 @@ def events_between(
         placed += segment.turns([t for t, found in placed if found.fold])
     changes = sorted(placed, key=lambda item: item[0])
     for event in events:
-        placed += segment.zeros(event, after.fine.index if leaves else before.fine.index, changes)
-    placed = [(t, found) for t, found in placed if t > AT_START or not opening]
+        if not (opening and segment.starts_at(event)):
+            placed += segment.zeros(event, after.fine.index if leaves else before.fine.index, changes)
     return [found for _, found in sorted(placed, key=lambda item: item[0])]
 
 
@@ -111,9 +111,17 @@ class _Segment:
         index = place.fine.index
         return [(place.t, _found(TURN, self.ladder, place, index, index))]
 
+    def starts_at(self, event: Event) -> bool:
+        """Whether the zero of an event is the start itself, to within what is known of its values there."""
+        ends = self._values(event)
+        return abs(ends[0]) <= AT_START * abs(ends[1] - ends[0])
+
+    def _values(self, event: Event) -> tuple[float, float]:
+        return event.function(self.before.lam, self.before.values), event.function(self.after.lam, self.after.values)
+
     def zeros(self, event: Event, index: int, changes: list[_Placed]) -> list[_Placed]:
         """The zero of an event, if its values at the two ends have opposite signs; ``index`` is that at the start."""
-        ends = event.function(self.before.lam, self.before.values), event.function(self.after.lam, self.after.values)
+        ends = self._values(event)
         if ends[0] == 0.0 or (ends[0] < 0.0) == (ends[1] < 0.0):
             return []
 
@@ -126,8 +134,7 @@ class _Segment:
                 index = change.index_after
 
         def again(finer: _Segment) -> Place | None:
-            values = (event.function(p.lam, p.values) for p in (finer.before, finer.after))
-            return locate(*finer.spans, value, tuple(values))  # type: ignore[arg-type]
+            return locate(*finer.spans, value, finer._values(event))
 
         rising = ends[1] > ends[0]
         found = self._refined(

@@ -10,11 +10,13 @@ where that no longer helps (round-off), the point says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family, Outcome, State
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 
@@ -93,6 +95,12 @@ class Ladder:
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
         self.measure, self.rtol, self.most_elements = measure, rtol, most_elements
+
+    def on_path(self, path: FloatArray, ends: Ends, parity: int) -> Ladder:
+        """Return the ladder on the same meshes, for another path in the parameters and a parity to keep."""
+        other = copy(self)
+        other.coarse, other.fine = (replace(f, path=path, ends=ends, parity=parity) for f in (self.coarse, self.fine))
+        return other
 
     def lift(self, coarse: State) -> tuple[Outcome, State | None]:
         """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent."""

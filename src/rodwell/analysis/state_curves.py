@@ -1,0 +1,261 @@
+"""Loads at which buckled states lift off or branch, against another parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from rodwell.analysis.accuracy import RTOL, checked_rtol
+from rodwell.analysis.branches import BRANCH_POINT, LIFT_OFF
+from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, CurveLost, Seed, Spot, Zero, trace_curve
+from rodwell.analysis.curves import Curve, CurvePoint, Progress, checked_range
+from rodwell.analysis.families import path, spline_ends
+from rodwell.analysis.follow import follow
+from rodwell.analysis.measures import Measured, pressure_maxima
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.starts import kept_parity
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Ladder, Point
+from rodwell.problem import Problem
+
+__all__ = ["lift_off_curve", "secondary_curve", "twist_curve"]
+
+NEARLY_WEIGHTLESS = 1e-3
+"""Part of a range that starts without lateral weight at which the curve is picked up."""
+
+FIRST_TWIST, LARGEST_TWIST = 0.05, 200.0
+"""Twist, in B/L, from which and up to which a second lift-off is sought."""
+
+
+def lift_off_curve(
+    problem: Problem,
+    over: str,
+    limits: Sequence[float],
+    *,
+    mode: int = 1,
+    mirror: bool = False,
+    rtol: float = RTOL,
+    progress: Progress | None = None,
+) -> Curve:
+    """Lift-off load of a mode's branch as a function of weight, alpha, clearance or twist.
+
+    Parameters
+    ----------
+    problem
+        The rod; its value of ``over`` does not matter.
+    over
+        "weight", "alpha", "clearance" or "twist".
+    limits
+        Start and end of the range. Where lateral weight vanishes at the start, lift-off coincides with buckling there.
+    mode, mirror
+        Number of the mode, at the start of the range, and its arm. The curve stays on the branches of that mode, also
+        where another one buckles first.
+    rtol, progress
+        Tolerance as for :func:`rodwell.follow`; called with the part done.
+
+    Returns
+    -------
+    Curve
+        End forces at s = 1, with the places that lift off; where the place jumps, a mark "switch".
+    """
+    rtol = checked_rtol(rtol)
+    start, end = checked_range(problem, over, limits)
+    at_start = problem.but(**{over: start})
+    before: tuple[CurvePoint, ...] = ()
+    if at_start.lateral_weight == 0.0:
+        first = critical_loads(at_start, mode, rtol=rtol)[-1]
+        before = (CurvePoint(start, first.force, first.error),)
+        start += NEARLY_WEIGHTLESS * (end - start)
+        at_start = problem.but(**{over: start})
+    branch = follow(at_start, mode, mirror=mirror, rtol=rtol)
+    lift = branch.lift_off
+    if lift is None or lift.kind != LIFT_OFF:
+        raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
+    zero = _Crossing(problem, over, "force", lambda family, state: pressure_maxima(family, state)[1].max(), touch=True)
+    points, marks, why = trace_curve(zero, Seed(start, lift.solution), end, progress)
+    at_end = problem.but(**{over: end})
+    if why == BECOMES_STRAIGHT and at_end.lateral_weight == 0.0:
+        last = min(critical_loads(at_end, mode + 3, rtol=rtol), key=lambda m: abs(m.force - points[-1].value))
+        points, why = (*points, CurvePoint(end, last.force, last.error)), "end"
+    name = f"mode {mode}" + (", mirror arm" if mirror else "")
+    return Curve("lift-off", name, at_start, over, before + points, marks, why)
+
+
+def secondary_curve(
+    problem: Problem,
+    limits: Sequence[float],
+    *,
+    over: str = "weight",
+    mode: int = 1,
+    number: int = 1,
+    until: float | None = None,
+    rtol: float = RTOL,
+    progress: Progress | None = None,
+) -> Curve:
+    """Load at which a symmetric branch loses its symmetry, as a function of weight, clearance or twist.
+
+    Parameters
+    ----------
+    problem
+        The rod, the same seen from both ends (horizontal, equal ends).
+    limits, over
+        Range, and the parameter: "weight", "clearance" or "twist".
+    mode
+        Number of the mode on whose branch the secondary bifurcation lies, at the start of the range.
+    number
+        Which branch point on it, in the direction of travel.
+    until
+        End force to which the branch is searched for it, by default 8 times the scale of load of the mode beyond it.
+    rtol, progress
+        As for :func:`lift_off_curve`.
+
+    Returns
+    -------
+    Curve
+        End forces at s = 1 of the secondary bifurcation.
+    """
+    rtol = checked_rtol(rtol)
+    start, end = checked_range(problem, over, limits, ("weight", "clearance", "twist"))
+    at_start = problem.but(**{over: start})
+    if not at_start.symmetric:
+        raise InputError("alpha", problem.alpha, "must be 90, with equal ends: else no branch has a symmetry to lose")
+    first = critical_loads(at_start, mode, rtol=rtol)[-1]
+    reach = first.force - 8.0 * first.wavenumber**2 if until is None else until
+    branch = follow(at_start, first, until=reach, rtol=rtol)
+    found = [p for p in branch.special_points if p.kind == BRANCH_POINT]
+    if len(found) < number:
+        raise NotConvergedError(
+            f"mode {mode} has {len(found)} secondary bifurcations down to F = {branch.force.min():.6g} B/L² at "
+            f"{over} = {start:g}: start elsewhere, or give until"
+        )
+    point = found[number - 1]
+    zero = _Crossing(problem, over, "force", _Softest(point.solution), touch=False)
+    points, marks, why = trace_curve(zero, Seed(start, point.solution), end, progress)
+    return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
+
+
+def twist_curve(
+    problem: Problem,
+    limits: Sequence[float],
+    *,
+    over: str = "weight",
+    mode: int = 1,
+    mirror: bool = False,
+    sense: int = 0,
+    rtol: float = RTOL,
+    progress: Progress | None = None,
+) -> Curve:
+    """Twist at which a rod prepared at its lift-off load, and twisted so that it settles, lifts off again.
+
+    Paper, section 4.2 and Fig. 11. At each value of the parameter the end force is the lift-off load without twist.
+
+    Parameters
+    ----------
+    problem
+        The rod, ``twist`` 0.
+    limits, over
+        Range, and the parameter: "weight", "alpha" or "clearance".
+    mode, mirror
+        Mode at the start of the range, and its arm.
+    sense
+        1 or −1 for the sign of T₁; 0 for the one that presses the rod to the wall.
+    rtol, progress
+        As for :func:`lift_off_curve`.
+
+    Raises
+    ------
+    NotConvergedError
+        Also if either sense of twist makes the rod lift off at once (modes that touch at two places).
+    """
+    rtol = checked_rtol(rtol)
+    start, end = checked_range(problem, over, limits, ("weight", "alpha", "clearance"))
+    at_start = problem.but(**{over: start, "twist": 0.0})
+    lift = follow(at_start, mode, mirror=mirror, rtol=rtol).lift_off
+    if lift is None:
+        raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts")
+    sense = sense or settling_sense(lift.solution)
+    if sense == 0:
+        raise NotConvergedError(
+            f"at {over} = {start:g} twist of either sign makes mode {mode} lift off at once: it touches at s = "
+            + ", ".join(f"{s:.4g}" for s in lift.s)
+        )
+    along = follow(at_start, start=lift.solution, parameter="twist", until=sense * LARGEST_TWIST, rtol=rtol)
+    again = along.lift_off
+    if again is None:
+        raise NotConvergedError(
+            f"at {over} = {start:g} no second lift-off was found up to T₁ = {along.values[-1]:g} B/L: {along.ended_because}"
+        )
+    zero = _TwistAtLiftOff(problem.but(twist=0.0), over, lift.solution)
+    points, marks, why = trace_curve(zero, Seed(start, again.solution), end, progress)
+    return Curve("twist", f"mode {mode}" + (", mirror arm" if mirror else ""), at_start, over, points, marks, why)
+
+
+def settling_sense(lifting: Solution) -> int:
+    """Sign of the twist that lowers max p of a state at lift-off; 0 if neither does."""
+    problem = lifting.problem
+    for sense in (1, -1):
+        branch = follow(problem, start=lifting, parameter="twist", until=sense * FIRST_TWIST)
+        if branch[1].number(Measured.P_MAX)[0] < 0.0:
+            return sense
+    return 0
+
+
+class _Crossing(Zero):
+    """Zero of a function of a state in the plane of a load and another parameter."""
+
+    def __init__(
+        self, problem: Problem, over: str, load: str, function: Callable[[Family, State], float], *, touch: bool
+    ) -> None:
+        super().__init__(over, load)
+        self.problem, self.function, self.touch = problem, function, touch
+
+    def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
+        problem = self.problem.but(**{self.over: spot.x})
+        fixed = {"force": spot.value} if self.load == "force" else {}
+        if self.load == "twist" and along != "twist":
+            problem = problem.but(twist=spot.value)
+        parity = kept_parity(problem, ladder.coarse.parity, self.over)
+        return ladder.on_path(path(problem, along, **fixed), spline_ends(problem), parity)
+
+    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
+
+
+class _TwistAtLiftOff(_Crossing):
+    """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
+
+    def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
+        super().__init__(problem, over, "twist", lambda f, state: pressure_maxima(f, state)[1].max(), touch=True)
+        self.first = _Crossing(problem, over, "force", self.function, touch=True)
+        self.lifting = lifting
+
+    def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
+        if along != "twist":
+            raise CurveLost("the curve turns back in its parameter")
+        near = Seed(spot.x, self.lifting)
+        self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force), "force").solution
+        problem = self.problem.but(**{self.over: spot.x})
+        parity = kept_parity(problem, ladder.coarse.parity, "twist")
+        return ladder.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
+
+    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, ladder)
+
+
+class _Softest:
+    """The eigenvalue that vanishes at a branch point, followed by its vector."""
+
+    def __init__(self, branching: Solution) -> None:
+        self.vectors: dict[int, np.ndarray] = {}
+        self.parity = -branching.point.fine.symmetry
+
+    def __call__(self, family: Family, state: State) -> float:
+        size = state.c.size
+        if size not in self.vectors:
+            vector = np.random.default_rng(0).standard_normal(size)
+            self.vectors[size] = vector + self.parity * vector[::-1]
+            family.nearest_curvature(state, self.vectors[size], 8)
+        return family.nearest_curvature(state, self.vectors[size], 3)
