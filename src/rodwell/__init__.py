@@ -25,6 +25,8 @@ _HOME = {
     "Answer": "rodwell.practice.answer",
     "answer": "rodwell.practice.answer",
     "CriticalLoads": "rodwell.analysis.critical",
+    "Curve": "rodwell.analysis.curves",
+    "Diagram": "rodwell.analysis.diagram",
     "InputError": "rodwell.errors",
     "Mode": "rodwell.analysis.critical",
     "NotConvergedError": "rodwell.errors",
@@ -32,19 +34,34 @@ _HOME = {
     "RodwellError": "rodwell.errors",
     "Solution": "rodwell.analysis.solution",
     "SpecialPoint": "rodwell.analysis.branches",
+    "Torsion": "rodwell.analysis.torsion",
+    "branch_off": "rodwell.analysis.follow",
+    "coil": "rodwell.analysis.coiled",
+    "critical_curves": "rodwell.analysis.critical_curves",
     "critical_loads": "rodwell.analysis.critical",
+    "diagram": "rodwell.analysis.diagram",
     "equilibrium": "rodwell.analysis.equilibrium",
     "follow": "rodwell.analysis.follow",
+    "lift_off_curve": "rodwell.analysis.state_curves",
+    "secondary_curve": "rodwell.analysis.state_curves",
+    "torsion": "rodwell.analysis.torsion",
+    "twist_curve": "rodwell.analysis.state_curves",
 }
 
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
     from rodwell.analysis.branches import Branch, SpecialPoint
+    from rodwell.analysis.coiled import coil
     from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
+    from rodwell.analysis.critical_curves import critical_curves
+    from rodwell.analysis.curves import Curve
+    from rodwell.analysis.diagram import Diagram, diagram
     from rodwell.analysis.equilibrium import equilibrium
-    from rodwell.analysis.follow import follow
+    from rodwell.analysis.follow import branch_off, follow
     from rodwell.analysis.solution import Solution
+    from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve
+    from rodwell.analysis.torsion import Torsion, torsion
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer
     from rodwell.practice.case import Case

@@ -8,22 +8,28 @@ comes with ``@numba.extending.overload(density)`` and, where contact is looked a
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numba
 from numba.extending import register_jitable
 
 
-def kernel(function: Callable[..., Any]) -> Any:
+def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
+
+    ``options`` are those of ``numba.njit``. The density at one place asks for ``forceinline=True``: the reference
+    counts of its arrays, which inlining spares, took longer than its arithmetic.
 
     Where no folder for the cache can be written (a read-only installation without a home folder), the
     function is compiled anew in each process instead.
     """
+    if function is None:
+        return partial(kernel, **options)
     try:
-        return numba.njit(cache=True, error_model="numpy")(function)
+        return numba.njit(cache=True, error_model="numpy", **options)(function)
     except RuntimeError:  # Numba: "no locator available"
-        return numba.njit(error_model="numpy")(function)
+        return numba.njit(error_model="numpy", **options)(function)
 
 
 def formula(function: Callable[..., Any]) -> Any:

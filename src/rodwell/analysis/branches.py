@@ -25,9 +25,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
+EQUAL_ENERGY = "equal_energy"
 CRITICAL, FOLD, BRANCH_POINT, UNCERTAIN = "critical", "fold", "branch_point", "uncertain"
 
-KINDS = (LIFT_OFF, END, INDEX, TURN)
+KINDS = (LIFT_OFF, EQUAL_ENERGY, END, INDEX, TURN)
 """What continuation finds that makes a special point; what else ends a branch is told in words."""
 
 OUT_OF_RANGE = Outcome.OUT_OF_RANGE.value
@@ -50,8 +51,8 @@ class SpecialPoint:
     kind
         "critical" (the branch leaves the straight rod), "lift_off" (contact is lost first, in the direction of
         travel), "touch_down" (contact is complete again), "branch_point" (other branches meet this one), "fold" (the
-        parameter turns back), "end", or "uncertain": a change of the stability index that only one of the two
-        meshes shows, since an eigenvalue vanishes to round-off.
+        parameter turns back), "equal_energy" (a coil has the energy of the straight rod), "end", or "uncertain": a
+        change of the stability index that only one of the two meshes shows, since an eigenvalue vanishes to round-off.
     force
         End force at s = 1 in B/L², tension positive.
     value, error
@@ -281,7 +282,7 @@ class Branch:
         met = self._trace.found[-1:] if self._trace.end in (REJOINS, STRAIGHT) else []
         for found in self._trace.found:
             if found.name in KINDS:
-                out.append(self._special(found, met=found in met))
+                out.append(self._special(found, met=any(found is m for m in met)))
         if not out or out[-1].kind != END:
             last = self._solution(points[-1], ladders[-1])
             index = self._trace.found[-1].index_after if met else last.stability_index

@@ -61,7 +61,9 @@ def critical_curves(
     """
     modes, rtol = checked_whole("modes", modes, 1, MOST_MODES), checked_rtol(rtol)
     start, end = checked_range(problem, over, limits)
-    split = over != "alpha" and all(problem.but(**{over: x if x != 0.0 else start + end}).symmetric for x in (start, end))
+    split = over != "alpha" and all(
+        problem.but(**{over: x if x != 0.0 else start + end}).symmetric for x in (start, end)
+    )
     table = _Table(problem, over, modes, rtol, split)
     table.fill(start, end, progress or (lambda _part: None))
     marks = table.marks()

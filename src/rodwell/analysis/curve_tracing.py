@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.critical import EULER
 from rodwell.analysis.curves import SWITCH, TURN, CurvePoint, Mark, Progress
 from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
@@ -38,7 +39,7 @@ Guess = tuple[FloatArray, FloatArray]
 Function = Callable[[Family, State], float]
 
 
-class CurveLost(RuntimeError):
+class CurveLostError(RuntimeError):
     """A point of the curve could not be found."""
 
 
@@ -59,10 +60,12 @@ class Seed:
 
     @property
     def ladder(self) -> Ladder:
+        """The meshes it stands on."""
         return self.solution.ladder
 
     @property
     def guess(self) -> Guess:
+        """Coefficients on both meshes."""
         return self.solution.point.coarse.c, self.solution.point.fine.c
 
 
@@ -77,10 +80,13 @@ class Solved:
 
     @property
     def guess(self) -> Guess:
+        """Coefficients on both meshes."""
         return self.solution.point.coarse.c, self.solution.point.fine.c
 
     def as_point(self) -> CurvePoint:
-        converged = self.solution.converged and self.error <= 100.0 * self.solution.ladder.rtol * (abs(self.spot.value) + 1.0)
+        """The point as users see it."""
+        allowed = self.solution.ladder.rtol * (abs(self.spot.value) + EULER)
+        converged = self.solution.converged and self.error <= allowed
         return CurvePoint(self.spot.x, self.spot.value, self.error, self.places, converged, self.solution)
 
 
@@ -148,12 +154,12 @@ def _zero_on(family: Family, c: FloatArray, lam: float, function: Function) -> S
         if abs(step) <= SETTLED * size and abs(step) < PROBE * size:
             return new
         if f == value:
-            raise CurveLost("the function does not change along the line")
+            raise CurveLostError("the function does not change along the line")
         next_step = -f * step / (f - value)
         state, value, step = new, f, float(np.clip(next_step, -FARTHEST * size, FARTHEST * size))
         if step == 0.0:
             return state
-    raise CurveLost("the secant method did not settle")
+    raise CurveLostError("the secant method did not settle")
 
 
 PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-8, 0.1, 30
@@ -163,7 +169,7 @@ PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-8, 0.1, 30
 def _at(family: Family, c: FloatArray, lam: float) -> State:
     outcome, state, _ = family.at(c, lam)
     if state is None:
-        raise CurveLost(outcome.value)
+        raise CurveLostError(outcome.value)
     return state
 
 
@@ -197,7 +203,7 @@ class _Tracer:
                 new, moved = self._step(step)
                 why = self._accept(new, moved, step)
                 step = min(LARGEST_STEP, 1.5 * step)
-            except CurveLost as problem:
+            except CurveLostError as problem:
                 step *= 0.5
                 if step < SMALLEST_STEP:
                     why = str(problem)
@@ -226,11 +232,11 @@ class _Tracer:
                 new = self.zero.solve(last.solution.ladder, new.guess, Spot(self.end, target[1]), self.zero.load)
                 target = np.array([new.spot.x, new.spot.value])
         except InputError as problem:
-            raise CurveLost(f"the curve leaves the range of {self.zero.over}") from problem
+            raise CurveLostError(f"the curve leaves the range of {self.zero.over}") from problem
         moved = (np.array([new.spot.x, new.spot.value]) - here) / scale
         missed = float(np.linalg.norm((np.array([new.spot.x, new.spot.value]) - target) / scale)) - 1e-7
         if not self.fresh and missed > BENT * step + 1e-9:
-            raise CurveLost("the curve bends too sharply")
+            raise CurveLostError("the curve bends too sharply")
         return new, moved
 
     def _guess(self, step: float) -> Guess:
@@ -250,7 +256,7 @@ class _Tracer:
         kink = self.zero.touch and _jumped(last, new)
         if kink:
             if step > 10.0 * SMALLEST_STEP and abs(new.spot.x - last.spot.x) > 1e-3 * self.range:
-                raise CurveLost("the place that lifts off jumps")
+                raise CurveLostError("the place that lifts off jumps")
             self.marks.append(self._switch(last, new))
         if moved[0] * self.direction[0] < 0.0:
             width = abs(moved[0]) * self.range
@@ -281,7 +287,10 @@ class _Tracer:
             here = at(x).solution
             found, values, lowest = pressure_maxima(here.ladder.fine, here.point.fine)
             folded = np.minimum(found, 1.0 - found) if here.point.fine.symmetry != 0 else found
-            tops = [max((v for s, v in zip(folded, values, strict=True) if abs(s - p) < NEAR), default=lowest) for p in places]
+            tops = [
+                max((v for s, v in zip(folded, values, strict=True) if abs(s - p) < NEAR), default=lowest)
+                for p in places
+            ]
             return float(tops[0] - tops[1])
 
         x = bracketed_root(lead, a.spot.x, b.spot.x, lead(a.spot.x), lead(b.spot.x))

@@ -209,11 +209,13 @@ def convention(problem: Problem, quantity: str) -> str:
     return f"{what}; {ends_text(problem)}"
 
 
-def checked_range(problem: Problem, over: str, limits: Sequence[float], allowed: Sequence[str] = OVER) -> tuple[float, float]:
+def checked_range(
+    problem: Problem, over: str, limits: Sequence[float], allowed: Sequence[str] = OVER
+) -> tuple[float, float]:
     """Return start and end of a range of a parameter that the problem allows, or raise."""
     if over not in allowed:
         raise InputError("over", over, f"must be one of {', '.join(allowed)}")
-    if len(limits) != 2:  # noqa: PLR2004
+    if len(limits) != 2:
         raise InputError("range", list(limits), "must be two numbers, start and end")
     low, high, text = LIMITS[over]
     low = SMALLEST_CLEARANCE if over == "clearance" else low

@@ -11,6 +11,7 @@ import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol
 from rodwell.analysis.branches import BRANCH_POINT, REJOINS, Branch, Origin, SpecialPoint
+from rodwell.analysis.coiled import coil
 from rodwell.analysis.critical import MOST_MODES, CriticalLoads, critical_loads
 from rodwell.analysis.follow import LARGEST_STEP, branch_off, follow
 from rodwell.analysis.solution import Solution
@@ -81,13 +82,13 @@ class Diagram:
 
     @property
     def primary(self) -> tuple[Branch, ...]:
-        """Branches that leave the straight rod."""
-        return tuple(branch for branch in self.branches if branch.mode is not None)
+        """Branches that leave the straight rod, or the coil."""
+        return tuple(branch for branch in self.branches if branch.origin.parent is None)
 
     @property
     def secondary(self) -> tuple[Branch, ...]:
         """Branches that leave other buckled states."""
-        return tuple(branch for branch in self.branches if branch.mode is None)
+        return tuple(branch for branch in self.branches if branch.origin.parent is not None)
 
     @property
     def converged(self) -> bool:
@@ -153,7 +154,8 @@ def diagram(
 ) -> Diagram:
     """Bifurcation diagram in the end force.
 
-    Primary branches leave the straight rod at its critical loads; at every branch point on them the branch that leaves
+    Primary branches leave the straight rod at its critical loads; with ``problem.turns`` ≠ 0 the branch of the coil
+    takes their place. At every branch point on them the branch that leaves
     there is followed too, until it meets a symmetric branch again or reaches the end. Branches that are images of
     others by a reflection are not computed: :meth:`Diagram.images` names them.
 
@@ -182,20 +184,20 @@ def diagram(
     rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
     largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
     tell = progress or (lambda _what, _done: None)
-    critical = critical_loads(problem, modes, rtol=rtol)
-    until = _end(critical, until)
-    work = _Work(problem, critical, until, rtol, largest_step)
-    followed = [mode for mode in critical if mode.force > until]
-    for i, mode in enumerate(followed):
-        tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
-        for mirror in (False, True) if len(images(problem, mode.parity)) == 1 else (False,):
-            work.branches.append(
-                follow(problem, mode, until=until, mirror=mirror, rtol=rtol, largest_step=largest_step)
-            )
+    if problem.turns != 0:
+        start = coil(problem, until=until, rtol=rtol, largest_step=largest_step)
+        until = float(start.force[-1]) if until is None else until
+        work = _Work(problem, CriticalLoads(()), until, rtol, largest_step)
+        work.branches.append(start)
+    else:
+        critical = critical_loads(problem, modes, rtol=rtol)
+        until = _end(critical, until)
+        work = _Work(problem, critical, until, rtol, largest_step)
+        work.follow_primary(tell)
     if secondary:
         work.follow_secondary(tell)
     tell("done", 1.0)
-    return Diagram(problem, critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored))
+    return Diagram(problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored))
 
 
 def _end(critical: CriticalLoads, until: float | None) -> float:
@@ -211,12 +213,27 @@ def _end(critical: CriticalLoads, until: float | None) -> float:
 class _Work:
     """A diagram in the making."""
 
-    def __init__(self, problem: Problem, critical: CriticalLoads, until: float, rtol: float, largest_step: float) -> None:
+    def __init__(
+        self, problem: Problem, critical: CriticalLoads, until: float, rtol: float, largest_step: float
+    ) -> None:
         self.problem, self.critical, self.until = problem, critical, until
         self.rtol, self.largest_step = rtol, largest_step
         self.branches: list[Branch] = []
         self.joints: list[Joint] = []
         self.unexplored: list[str] = []
+
+    def follow_primary(self, tell: Progress) -> None:
+        """Follow the branches of the modes met on the way, both arms unless one is the image of the other."""
+        followed = [mode for mode in self.critical if mode.force > self.until]
+        for i, mode in enumerate(followed):
+            tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
+            for mirror in (False, True) if len(images(self.problem, mode.parity)) == 1 else (False,):
+                self.branches.append(
+                    follow(
+                        self.problem, mode, until=self.until, mirror=mirror,
+                        rtol=self.rtol, largest_step=self.largest_step,
+                    )
+                )  # fmt: skip
 
     def follow_secondary(self, tell: Progress) -> None:
         """Follow what leaves each branch point, those on secondary branches included."""
@@ -225,6 +242,8 @@ class _Work:
             parent = self.branches[done]
             done += 1
             for point in self._open_points(parent):
+                if self._meets_known(parent, point):
+                    continue
                 if count == MOST_SECONDARY:
                     self.unexplored.append(f"the limit of {MOST_SECONDARY} secondary branches was reached")
                     return
@@ -243,19 +262,35 @@ class _Work:
             and not any(abs(p.force - force) <= SAME_LOAD * abs(force) for force in taken)
         ]
 
+    def _meets_known(self, parent: Branch, point: SpecialPoint) -> bool:
+        """Whether the branch that crosses ``parent`` at ``point`` is already there; noted if so."""
+        for other in self.branches:
+            if other is not parent and any(
+                p.kind == BRANCH_POINT and p.index_before != p.index_after and _same(p.solution, point.solution)
+                for p in (other.special_points[1:] if other.origin.switched else other.special_points)
+            ):
+                self.joints.append(Joint(parent.name, other.name, point.force))
+                return True
+        return False
+
     def _leave(self, parent: Branch, point: SpecialPoint) -> int:
-        """Follow the branch that leaves ``parent`` at ``point``, in both directions unless one is the image of the other."""
+        """Follow the branch that leaves ``parent`` at ``point``, both ways unless one is the other's image."""
         where = f"{parent.name} at F = {point.force:.8g}"
         if abs(point.index_after - point.index_before) > 1:
             self.unexplored.append(f"{where}: {abs(point.index_after - point.index_before)} eigenvalues vanish at once")
             return 0
         mirrored = point.solution.point.fine.symmetry == 0
         for mirror in (False, True) if mirrored else (False,):
-            number = 1 + sum(b.mode is None for b in self.branches)
+            number = 1 + sum(b.origin.parent is not None for b in self.branches)
             origin = Origin(f"secondary {number}", switched=True, parent=parent.name)
             try:
                 branch = branch_off(
-                    point, until=self.until, mirror=mirror, rtol=self.rtol, largest_step=self.largest_step, origin=origin
+                    point,
+                    until=self.until,
+                    mirror=mirror,
+                    rtol=self.rtol,
+                    largest_step=self.largest_step,
+                    origin=origin,
                 )
             except NotConvergedError as problem:
                 self.unexplored.append(f"{where}: {problem}")

@@ -11,6 +11,7 @@ from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rt
 from rodwell.analysis.branches import (
     BRANCH_POINT,
     END,
+    EQUAL_ENERGY,
     LIFT_OFF,
     OUT_OF_RANGE,
     REJOINS,
@@ -54,6 +55,7 @@ Progress = Callable[[float], None]
 """Called with the parameter of each new point."""
 
 _CONTACT = Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX])
+_ENERGY = Event(EQUAL_ENERGY, lambda _, values: values[Measured.ENERGY])
 _ACROSS = Event(OUT_OF_RANGE, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)))
 
 
@@ -272,6 +274,8 @@ def _traced(
     if problem.lateral_weight > 0.0 or problem.turns != 0:
         events.append(_CONTACT)
 
+    if problem.turns != 0:
+        events.append(_ENERGY)
     if parameter != "force":
         low, high, _ = LIMITS[parameter]
         back = low if until > point.lam else high

@@ -13,7 +13,7 @@ from rodwell.analysis.families import family, parameter_value
 from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.events import INDEX, Found, events_between
+from rodwell.numerics.events import INDEX, NEARLY, Found, events_between
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.spaces import FloatArray, SplineSpace
@@ -94,11 +94,39 @@ def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
     fine = _null_vector(ladder.fine, parent.fine, ladder.up(coarse))
     if mirror:
         coarse, fine = -coarse, -fine
-    states = [
-        replace(f.state(state.c, state.lam, vector, 0.0, point.index_before), energy=state.energy)
-        for f, state, vector in ((ladder.coarse, parent.coarse, coarse), (ladder.fine, parent.fine, fine))
-    ]
+    states = []
+    for f, state, vector in ((ladder.coarse, parent.coarse, coarse), (ladder.fine, parent.fine, fine)):
+        turn = 0.0 if state.symmetry != 0 else _share_of_tangent(f, state, vector)
+        tangent, tangent_lam = vector + turn * state.tangent, turn * state.tangent_lam
+        states.append(
+            replace(f.state(state.c, state.lam, tangent, tangent_lam, point.index_before), energy=state.energy)
+        )
     return ladder, ladder.point(*states)
+
+
+def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> float:
+    """How much of the branch's tangent t belongs to the direction v + τ t of the branch that crosses it.
+
+    The algebraic branching equation: with ψ = v and second derivatives of the gradient g along directions of the
+    plane of t and v, ψ·g[t, t] = 0, so τ = −ψ·g[v, v] / (2 ψ·g[t, v]), 0 at a pitchfork.
+    """
+    free = equilibria.free
+    size = STENCIL * equilibria.scale_c
+    v = vector / np.max(np.abs(vector)) * size
+    scale = size / np.max(np.abs(state.tangent))
+    t, t_lam = scale * state.tangent, scale * state.tangent_lam
+
+    def along(a: float, b: float) -> float:
+        gradient = equilibria.assemble(state.c + a * v + b * t, state.lam + b * t_lam)[1]
+        return float(v[free] @ gradient[free])
+
+    vv = along(1.0, 0.0) - 2.0 * along(0.0, 0.0) + along(-1.0, 0.0)
+    tv = 0.25 * (along(1.0, 1.0) - along(1.0, -1.0) - along(-1.0, 1.0) + along(-1.0, -1.0))
+    return 0.0 if tv == 0.0 else -vv / (2.0 * tv) * scale * np.max(np.abs(vector)) / size
+
+
+STENCIL = 1e-2
+"""Step of second differences, in radians around the cylinder."""
 
 
 def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatArray:
@@ -112,9 +140,6 @@ def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatA
         vector = -vector
     return vector
 
-
-NEARLY = 1e-2
-"""Largest asymmetry, relative to the state, of a turning point that may lie on a symmetric branch."""
 
 AROUND = (1e-4, 1e-3, 1e-2)
 """How far from the turning point, in the family's scale of λ, the branch point of the symmetric branch is sought."""
@@ -142,7 +167,9 @@ def rejoined(problem: Problem, turn: Found) -> Found | None:
                 points.append(ladder.point(pair[0], pair[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        changes = [f for f in events_between(ladder, *points, (), opening=False, leaves=False) if f.name == INDEX]
+        changes = [
+            f for f in events_between(ladder, points[0], points[1], (), opening=False, leaves=False) if f.name == INDEX
+        ]
         if len(changes) == 1 and changes[0].certain:
             return changes[0]
     return None

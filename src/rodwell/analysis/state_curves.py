@@ -9,13 +9,14 @@ import numpy as np
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.branches import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, CurveLost, Seed, Spot, Zero, trace_curve
+from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, CurveLostError, Seed, Spot, Zero, trace_curve
 from rodwell.analysis.curves import Curve, CurvePoint, Progress, checked_range
 from rodwell.analysis.families import path, spline_ends
 from rodwell.analysis.follow import follow
-from rodwell.analysis.measures import Measured, pressure_maxima
+from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.starts import kept_parity
+from rodwell.analysis.torsion import torsion
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
@@ -25,9 +26,6 @@ __all__ = ["lift_off_curve", "secondary_curve", "twist_curve"]
 
 NEARLY_WEIGHTLESS = 1e-3
 """Part of a range that starts without lateral weight at which the curve is picked up."""
-
-FIRST_TWIST, LARGEST_TWIST = 0.05, 200.0
-"""Twist, in B/L, from which and up to which a second lift-off is sought."""
 
 
 def lift_off_curve(
@@ -144,7 +142,6 @@ def twist_curve(
     over: str = "weight",
     mode: int = 1,
     mirror: bool = False,
-    sense: int = 0,
     rtol: float = RTOL,
     progress: Progress | None = None,
 ) -> Curve:
@@ -160,8 +157,6 @@ def twist_curve(
         Range, and the parameter: "weight", "alpha" or "clearance".
     mode, mirror
         Mode at the start of the range, and its arm.
-    sense
-        1 or −1 for the sign of T₁; 0 for the one that presses the rod to the wall.
     rtol, progress
         As for :func:`lift_off_curve`.
 
@@ -173,34 +168,12 @@ def twist_curve(
     rtol = checked_rtol(rtol)
     start, end = checked_range(problem, over, limits, ("weight", "alpha", "clearance"))
     at_start = problem.but(**{over: start, "twist": 0.0})
-    lift = follow(at_start, mode, mirror=mirror, rtol=rtol).lift_off
-    if lift is None:
-        raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts")
-    sense = sense or settling_sense(lift.solution)
-    if sense == 0:
-        raise NotConvergedError(
-            f"at {over} = {start:g} twist of either sign makes mode {mode} lift off at once: it touches at s = "
-            + ", ".join(f"{s:.4g}" for s in lift.s)
-        )
-    along = follow(at_start, start=lift.solution, parameter="twist", until=sense * LARGEST_TWIST, rtol=rtol)
-    again = along.lift_off
-    if again is None:
-        raise NotConvergedError(
-            f"at {over} = {start:g} no second lift-off was found up to T₁ = {along.values[-1]:g} B/L: {along.ended_because}"
-        )
-    zero = _TwistAtLiftOff(problem.but(twist=0.0), over, lift.solution)
-    points, marks, why = trace_curve(zero, Seed(start, again.solution), end, progress)
+    prepared = torsion(at_start, mode, mirror=mirror, rtol=rtol)
+    if prepared.again is None:
+        raise NotConvergedError(f"at {over} = {start:g}: {prepared.meaning} Start the range elsewhere.")
+    zero = _TwistAtLiftOff(problem.but(twist=0.0), over, prepared.prepared.solution)
+    points, marks, why = trace_curve(zero, Seed(start, prepared.again.solution), end, progress)
     return Curve("twist", f"mode {mode}" + (", mirror arm" if mirror else ""), at_start, over, points, marks, why)
-
-
-def settling_sense(lifting: Solution) -> int:
-    """Sign of the twist that lowers max p of a state at lift-off; 0 if neither does."""
-    problem = lifting.problem
-    for sense in (1, -1):
-        branch = follow(problem, start=lifting, parameter="twist", until=sense * FIRST_TWIST)
-        if branch[1].number(Measured.P_MAX)[0] < 0.0:
-            return sense
-    return 0
 
 
 class _Crossing(Zero):
@@ -234,7 +207,7 @@ class _TwistAtLiftOff(_Crossing):
 
     def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
         if along != "twist":
-            raise CurveLost("the curve turns back in its parameter")
+            raise CurveLostError("the curve turns back in its parameter")
         near = Seed(spot.x, self.lifting)
         self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force), "force").solution
         problem = self.problem.but(**{self.over: spot.x})

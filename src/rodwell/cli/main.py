@@ -11,7 +11,8 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 import click
 
 from rodwell._version import __version__
-from rodwell.cli.quick import critical, liftoff
+from rodwell.cli.maps import curve, diagram
+from rodwell.cli.quick import critical, liftoff, twist
 from rodwell.cli.run import run
 from rodwell.errors import InputError, RodwellError
 
@@ -28,7 +29,7 @@ def cli() -> None:
     """
 
 
-for command in (run, critical, liftoff):
+for command in (run, critical, liftoff, diagram, curve, twist):
     cli.add_command(command)
 
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from rodwell.cli.options import progress_bar
+
 if TYPE_CHECKING:
-    from rodwell.practice.answer import Answer, Progress
+    from rodwell.practice.answer import Answer
 
 
 @click.command()
@@ -36,7 +35,7 @@ def run(case: Path, out: Path | None, as_json: bool, quiet: bool) -> None:
     from rodwell.practice.answer import answer  # noqa: PLC0415
     from rodwell.report.write import write_results  # noqa: PLC0415
 
-    with _progress(show=not quiet and not as_json) as tell:
+    with progress_bar(not quiet and not as_json, "critical loads") as tell:
         result = answer(read, tell)
         tell("figures, report and data", 1.0)
         write_results(result, folder)
@@ -44,24 +43,6 @@ def run(case: Path, out: Path | None, as_json: bool, quiet: bool) -> None:
         click.echo(json.dumps(result.as_dict(), indent=2, ensure_ascii=False))
     elif not quiet:
         _summary(result, folder)
-
-
-@contextmanager
-def _progress(show: bool) -> Iterator[Progress]:
-    """A progress bar on standard error, where that is a terminal."""
-    if not show or not sys.stderr.isatty():
-        yield lambda _what, _done: None
-        return
-    from rich.console import Console  # noqa: PLC0415
-    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
-
-    from rodwell.numerics.corrector import compiled_before  # noqa: PLC0415
-
-    first = "" if compiled_before() else " (first run: compiling once, some seconds)"
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("critical loads" + first, total=1.0)
-        yield lambda what, done: bar.update(task, description=what + first, completed=done)
 
 
 def _summary(answer: Answer, folder: Path) -> None:

@@ -12,7 +12,8 @@ The tangent follows from b, the stability index from the pivots of H: one factor
 Only the unknowns ``first … last−1`` vary; the others are held by the end conditions or tied to their neighbour
 (:mod:`rodwell.numerics.ends`). A ``parity`` of ±1 keeps
 increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
-which a nearly singular H would blow up near a symmetry-breaking bifurcation.
+which a nearly singular H would blow up near a symmetry-breaking bifurcation. Where there is no symmetry, a
+``frozen`` direction does the same.
 """
 
 from __future__ import annotations
@@ -42,6 +43,16 @@ def symmetrise(x, parity):
 
 
 @kernel
+def deflate(x, vector, covector):
+    """Remove from ``x`` its part along ``vector``, which ``covector`` measures; empty ones leave it."""
+    part = 0.0
+    for i in range(vector.size):
+        part += covector[i] * x[i]
+    for i in range(vector.size):
+        x[i] -= part * vector[i]
+
+
+@kernel
 def on_path(path, lam, parameters, rates):
     """Write the parameters p(λ) and their derivatives, see :func:`correct`."""
     angle = lam * DEGREE
@@ -54,7 +65,7 @@ def on_path(path, lam, parameters, rates):
 @kernel
 def correct(
     model, local_tag, table, points, weights, first, last, tied_first, tied_last, parity,
-    c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
+    frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
     extra, tangent,
 ):  # fmt: skip
     """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
@@ -88,12 +99,16 @@ def correct(
         negative = factorise(inner)
         for i in range(first, last):
             a[i], b[i] = -gradient[i], mixed[i]
+        deflate(a, covector, frozen)  # what H would blow up is kept out of the right-hand sides ...
+        deflate(b, covector, frozen)
         solve(inner, a[first:last])
         solve(inner, b[first:last])
         spread(a, first, last, tied_first, tied_last)
         spread(b, first, last, tied_first, tied_last)
         symmetrise(a, parity)
         symmetrise(b, parity)
+        deflate(a, frozen, covector)  # ... and out of the solutions
+        deflate(b, frozen, covector)
         gap, lever = target - row_lam * lam, row_lam
         for i in range(n):
             gap -= row[i] * (c[i] + a[i])

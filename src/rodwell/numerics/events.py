@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from rodwell.numerics.families import State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.location import FOLD_OFFSET, Crossing, LocationError, Place, Span, index_crossings, locate
+from rodwell.numerics.location import Crossing, LocationError, Place, Span, index_crossings, locate
 from rodwell.numerics.spaces import FloatArray
 
 INDEX, TURN = "index", "turn"
@@ -15,6 +17,9 @@ INDEX, TURN = "index", "turn"
 
 AT_START = 1e-6
 """Part of the first step in which a zero is taken to be the start itself."""
+
+NEARLY = 1e-2
+"""Largest asymmetry of a turning point, relative to the state, or angle in rad, that may be none."""
 
 MOST_REFINEMENTS = 2
 """How often the meshes are refined for a located point that does not meet the tolerance."""
@@ -62,8 +67,10 @@ def events_between(
     segment = _Segment(ladder, before, after)
     placed: list[_Placed] = []
     if not leaves:
-        placed = segment.index_changes()
-        placed += segment.turns([t for t, found in placed if found.fold])
+        turn = segment.turn()
+        placed = segment.index_changes(turn)
+        if turn is not None and not any(found.fold for _, found in placed):
+            placed.append((turn.t, _found(TURN, ladder, turn, turn.fine.index, turn.fine.index)))
     changes = sorted(placed, key=lambda item: item[0])
     for event in events:
         if not (opening and segment.starts_at(event)):
@@ -81,9 +88,16 @@ class _Segment:
             Span(ladder.fine.sharp(), before.fine, after.fine),
         )
 
-    def index_changes(self) -> list[_Placed]:
+    def index_changes(self, turn: Place | None = None) -> list[_Placed]:
         """Changes of the stability index; together they make up the whole difference of the two ends."""
-        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.spans)]
+        turns = [] if turn is None or self._meets(turn.fine) else [turn.t]
+        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.spans, turns)]
+
+    def _meets(self, state: State) -> bool:
+        """Whether a branch turns back since it meets its own mirror image: the index is then the same on both sides."""
+        family = self.ladder.fine
+        straight = np.max(np.abs(state.c)) < NEARLY * family.scale_c
+        return bool(straight or (family.parity == 0 and state.space.symmetric and state.symmetry_within(NEARLY) != 0))
 
     def _changed(self, crossing: Crossing) -> Found:
         index = crossing.before, crossing.after
@@ -100,16 +114,10 @@ class _Segment:
             crossing.place, again, lambda ladder, at: _found(INDEX, ladder, at, *index, fold=crossing.fold)
         )
 
-    def turns(self, folds: list[float]) -> list[_Placed]:
-        """The place where λ turns back, unless it is one of the ``folds``."""
+    def turn(self) -> Place | None:
+        """The place where λ turns back, if it does."""
         first, last = self.spans[1].first.tangent_lam, self.spans[1].last.tangent_lam
-        if first * last >= 0.0:
-            return []
-        place = locate(*self.spans, _sense, (first, last))
-        if any(abs(place.t - t) < 10.0 * FOLD_OFFSET for t in folds):
-            return []
-        index = place.fine.index
-        return [(place.t, _found(TURN, self.ladder, place, index, index))]
+        return None if first * last >= 0.0 else locate(*self.spans, _sense, (first, last))
 
     def starts_at(self, event: Event) -> bool:
         """Whether the zero of an event is the start itself, to within what is known of its values there."""

@@ -33,6 +33,8 @@ class Outcome(Enum):
 SYMMETRIC = 1e-5
 """Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
 
+_NOTHING = np.empty(0)
+
 _OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
 
 
@@ -138,10 +140,17 @@ class Family:
         return State(self.space, c, lam, unit, unit_lam, row, row_lam, index, 0.0)
 
     def correct(
-        self, c: FloatArray, lam: float, row: FloatArray, row_lam: float, target: float
+        self,
+        c: FloatArray,
+        lam: float,
+        row: FloatArray,
+        row_lam: float,
+        target: float,
+        frozen: FloatArray | None = None,
     ) -> tuple[Outcome, State | None, int]:
         """Newton from ``(c, λ)`` to the equilibrium with ``row·c + row_λ λ = target``.
 
+        Increments are kept normal to ``frozen`` (n,), if given, in the product ∫u'v' ds.
         Returns the outcome, the state (None unless converged; its tangent points towards growing
         ``row·c + row_λ λ``) and the number of Newton steps.
         """
@@ -149,10 +158,11 @@ class Family:
         c = c.copy()
         tangent = np.empty_like(c)
         free = self.free
+        frozen, covector = self._normalised(frozen)
         status, lam, index, energy, _, steps = corrector.correct(
             self.model, space.local_tag, space.table, space.points, space.weights, free.start, free.stop,
-            *self.ends.tied, self.parity, c, lam, self.path, row, row_lam, target, self.scale_c, self.lam_scale,
-            self.tolerance, self.most_steps, self.extra_steps, tangent,
+            *self.ends.tied, self.parity, frozen, covector, c, lam, self.path, row, row_lam, target,
+            self.scale_c, self.lam_scale, self.tolerance, self.most_steps, self.extra_steps, tangent,
         )  # fmt: skip
         if status != corrector.CONVERGED:
             return _OUTCOMES[status], None, steps
@@ -163,6 +173,14 @@ class Family:
             State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy),
             steps,
         )
+
+    def _normalised(self, vector: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+        """Return a vector (n,) of length one in the product ∫u'v' ds, and its covector; empty ones for None."""
+        if vector is None:
+            return _NOTHING, _NOTHING
+        covector = banded.multiply(self.space.slope_gram, vector)
+        length = float(np.sqrt(vector @ covector))
+        return vector / length, covector / length
 
     def assemble(self, c: FloatArray, lam: float) -> tuple[float, FloatArray, FloatArray]:
         """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""

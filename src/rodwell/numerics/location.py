@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from rodwell.numerics.families import Family, State
+from rodwell.numerics.spaces import FloatArray
 
 PLACE_TOLERANCE = 1e-12
 """Width, as a part of the span, to which a zero is bracketed."""
@@ -24,9 +26,14 @@ class Span:
     family: Family
     first: State
     last: State
+    frozen: FloatArray | None = None
 
     def __call__(self, t: float) -> State:
-        """Return the equilibrium at ``t``: Newton from the cubic Hermite interpolant."""
+        """Return the equilibrium at ``t``: Newton from the cubic Hermite interpolant.
+
+        Along ``frozen`` (n,), if given, the interpolant is kept: there Newton's method would wander, next to a point
+        where the Hessian is singular and the branch does not turn back.
+        """
         a, b = self.first, self.last
         length = a.along(b)
         rate = float(a.row @ b.tangent + a.row_lam * b.tangent_lam)
@@ -39,10 +46,14 @@ class Span:
         c = h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent
         lam = h0 * a.lam + h1 * b.lam + s0 * a.tangent_lam + s1 * b.tangent_lam
         target = float(a.row @ a.c) + a.row_lam * a.lam + t * length
-        outcome, state, _ = self.family.correct(c, lam, a.row, a.row_lam, target)
+        outcome, state, _ = self.family.correct(c, lam, a.row, a.row_lam, target, self.frozen)
         if state is None:
             raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
         return state
+
+    def narrowed(self, low: float, high: float) -> Span:
+        """Return the stretch between two places of this one."""
+        return Span(self.family, self(low), self(high))
 
     def at_lam(self, lam: float) -> State:
         """Return the equilibrium at a λ that lies between those of the ends."""
@@ -137,30 +148,31 @@ class Crossing:
     fold: bool
 
 
-def index_crossings(coarse: Span, fine: Span) -> list[Crossing]:
+def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = ()) -> list[Crossing]:
     """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
 
-    A change by one that stands alone is then located as a zero of the eigenvalue that crosses, which is
-    smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
+    The span is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
+    back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
+    crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
     """
-    out = []
-    for low, high, before, after in _bisect(fine, 0.0, 1.0, fine.first.index, fine.last.index):
-        t = _crossing(fine, low, high)
-        try:
-            other = _near(_Crossing(coarse, t), t, rising=after < before) if high > low else t
-        except LocationError:
-            out.append(Crossing(None, t, before, after, fold=False))
-            continue
-        fold = fine(t - FOLD_OFFSET).tangent_lam * fine(t + FOLD_OFFSET).tangent_lam < 0.0
-        out.append(Crossing(Place(t, coarse(other), fine(t)), t, before, after, fold))
-    return out
+    cuts = [0.0, 1.0]
+    for turn in turns:
+        cuts += [t for t in (turn - FOLD_OFFSET, turn + FOLD_OFFSET) if 0.0 < t < 1.0]
+    cuts.sort()
+    brackets = []
+    for low, high in pairwise(cuts):
+        brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
+    return [_located(coarse, fine, *bracket) for bracket in brackets]
 
 
 ALONE = 1e-2
 """Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
 
 FOLD_OFFSET = 1e-5
-"""How far from a crossing, as a part of the span, the sense of travel is compared."""
+"""How far from a turning point, as a part of the span, the index is compared."""
+
+CUTS = (0.5, 0.37, 0.64)
+"""Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
 
 
 def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, float, int, int]]:
@@ -171,14 +183,55 @@ def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> l
     if width < PLACE_TOLERANCE:
         middle = 0.5 * (low + high)
         return [(middle, middle, at_low, at_high)]
-    if abs(at_high - at_low) == 1 and width < ALONE and _Crossing(span, low)(low) * _Crossing(span, high)(high) < 0.0:
+    if abs(at_high - at_low) == 1 and width < ALONE and _changes_sign(span, low, high):
         return [(low, high, at_low, at_high)]
-    middle = 0.5 * (low + high)
-    here = span(middle).index
+    middle, here = _cut(span, low, high)
     return _bisect(span, low, middle, at_low, here) + _bisect(span, middle, high, here, at_high)
 
 
-class _Crossing:
+def _cut(span: Span, low: float, high: float) -> tuple[float, int]:
+    """A place inside an interval, near its middle, and the index there."""
+    for part in CUTS:
+        middle = low + part * (high - low)
+        try:
+            return middle, span(middle).index
+        except LocationError:
+            if part == CUTS[-1]:
+                raise
+    raise AssertionError
+
+
+def _changes_sign(span: Span, low: float, high: float) -> bool:
+    eigenvalue = _Eigenvalue(span, low)
+    return eigenvalue(low) * eigenvalue(high) < 0.0
+
+
+def _located(coarse: Span, fine: Span, low: float, high: float, before: int, after: int) -> Crossing:
+    """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
+    if low == high:
+        return Crossing(Place(low, coarse(low), fine(low)), low, before, after, fold=False)
+    parts = fine.narrowed(low, high), coarse.narrowed(low, high)
+    fold = parts[0].first.tangent_lam * parts[0].last.tangent_lam < 0.0
+    if not fold and fine.family.parity == 0:
+        parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
+    eigenvalue = _Eigenvalue(parts[0], 0.0)
+    t = bracketed_root(eigenvalue, 0.0, 1.0, eigenvalue(0.0), eigenvalue(1.0))
+    try:
+        other = _near(_Eigenvalue(parts[1], t), t, rising=after < before)
+    except LocationError:
+        return Crossing(None, low, before, after, fold=False)
+    return Crossing(
+        Place(low + t * (high - low), parts[1](other), parts[0](t)), low + t * (high - low), before, after, fold
+    )
+
+
+def _steadied(span: Span) -> Span:
+    """The span with Newton's method kept off the direction in which the Hessian becomes singular."""
+    eigenvalue = _Eigenvalue(span, 0.0)
+    return replace(span, frozen=eigenvalue.vector)
+
+
+class _Eigenvalue:
     """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``."""
 
     def __init__(self, span: Span, near: float) -> None:
@@ -189,11 +242,3 @@ class _Crossing:
 
     def __call__(self, t: float) -> float:
         return self.span.family.nearest_curvature(self.span(t), self.vector, 3)
-
-
-def _crossing(span: Span, low: float, high: float) -> float:
-    """Place of a single change of the index in a bracket; a bracket of no width is the place."""
-    if low == high:
-        return low
-    eigenvalue = _Crossing(span, low)
-    return bracketed_root(eigenvalue, low, high, eigenvalue(low), eigenvalue(high))

@@ -142,7 +142,7 @@ import math
 from rodwell.jit import kernel
 
 
-@kernel
+@kernel(forceinline=True)
 def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     """Energy density and its derivatives at one place ``s``: see :func:`rodwell.jit.density`.
 

@@ -1,0 +1,161 @@
+"""Twisting a rod that is about to lift off (paper, section 4.2): which sense settles it, and how far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.accuracy import RTOL, checked_rtol
+from rodwell.analysis.branches import Branch, SpecialPoint
+from rodwell.analysis.critical import Mode
+from rodwell.analysis.follow import follow
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.starts import at_state
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.families import Family, State
+from rodwell.physics.strand import towards_lift_off
+from rodwell.problem import Problem, ends_text
+
+LARGEST_TWIST = 200.0
+"""Twist in B/L up to which a second lift-off is sought."""
+
+STEP = 1e-4
+"""Step of T₁, in B/L, for the rates of the contact pressure."""
+
+NO_RATE = 1e-6
+"""A rate below this part of the largest distributed force times the clearance counts as none."""
+
+
+@dataclass(frozen=True)
+class Torsion:
+    """What twist does to a rod at its lift-off load.
+
+    Attributes
+    ----------
+    problem
+        The problem, without twist.
+    prepared
+        The lift-off point: its force stays applied.
+    rates
+        dp/dT₁ at each place that lifts off, in 1/L²: a place is pressed to the wall by twist of the opposite sign.
+    sense
+        Sign of the twist that presses all of these places to the wall; 0 if there is none.
+    branch
+        The states with growing twist of that sense, None if there is none.
+    again
+        Where the rod lifts off again, None if it does not within the range looked at.
+    """
+
+    problem: Problem
+    prepared: SpecialPoint
+    rates: tuple[float, ...]
+    sense: int
+    branch: Branch | None
+    again: SpecialPoint | None
+
+    @property
+    def meaning(self) -> str:
+        """The outcome in words."""
+        places = " and ".join(f"s = {s:.4g}" for s in self.prepared.s)
+        if self.sense == 0 and len(self.rates) > 1:
+            return (
+                f"Twist of either sign makes the rod lift off at once: it is about to at {places}, and what presses "
+                "one place to the wall lifts the other (turning the rod round swaps them, and T₁ changes sign)."
+            )
+        if self.sense == 0:
+            return (
+                f"To first order twist neither presses nor lifts the rod at {places}: turning the rod round leaves the "
+                "place and changes the sign of T₁. What twist of either sign does is of second order."
+            )
+        sign = ">" if self.sense > 0 else "<"
+        text = f"Twist T₁ {sign} 0 presses the rod to the wall at {places}; the other sense lifts it off at once."
+        if self.again is None:
+            assert self.branch is not None
+            return text + f" No second lift-off was found up to T₁ = {self.branch.values[-1]:.4g} B/L."
+        again = " and ".join(f"s = {s:.4g}" for s in self.again.s)
+        return text + f" It lifts off again at T₁ = {self.again.value:.8g} ± {self.again.error:.1e} B/L, at {again}."
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the outcome as plain data, for JSON."""
+        again = self.again
+        return {
+            "convention": "end force F and twisting moment T1 at s = 1, dead loads in B/L^2 and B/L, tension positive; "
+            + ends_text(self.problem),
+            "force": self.prepared.force,
+            "error": self.prepared.error,
+            "s": list(self.prepared.s),
+            "pressure_rates": list(self.rates),
+            "sense": self.sense,
+            "again": None if again is None else {"twist": again.value, "error": again.error, "s": list(again.s)},
+            "converged": self.prepared.solution.converged and (self.branch is None or self.branch.converged),
+            "meaning": self.meaning,
+        }
+
+
+def torsion(
+    problem: Problem,
+    mode: int | Mode = 1,
+    *,
+    mirror: bool = False,
+    until: float = LARGEST_TWIST,
+    rtol: float = RTOL,
+) -> Torsion:
+    """Prepare a rod at the lift-off load of a mode, then twist it either way.
+
+    Critical loads do not depend on twist: the term of T₁ in the energy is of third order in y.
+
+    Parameters
+    ----------
+    problem
+        The rod, with ``twist`` 0.
+    mode, mirror
+        Mode and arm, as for :func:`rodwell.follow`: ω₂(1) < 0, or ω₂(1) > 0 with ``mirror``.
+    until
+        Largest twist looked at, in B/L, either way.
+    rtol
+        Relative tolerance.
+
+    Raises
+    ------
+    InputError
+        If the problem has twist, an end that takes none, or no lateral weight.
+    NotConvergedError
+        If the mode has no lift-off within reach.
+    """
+    rtol = checked_rtol(rtol)
+    if problem.twist != 0.0:
+        raise InputError("twist", problem.twist, "must be 0: the rod is prepared without twist")
+    if not problem.pressed:
+        raise InputError("weight", problem.weight, "the rod must be pressed to the wall by its lateral weight")
+    problem.but(twist=1.0)  # ends that take no twist are refused
+    lift = follow(problem, mode, mirror=mirror, rtol=rtol).lift_off
+    if lift is None:
+        raise NotConvergedError("the rod has no lift-off within reach, at which it could be prepared")
+    rates = pressure_rates(lift.solution, lift.s)
+    size = NO_RATE * problem.lateral_weight * max(1.0, 1.0 / problem.clearance)
+    senses = {0 if abs(rate) < size else int(-np.sign(rate)) for rate in rates}
+    sense = senses.pop() if len(senses) == 1 else 0
+    if sense == 0:
+        return Torsion(problem, lift, rates, 0, None, None)
+    branch = follow(problem, start=lift.solution, parameter="twist", until=sense * until, rtol=rtol)
+    return Torsion(problem, lift, rates, sense, branch, branch.lift_off)
+
+
+def pressure_rates(solution: Solution, places: tuple[float, ...]) -> tuple[float, ...]:
+    """dp/dT₁ along equilibria at constant force, at given places (p with the sign that makes contact negative)."""
+    ladder, point = at_state(solution.problem, solution, "twist", solution.problem.twist + 1.0, solution.ladder.rtol)
+    state = point.fine
+    direction = state.tangent / state.tangent_lam
+
+    def pressure(step: float) -> np.ndarray:
+        return _pressure(ladder.fine, state, state.c + step * direction, state.lam + step, np.array(places))
+
+    rates = (pressure(STEP) - pressure(-STEP)) / (2.0 * STEP)
+    return tuple(float(rate) for rate in rates)
+
+
+def _pressure(family: Family, state: State, c: np.ndarray, twist: float, places: np.ndarray) -> np.ndarray:
+    u = state.space.evaluate(c, places, 4)
+    return np.asarray(towards_lift_off(places, u[0], u[1], u[2], u[3], family.parameters(twist)))

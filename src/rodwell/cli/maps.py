@@ -1,0 +1,204 @@
+"""``rodwell diagram`` and ``rodwell curve``: all branches of a problem, and boundaries in two parameters."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rodwell.cli.options import (
+    json_option,
+    make_problem,
+    out_option,
+    print_json,
+    problem_options,
+    progress_bar,
+    rtol_option,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from rodwell.analysis.curves import Curve
+    from rodwell.analysis.diagram import Diagram
+    from rodwell.problem import Problem
+
+
+@click.command()
+@problem_options(coiled=True)
+@click.option("--modes", default=4, show_default=True, help="How many primary branches.")
+@click.option("--until", type=float, help="End force at s = 1 (tension positive) at which branches end.")
+@click.option("--secondary/--no-secondary", default=True, show_default=True, help="Follow secondary branches.")
+@click.option("--largest-step", default=0.04, show_default=True, help="Longest step of continuation.")
+@rtol_option
+@json_option
+@out_option("diagram")
+def diagram(
+    modes: int,
+    until: float | None,
+    secondary: bool,
+    largest_step: float,
+    rtol: float,
+    as_json: bool,
+    out: Path,
+    **given: Any,
+) -> None:
+    """Bifurcation diagram: branches of the first modes, special points, secondary branches, stability.
+
+    End force at s = 1 in B/L², tension positive. With --turns: the branch of the coil. Draws the figure and
+    writes the branches to NetCDF.
+    """
+    from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+    problem = make_problem(given)
+    check_writable(out)
+    from rodwell.analysis.diagram import diagram as compute  # noqa: PLC0415
+    from rodwell.report.write import write_diagram  # noqa: PLC0415
+
+    with progress_bar(not as_json, "critical loads") as tell:
+        result = compute(
+            problem,
+            modes=modes,
+            until=until,
+            secondary=secondary,
+            rtol=rtol,
+            largest_step=largest_step,
+            progress=tell,
+        )
+        tell("figure and data", 1.0)
+        files = write_diagram(result, out)
+    if as_json:
+        print_json(result.as_dict())
+        return
+    _print_diagram(result)
+    click.echo(f"\nWritten to {out}: " + ", ".join(files))
+
+
+def _print_diagram(result: Diagram) -> None:
+    from rodwell.problem import ends_text  # noqa: PLC0415
+
+    click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
+    for branch in result:
+        parent = f", leaves {branch.origin.parent}" if branch.origin.parent else ""
+        others = [image.name for image in result.images(branch)[1:]]
+        mirrored = f"   images: {', '.join(others)}" if others else ""
+        click.echo(f"\n{branch.name}{parent}: {len(branch)} points{mirrored}")
+        for p in branch.special_points:
+            where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
+            index = f"index {p.index_before} → {p.index_after}"
+            click.echo(f"  {p.kind:<13} F = {p.force:+.10g}  ± {p.error:.1e}   {index}{where}")
+        if not branch.reached_end or branch.origin.parent:
+            click.echo(f"  ended: {branch.ended_because}")
+    for line in result.unexplored:
+        click.echo(f"not explored: {line}")
+    if not result.converged:
+        click.echo("Not every number meets the tolerance.")
+
+
+@click.command()
+@click.argument("kind", type=click.Choice(["lift-off", "critical", "secondary", "twist"]))
+@problem_options(required=False)
+@click.option(
+    "--over",
+    type=click.Choice(["weight", "alpha", "clearance", "twist"]),
+    required=True,
+    help="Parameter over which the curve runs; its own option is then not needed.",
+)
+@click.option("--from", "start", type=float, required=True, help="Start of the range.")
+@click.option("--to", "end", type=float, required=True, help="End of the range.")
+@click.option("--mode", default=1, show_default=True, help="Mode, at the start of the range (not for critical).")
+@click.option("--modes", default=4, show_default=True, help="How many curves (critical only).")
+@click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0 (lift-off, twist).")
+@rtol_option
+@json_option
+@out_option("curve")
+def curve(
+    kind: str,
+    over: str,
+    start: float,
+    end: float,
+    mode: int,
+    modes: int,
+    mirror: bool,
+    rtol: float,
+    as_json: bool,
+    out: Path,
+    **given: Any,
+) -> None:
+    """Trace a load against another parameter, every point converged.
+
+    KIND is lift-off, critical, secondary (the load at which a symmetric branch loses its symmetry), or twist (at which
+    a rod prepared at lift-off lifts off again). End force at s = 1 in B/L², tension positive; T₁ in B/L.
+    """
+    from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+    given[over] = start  # whatever was given: the range counts
+    problem = make_problem(_with_required(given, over))
+    check_writable(out)
+    from rodwell.report.write import write_curves  # noqa: PLC0415
+
+    with progress_bar(not as_json, f"{kind} curve") as tell:
+        report = lambda done: tell(f"{kind} curve over {over}", done)  # noqa: E731
+        curves = _compute(kind, problem, over, (start, end), mode, modes, mirror, rtol, report)
+        tell("figure and data", 1.0)
+        files = write_curves(curves, out)
+    if as_json:
+        print_json({"curves": [c.as_dict() for c in curves]})
+        return
+    _print_curves(curves)
+    click.echo(f"\nWritten to {out}: " + ", ".join(files))
+
+
+def _with_required(given: dict[str, Any], over: str) -> dict[str, Any]:
+    for name in ("weight", "alpha"):
+        if given.get(name) is None and name != over:
+            raise click.UsageError(f"Missing option '--{name}'.")
+    return given
+
+
+def _compute(
+    kind: str,
+    problem: Problem,
+    over: str,
+    limits: tuple[float, float],
+    mode: int,
+    modes: int,
+    mirror: bool,
+    rtol: float,
+    progress: Callable[[float], None],
+) -> Sequence[Curve]:
+    from rodwell.analysis.critical_curves import critical_curves  # noqa: PLC0415
+    from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve  # noqa: PLC0415
+
+    if kind == "critical":
+        return critical_curves(problem, over, limits, modes=modes, rtol=rtol, progress=progress)
+    if kind == "lift-off":
+        return [lift_off_curve(problem, over, limits, mode=mode, mirror=mirror, rtol=rtol, progress=progress)]
+    if kind == "secondary":
+        return [secondary_curve(problem, limits, over=over, mode=mode, rtol=rtol, progress=progress)]
+    return [twist_curve(problem, limits, over=over, mode=mode, mirror=mirror, rtol=rtol, progress=progress)]
+
+
+SHOWN = 12
+"""Points of a curve that the terminal shows."""
+
+
+def _print_curves(curves: Sequence[Curve]) -> None:
+    from rodwell.analysis.curves import convention  # noqa: PLC0415
+
+    first = curves[0]
+    click.echo(f"{first.kind} over {first.over}: {convention(first.problem, first.quantity)}")
+    for item in curves:
+        click.echo(f"\n{item.name}: {len(item)} points")
+        step = max(1, (len(item) - 1) // (SHOWN - 1))
+        shown = [*item.points[:-1:step], item.points[-1]]
+        for p in shown:
+            where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
+            click.echo(f"  {item.over} = {p.x:<12.8g} {p.value:+.10g}  ± {p.error:.1e}{where}")
+        for m in item.marks:
+            click.echo(f"  {m.kind}: {item.over} = {m.x:.10g} ± {m.x_error:.1e}, {m.value:+.10g} ± {m.error:.1e}; {m.note}")
+        if item.ended_because != "end":
+            click.echo(f"  ended early: {item.ended_because}")
+        if not item.converged:
+            click.echo("  Not every point meets the tolerance.")

@@ -1,0 +1,94 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from rodwell.problem import Problem
+
+Progress = Callable[[str, float], None]
+
+PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns")
+"""Names of the options that make a problem."""
+
+
+def problem_options(required: bool = True, coiled: bool = False) -> Callable[[Any], Any]:
+    """Options that describe the problem; weight and alpha are ``required`` unless a curve runs over them."""
+
+    def decorate(function: Any) -> Any:
+        options = [
+            click.option("--weight", type=float, required=required, help="γ = mg L³/B, weight of the rod."),
+            click.option(
+                "--alpha", type=float, required=required, help="Angle of the cylinder from the vertical, degrees."
+            ),
+            click.option("--clearance", default=0.01, show_default=True, help="Δ/L, distance between the axes."),
+            click.option("--twist", default=0.0, show_default=True, help="End twisting moment T₁ in B/L."),
+            click.option(
+                "--ends",
+                default="clamped-clamped",
+                show_default=True,
+                help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free.",
+            ),
+            click.option("--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."),
+            click.option("--outside", is_flag=True, help="The rod lies on the outside of the cylinder."),
+        ]
+        if coiled:
+            options.append(
+                click.option("--turns", default=0, show_default=True, help="Turns of the end s = 1 around the cylinder.")
+            )
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+rtol_option = click.option("--rtol", default=1e-8, show_default=True, help="Relative tolerance of the numbers.")
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+
+
+def make_problem(given: dict[str, Any]) -> Problem:
+    """Return the problem that the options describe; what is not given keeps its default."""
+    from rodwell.problem import Problem  # noqa: PLC0415
+
+    values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
+    return Problem(**{"weight": 0.0, **values})
+
+
+def print_json(data: dict[str, Any]) -> None:
+    """Print data as JSON."""
+    click.echo(json.dumps(data, ensure_ascii=False))
+
+
+def out_option(name: str) -> Callable[[Any], Any]:
+    """Option for the folder of results."""
+    return click.option(
+        "--out", type=click.Path(path_type=Path), default=Path("results") / name, show_default=True,
+        help="Folder for figure and data.",
+    )  # fmt: skip
+
+
+@contextmanager
+def progress_bar(show: bool, first: str) -> Iterator[Progress]:
+    """A progress bar on standard error, where that is a terminal; ``first`` says what is done first."""
+    if not show or not sys.stderr.isatty():
+        yield lambda _what, _done: None
+        return
+    from rich.console import Console  # noqa: PLC0415
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
+    from rodwell.numerics.corrector import compiled_before  # noqa: PLC0415
+
+    note = "" if compiled_before() else " (first run: compiling once, some seconds)"
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(first + note, total=1.0)
+        yield lambda what, done: bar.update(task, description=what + note, completed=done)
