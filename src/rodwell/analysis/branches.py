@@ -64,6 +64,8 @@ class SpecialPoint:
         Stability index on either side, in the direction of travel.
     solution
         The state itself.
+    after
+        Number of the point of the branch that it follows.
     """
 
     kind: str
@@ -74,6 +76,7 @@ class SpecialPoint:
     index_before: int
     index_after: int
     solution: Solution
+    after: int
 
 
 @dataclass(frozen=True)
@@ -278,7 +281,7 @@ class Branch:
             if self.mode is not None:
                 kind, error = CRITICAL, self.mode.error
             before, index = points[0].fine.index, int(self.stability_index[0])
-            out.append(SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first))
+            out.append(SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first, 0))
         met = self._trace.found[-1:] if self._trace.end in (REJOINS, STRAIGHT) else []
         for found in self._trace.found:
             if found.name in KINDS:
@@ -286,7 +289,7 @@ class Branch:
         if not out or out[-1].kind != END:
             last = self._solution(points[-1], ladders[-1])
             index = self._trace.found[-1].index_after if met else last.stability_index
-            out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last))
+            out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last, len(points) - 1))
         return tuple(out)
 
     def _special(self, found: Found, *, met: bool) -> SpecialPoint:
@@ -301,7 +304,7 @@ class Branch:
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
         error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
         index = found.index_before, found.index_after
-        return SpecialPoint(kind, solution.force, found.point.lam, error, places, *index, solution)
+        return SpecialPoint(kind, solution.force, found.point.lam, error, places, *index, solution, found.after)
 
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""
@@ -315,7 +318,8 @@ def continued(branch: Branch, result: Trace, reached: bool, why: str) -> Branch:
         old,
         points=old.points[:-1] + result.points,
         ladders=old.ladders[:-1] + result.ladders,
-        found=[f for f in old.found if f.name != END] + result.found,
+        found=[f for f in old.found if f.name != END]
+        + [replace(f, after=f.after + len(old.points) - 1) for f in result.found],
         end=result.end,
     )
     return Branch(branch.problem, branch.origin, merged, reached, why, branch.parameter)

@@ -147,16 +147,22 @@ class Curve:
             "converged": self.converged,
             "ended_because": self.ended_because,
             "points": [
-                {self.over: p.x, self.quantity: p.value, "error": p.error, "s": list(p.s), "converged": p.converged}
+                {
+                    self.over: float(p.x),
+                    self.quantity: float(p.value),
+                    "error": float(p.error),
+                    "s": list(p.s),
+                    "converged": bool(p.converged),
+                }
                 for p in self.points
             ],
             "marks": [
                 {
                     "kind": m.kind,
-                    self.over: m.x,
-                    f"{self.over}_error": m.x_error,
-                    self.quantity: m.value,
-                    "error": m.error,
+                    self.over: float(m.x),
+                    f"{self.over}_error": float(m.x_error),
+                    self.quantity: float(m.value),
+                    "error": float(m.error),
                     "note": m.note,
                 }
                 for m in self.marks

@@ -197,7 +197,9 @@ def _print_curves(curves: Sequence[Curve]) -> None:
             where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
             click.echo(f"  {item.over} = {p.x:<12.8g} {p.value:+.10g}  ± {p.error:.1e}{where}")
         for m in item.marks:
-            click.echo(f"  {m.kind}: {item.over} = {m.x:.10g} ± {m.x_error:.1e}, {m.value:+.10g} ± {m.error:.1e}; {m.note}")
+            click.echo(
+                f"  {m.kind}: {item.over} = {m.x:.10g} ± {m.x_error:.1e}, {m.value:+.10g} ± {m.error:.1e}; {m.note}"
+            )
         if item.ended_because != "end":
             click.echo(f"  ended early: {item.ended_because}")
         if not item.converged:

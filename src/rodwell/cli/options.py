@@ -37,12 +37,16 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 show_default=True,
                 help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free.",
             ),
-            click.option("--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."),
+            click.option(
+                "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."
+            ),
             click.option("--outside", is_flag=True, help="The rod lies on the outside of the cylinder."),
         ]
         if coiled:
             options.append(
-                click.option("--turns", default=0, show_default=True, help="Turns of the end s = 1 around the cylinder.")
+                click.option(
+                    "--turns", default=0, show_default=True, help="Turns of the end s = 1 around the cylinder."
+                )
             )
         for option in reversed(options):
             function = option(function)

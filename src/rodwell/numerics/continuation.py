@@ -8,7 +8,7 @@ places where λ turns back. A step that cannot be explained in this way is repea
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -117,7 +117,7 @@ def _advance(
     if end is not None:
         found = found[: end + 1]
         result.end, point, new_ladder = stop(found[end]), found[end].point, found[end].ladder
-    result.found += found
+    result.found += [replace(item, after=len(result.points) - 1) for item in found]
     result.points.append(point)
     result.ladders.append(new_ladder)
     if end is not None:

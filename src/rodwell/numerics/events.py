@@ -39,7 +39,7 @@ class Found:
 
     ``rising`` is the sense of an event's function along the branch. ``fold`` says that λ turns back where the index
     changes. ``certain`` is False for a change of the index that only one mesh shows: the eigenvalue
-    vanishes to round-off.
+    vanishes to round-off. ``after`` is the number of the point of the branch that it follows.
     """
 
     name: str
@@ -51,6 +51,7 @@ class Found:
     rising: bool = False
     fold: bool = False
     certain: bool = True
+    after: int = 0
 
 
 _Placed = tuple[float, Found]
@@ -70,7 +71,8 @@ def events_between(
         turn = segment.turn()
         placed = segment.index_changes(turn)
         if turn is not None and not any(found.fold for _, found in placed):
-            placed.append((turn.t, _found(TURN, ladder, turn, turn.fine.index, turn.fine.index)))
+            index = _index_at(turn.t, before.fine.index, placed)
+            placed.append((turn.t, _found(TURN, ladder, turn, index, index)))
     changes = sorted(placed, key=lambda item: item[0])
     for event in events:
         if not (opening and segment.starts_at(event)):
@@ -137,9 +139,7 @@ class _Segment:
             return event.function(state.lam, self.ladder.measure(span.family, state)[0])
 
         place = locate(*self.spans, value, ends)
-        for t, change in changes:
-            if t < place.t:
-                index = change.index_after
+        index = _index_at(place.t, index, changes)
 
         def again(finer: _Segment) -> Place | None:
             return locate(*finer.spans, value, finer._values(event))
@@ -185,6 +185,14 @@ def _found(
 ) -> Found:
     point = ladder.point(place.coarse, place.fine)
     return Found(name, point, ladder, place.gap / CLAIMED_GAIN, before, after, rising=rising, fold=fold)
+
+
+def _index_at(t: float, index: int, changes: Sequence[_Placed]) -> int:
+    """Stability index at a place, from that at the start and the changes."""
+    for place, change in sorted(changes, key=lambda item: item[0]):
+        if place < t:
+            index = change.index_after
+    return index
 
 
 def _sense(_: Span, state: State) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.measures import Measured
+from rodwell.analysis.symmetry import Reflection, images
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
@@ -19,39 +20,65 @@ MARKERS = {
     "lift_off": ("o", "lift-off"),
     "branch_point": ("^", "secondary bifurcation"),
     "fold": ("s", "fold"),
+    "touch_down": ("o", "contact complete again"),
+    "equal_energy": ("P", "energy of the straight rod"),
 }
 
 
-def plot_bifurcation(
-    branches: Sequence[Branch], critical: CriticalLoads, scales: Scales | None = None, ax: Any = None
-) -> Any:
-    """Draw ω₂(1) against the end compression −F at s = 1 for a set of branches; return the axes.
+ORDINATES = {
+    Measured.OMEGA2_1: ("omega2_at_1", "end curvature ω₂(1)"),
+    Measured.OMEGA2_0: ("omega2_at_0", "end curvature ω₂(0)"),
+    Measured.ENERGY: ("energy", "energy E, relative to the straight rod"),
+    Measured.SHORTENING: ("end_shortening", "approach of the ends 1 − z(1)"),
+    Measured.ANGLE_MID: ("angle_at_middle", "angle at mid-length ξ₂(½)"),
+    Measured.TORQUE_0: ("support_torque", "support torque T₂(0)"),
+    Measured.P_MAX: ("largest_pressure", "largest contact pressure max p"),
+}
+"""What can be drawn against the end compression: name in the nomenclature and label."""
 
-    Stable parts (under dead loads, for a rod kept on the wall) are thick, unstable ones thin and dashed. Both arms
-    of each pitchfork are drawn (with end twist, the one followed); beyond lift-off the lines are pale, since the wall
-    would have to pull.
+
+def plot_bifurcation(
+    branches: Sequence[Branch],
+    critical: CriticalLoads,
+    scales: Scales | None = None,
+    ax: Any = None,
+    ordinate: Measured = Measured.OMEGA2_1,
+) -> Any:
+    """Draw ω₂(1), or another number, against the end compression −F at s = 1 for a set of branches; return the axes.
+
+    Stable parts (under dead loads, for a rod kept on the wall) are thick, unstable ones thin and dashed. Images of the
+    branches by the reflections that the problem has are drawn too. Where the contact pressure is positive somewhere
+    lines are pale, since there the wall would have to pull.
     """
     ax = new_axes() if ax is None else ax
-    top = max(float(np.max(np.abs(b.numbers(Measured.OMEGA2_1)))) for b in branches)
+    top = max(float(np.max(np.abs(b.numbers(ordinate)))) for b in branches)
     farthest = max(float(np.max(np.abs(b.force))) for b in branches)
+    name, label = ORDINATES[ordinate]
     fx, ux = axis("force", scales, farthest)
-    fy, uy = axis("omega2_at_1", scales, top)
-    _straight(ax, branches, critical, fx)
+    fy, uy = axis(name, scales, top)
+    if critical:
+        _straight(ax, branches, critical, fx)
     seen: set[str] = set()
-    for branch in branches:
-        _branch(ax, branch, fx, fy)
-        seen |= _special(ax, branch, fx, fy)
+    for number, branch in enumerate(branches):
+        color = _color(branch, number)
+        for image in images(branch.problem, branch[len(branch) // 2].point.fine.symmetry):
+            line = _Line(branch, image, ordinate)
+            _draw(ax, line, color, fx, fy)
+            seen |= _special(ax, line, color, fx, fy)
     for kind, (marker, text) in MARKERS.items():
         if kind in seen:
             ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=text)
     ax.plot([], [], color=INK, lw=2.2, label="stable")
     ax.plot([], [], color=INK, lw=1.0, ls=(0, (5, 2)), label="unstable")
-    ax.plot([], [], color=INK, lw=1.4, alpha=0.35, label="beyond lift-off")
-    _labels(ax, branches, fx, fy, 2.0 * top * fy)
+    ax.plot([], [], color=INK, lw=1.4, alpha=PALE, label="off the wall somewhere")
+    _labels(ax, branches, ordinate, fx, fy, 2.0 * top * fy)
     ax.set_xlabel(f"end compression −F at s = 1  [{ux}]")
-    ax.set_ylabel(f"end curvature ω₂(1)  [{uy}]")
-    ax.legend(loc="upper left", ncols=2)
+    ax.set_ylabel(f"{label}  [{uy}]")
+    ax.legend(loc="best", ncols=2)
     return ax
+
+
+PALE = 0.35
 
 
 def _straight(ax: Any, branches: Sequence[Branch], critical: CriticalLoads, fx: float) -> None:
@@ -62,91 +89,78 @@ def _straight(ax: Any, branches: Sequence[Branch], critical: CriticalLoads, fx: 
     ax.plot([-first * fx, -end * fx], [0, 0], color=GREY, lw=1.0, ls=(0, (5, 2)))
 
 
-def _branch(ax: Any, branch: Branch, fx: float, fy: float) -> None:
-    """Draw both arms in pieces of one style: stable or not, before or beyond lift-off."""
-    color = _color(branch)
-    x, y, stable, beyond = _with_special_points(branch)
-    style = stable[1:].astype(int) + 2 * beyond[1:].astype(int)
+class _Line:
+    """A branch, or an image of it, as it is drawn: points and special points in order of travel.
+
+    ``x`` is −F, ``y`` the ordinate; ``stable`` and ``off`` tell of the way that leads to each point, (n,) each.
+    """
+
+    def __init__(self, branch: Branch, image: Reflection, ordinate: Measured) -> None:
+        numbers = image.numbers({m: branch.numbers(m) for m in Measured})
+        rows = [
+            [(-f, y, index == 0, p > 0.0)]
+            for f, y, index, p in zip(
+                branch.force, numbers[ordinate], branch.stability_index, numbers[Measured.P_MAX], strict=True
+            )
+        ]
+        self.special: list[tuple[str, float, float]] = []
+        for point in branch.special_points:
+            values = {m: np.array([point.solution.number(m)[0]]) for m in Measured}
+            y = float(image.numbers(values)[ordinate][0])
+            self.special.append((point.kind, -point.force, y))
+            if point.kind not in ("critical", "end"):
+                off = bool(values[Measured.P_MAX][0] > 0.0)
+                off = {"lift_off": False, "touch_down": True}.get(point.kind, off)
+                rows[point.after].append((-point.force, y, point.index_before == 0, off))
+        table = np.array([row for group in rows for row in group], dtype=float)
+        self.x, self.y = table[:, 0], table[:, 1]
+        self.stable, self.off = table[:, 2] > 0.0, table[:, 3] > 0.0
+
+
+def _draw(ax: Any, line: _Line, color: str, fx: float, fy: float) -> None:
+    """Draw a line in pieces of one style: stable or not, on the wall or off it."""
+    style = line.stable[1:].astype(int) + 2 * line.off[1:].astype(int)
     starts = np.flatnonzero(np.diff(style, prepend=-1))
     for start, stop in zip(starts, [*starts[1:], len(style)], strict=True):
         part = slice(start, stop + 1)
-        solid = stable[start + 1]
-        for sign in _arms(branch):
-            ax.plot(
-                x[part] * fx, sign * y[part] * fy, color=color, lw=2.2 if solid else 1.0,
-                alpha=0.35 if beyond[start + 1] else 1.0, ls="-" if solid else (0, (5, 2)), solid_capstyle="butt",
-            )  # fmt: skip
+        solid, off = line.stable[start + 1], line.off[start + 1]
+        ax.plot(
+            line.x[part] * fx, line.y[part] * fy, color=color, lw=2.2 if solid else 1.0,
+            alpha=PALE if off else 1.0, ls="-" if solid else (0, (5, 2)), solid_capstyle="butt",
+        )  # fmt: skip
 
 
-def _with_special_points(branch: Branch) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Points and special points in order of travel: −F, ω₂(1), stable on the way there, beyond lift-off; all (n,)."""
-    rows = [
-        (-f, y, int(index))
-        for f, y, index in zip(branch.force, branch.numbers(Measured.OMEGA2_1), branch.stability_index, strict=True)
-    ]
-    for point in branch.special_points:
-        if point.kind in ("lift_off", "branch_point", "fold"):
-            y = point.solution.number(Measured.OMEGA2_1)[0]
-            here = _insertion(rows, -point.force)
-            rows.insert(here, (-point.force, y, point.index_before))
-    table = np.array(rows)
-    x, curvature, index = table[:, 0], table[:, 1], table[:, 2]
-    lift = branch.lift_off
-    beyond = x > -lift.force if lift is not None else np.zeros(len(x), dtype=bool)
-    return x, curvature, index == 0, beyond
+def _special(ax: Any, line: _Line, color: str, fx: float, fy: float) -> set[str]:
+    for kind, x, y in line.special:
+        if kind in MARKERS:
+            ax.plot(x * fx, y * fy, MARKERS[kind][0], color=_face(kind), mec=color, ms=6, zorder=5)
+    return {kind for kind, _, _ in line.special}
 
 
-def _insertion(rows: list[tuple[float, float, int]], x: float) -> int:
-    """Where a point belongs: between the first two rows that it lies between."""
-    for i in range(1, len(rows)):
-        if (rows[i - 1][0] - x) * (rows[i][0] - x) <= 0.0:
-            return i
-    return len(rows)
-
-
-def _labels(ax: Any, branches: Sequence[Branch], fx: float, fy: float, height: float) -> None:
-    """Number the branches at their ends, pushed apart where they would overlap."""
-    ends = sorted((abs(float(b.numbers(Measured.OMEGA2_1)[-1])) * fy, -float(b.force[-1]) * fx, b) for b in branches)
+def _labels(ax: Any, branches: Sequence[Branch], ordinate: Measured, fx: float, fy: float, height: float) -> None:
+    """Name the primary branches at their ends, pushed apart where they would overlap."""
+    ends = sorted(
+        (abs(float(b.numbers(ordinate)[-1])) * fy, -float(b.force[-1]) * fx, i, b)
+        for i, b in enumerate(branches)
+        if b.origin.parent is None and "mirror" not in b.name
+    )
     last = -np.inf
-    for y, x, branch in ends:
-        assert branch.mode is not None
+    for y, x, number, branch in ends:
         place = max(y, last + 0.055 * height)
         ax.annotate(
-            f"mode {branch.mode.number}", (x, y), xytext=(x, place), textcoords="data", color=_color(branch),
+            branch.name, (x, y), xytext=(x, place), textcoords="data", color=_color(branch, number),
             va="center", fontweight="bold", fontsize=8.5, annotation_clip=False,
         ).set_position((x * 1.012, place))  # fmt: skip
         last = place
 
 
-def _arms(branch: Branch) -> tuple[float, ...]:
-    """Signs of the arms that are known: without twist, the other arm is the mirror image."""
-    return (1.0, -1.0) if branch.problem.twist == 0.0 else (1.0,)
+SECONDARY = ("#e08214", "#12a4b8", "#c51b8a", "#7f9a1a")
 
 
-def _color(branch: Branch) -> str:
-    assert branch.mode is not None
-    return MODES[(branch.mode.number - 1) % len(MODES)]
-
-
-def _special(ax: Any, branch: Branch, fx: float, fy: float) -> set[str]:
-    seen = set()
-    color = _color(branch)
-    for point in branch.special_points:
-        if point.kind not in MARKERS:
-            continue
-        seen.add(point.kind)
-        y = point.solution.number(Measured.OMEGA2_1)[0] * fy
-        for sign in _arms(branch) if y != 0.0 else (1.0,):
-            ax.plot(
-                -point.force * fx,
-                sign * y,
-                MARKERS[point.kind][0],
-                color=_face(point.kind),
-                mec=color,
-                ms=6,
-                zorder=5,
-            )
-    return seen
+def _color(branch: Branch, number: int) -> str:
+    if branch.mode is not None:
+        return MODES[(branch.mode.number - 1) % len(MODES)]
+    return SECONDARY[number % len(SECONDARY)]
 
 
 def _face(kind: str) -> str:

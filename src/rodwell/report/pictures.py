@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 
+from rodwell.analysis.curves import Curve
+from rodwell.analysis.diagram import Diagram
+from rodwell.analysis.measures import Measured
 from rodwell.plots.bifurcation import plot_bifurcation
+from rodwell.plots.curves import plot_curves
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
@@ -39,3 +44,22 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             ax.figure.savefig(buffer, format="svg", metadata={"Date": None})
             out[name] = ("svg", buffer.getvalue())
     return out
+
+
+def draw_diagram(diagram: Diagram, folder: Path) -> None:
+    """Draw a bifurcation diagram as PNG and SVG: end curvature, or energy for a coil, against compression."""
+    ordinate = Measured.ENERGY if diagram.problem.turns else Measured.OMEGA2_1
+    with mpl.rc_context(RC):
+        _save(plot_bifurcation(diagram.branches, diagram.critical, ordinate=ordinate), folder / "diagram")
+
+
+def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
+    """Draw curves as PNG and SVG."""
+    with mpl.rc_context(RC):
+        _save(plot_curves(curves), folder / "curves")
+
+
+def _save(ax: Any, path: Path) -> None:
+    ax.figure.savefig(path.with_suffix(".png"), dpi=DPI)
+    ax.figure.set_layout_engine("none")
+    ax.figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})

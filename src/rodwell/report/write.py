@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
+from rodwell.analysis.curves import Curve
+from rodwell.analysis.diagram import Diagram
 from rodwell.practice.answer import Answer
 from rodwell.report.html import render
-from rodwell.report.pictures import draw
+from rodwell.report.pictures import draw, draw_curves, draw_diagram
 from rodwell.store.folder import whole_folder
-from rodwell.store.netcdf import write_answer
+from rodwell.store.netcdf import write_answer, write_branches
+from rodwell.store.netcdf import write_curves as write_curves_netcdf
 
 FILES = {
     "report.html": "the report, self-contained",
@@ -34,3 +39,28 @@ def write_results(answer: Answer, out: Path) -> None:
         (folder / "answer.json").write_text(text + "\n", encoding="utf-8")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
         write_answer(answer, folder / "branches.nc")
+
+
+def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
+    """Write figure, branches (NetCDF) and special points (JSON) of a diagram to ``out``: all files, or none.
+
+    Returns the names of the files.
+    """
+    with whole_folder(out) as folder:
+        draw_diagram(diagram, folder)
+        write_branches(diagram, folder / "branches.nc")
+        _write_json(diagram.as_dict(), folder / "diagram.json")
+        return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:
+    """Write figure, points (NetCDF and JSON) of curves to ``out``: all files, or none. Returns their names."""
+    with whole_folder(out) as folder:
+        draw_curves(curves, folder)
+        write_curves_netcdf(curves, folder / "curves.nc")
+        _write_json({"curves": [curve.as_dict() for curve in curves]}, folder / "curves.json")
+        return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def _write_json(data: dict[str, Any], path: Path) -> None:
+    path.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -3,57 +3,81 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import h5netcdf
 import numpy as np
 
+from rodwell.analysis.branches import Branch
+from rodwell.analysis.critical import CriticalLoads
+from rodwell.analysis.curves import Curve
 from rodwell.analysis.dataset import Variable, branch_attributes, branch_variables
+from rodwell.analysis.diagram import Diagram
 from rodwell.analysis.nomenclature import QUANTITIES
 from rodwell.practice.answer import Answer
 from rodwell.practice.scales import Scales
 
 
-def answer_variables(answer: Answer) -> dict[str, Variable]:
-    """All branches of an answer as labelled arrays.
+def joined_variables(branches: Sequence[Branch]) -> dict[str, Variable]:
+    """Several branches as labelled arrays.
 
-    Points of all branches follow each other along ``point``; ``branch`` (point) holds the number of the mode, as
-    ``special_branch`` does for the special points. Critical loads stand along ``mode``.
+    Points of all branches follow each other along ``point``; ``branch`` (point) holds the number of the branch, from
+    1, as ``special_branch`` does for the special points. Names of branches stand along ``branches``.
     """
     parts = []
-    for branch in answer.branches:
-        assert branch.mode is not None
+    for number, branch in enumerate(branches, start=1):
         part = branch_variables(branch)
-        about = {"long_name": "number of the mode that the branch starts from"}
+        about = {"long_name": "number of the branch, from 1: see branch_name"}
         for name, dim in (("branch", "point"), ("special_branch", "special")):
             count = len(branch) if dim == "point" else len(branch.special_points)
-            part[name] = Variable((dim,), np.full(count, branch.mode.number), about)
+            part[name] = Variable((dim,), np.full(count, number), about)
         parts.append(part)
     out = {}
     for name, (dims, values, attrs) in parts[0].items():
         joined = dims[0] in ("point", "special")
         out[name] = Variable(dims, np.concatenate([p[name].values for p in parts]) if joined else values, attrs)
+    for name, texts, meaning in (
+        ("branch_name", [b.name for b in branches], "names of the branches"),
+        ("branch_parent", [b.origin.parent or "" for b in branches], "branch that each one leaves"),
+        ("branch_end", [b.ended_because for b in branches], "why each branch ended"),
+    ):
+        out[name] = Variable(("branches",), np.array(texts, dtype=object), {"long_name": meaning})
+    return out
+
+
+def _critical(critical: CriticalLoads) -> dict[str, Variable]:
     about = {"units": "B/L^2", "equation": "(64), (65)", "long_name": "critical end force at s = 1, tension positive"}
-    out["mode"] = Variable(
-        ("mode",), np.array([m.number for m in answer.critical]), {"long_name": "number of the mode"}
-    )
-    out["critical_load"] = Variable(("mode",), answer.critical.forces, about)
-    out["critical_load_error"] = Variable(("mode",), answer.critical.errors, {"units": "B/L^2"})
+    return {
+        "mode": Variable(("mode",), np.array([m.number for m in critical]), {"long_name": "number of the mode"}),
+        "critical_load": Variable(("mode",), critical.forces, about),
+        "critical_load_error": Variable(("mode",), critical.errors, {"units": "B/L^2"}),
+    }
+
+
+def answer_variables(answer: Answer) -> dict[str, Variable]:
+    """All branches of an answer, and the critical loads along ``mode``."""
+    return joined_variables(answer.branches) | _critical(answer.critical)
+
+
+def _attributes(first: Branch) -> dict[str, Any]:
+    """What all branches of a file have in common."""
+    out = branch_attributes(first)
+    for name in ("mode", "name", "ended_because", "reached_end"):  # these belong to single branches
+        del out[name]
     return out
 
 
 def answer_attributes(answer: Answer) -> dict[str, Any]:
     """What the file belongs to: the case as it was read, conventions, tolerance, version."""
     case = answer.case
-    out = branch_attributes(answer.first) | {
+    out = _attributes(answer.first) | {
         "title": case.title,
         "case": case.text or json.dumps(dict(case.given)),
         "converged": int(answer.converged),
         "certificate": answer.worst_certificate,
     }
-    for name in ("mode", "ended_because", "reached_end"):  # these belong to single branches
-        del out[name]
     if case.scales is not None:
         out |= {"length_m": case.scales.length, "bending_stiffness_N_m2": case.scales.stiffness}
     return out
@@ -61,15 +85,51 @@ def answer_attributes(answer: Answer) -> dict[str, Any]:
 
 def write_answer(answer: Answer, path: Path) -> None:
     """Write all branches of an answer to a NetCDF file; with SI factors where the case has dimensions."""
-    variables = answer_variables(answer)
+    scales = answer.case.scales
+    variables = {
+        name: Variable(v.dims, v.values, v.attrs | _si(name, scales)) for name, v in answer_variables(answer).items()
+    }
+    _write(variables, answer_attributes(answer), path)
+
+
+def write_branches(diagram: Diagram, path: Path) -> None:
+    """Write all branches of a diagram to a NetCDF file."""
+    variables = joined_variables(diagram.branches)
+    if diagram.critical:
+        variables |= _critical(diagram.critical)
+    _write(variables, _attributes(diagram.branches[0]) | {"converged": int(diagram.converged)}, path)
+
+
+def write_curves(curves: Sequence[Curve], path: Path) -> None:
+    """Write curves to a NetCDF file; ``curve`` (point) holds the number of the curve, from 1."""
+    parts = []
+    for number, curve in enumerate(curves, start=1):
+        part = {name: Variable(*variable) for name, variable in curve.variables().items()}
+        part["curve"] = Variable(("point",), np.full(len(curve), number), {"long_name": "number of the curve, from 1"})
+        parts.append(part)
+    variables = {
+        name: Variable(v.dims, np.concatenate([p[name].values for p in parts]), v.attrs) for name, v in parts[0].items()
+    }
+    names = np.array([f"{c.kind}, {c.name}" for c in curves], dtype=object)
+    variables["curve_name"] = Variable(("curves",), names, {"long_name": "names of the curves"})
+    marks = [(number, mark) for number, curve in enumerate(curves, start=1) for mark in curve.marks]
+    if marks:
+        for name in ("kind", "x", "x_error", "value", "error", "note"):
+            values = np.array([getattr(m, name) for _, m in marks], dtype=object if name in ("kind", "note") else float)
+            variables[f"mark_{name}"] = Variable(("mark",), values, {"long_name": f"special points: {name}"})
+        variables["mark_curve"] = Variable(
+            ("mark",), np.array([n for n, _ in marks]), {"long_name": "curve it lies on"}
+        )
+    _write(variables, curves[0].attributes(), path)
+
+
+def _write(variables: dict[str, Variable], attributes: dict[str, Any], path: Path) -> None:
     with h5netcdf.File(path, "w") as file:
-        sizes = {d: n for v in variables.values() for d, n in zip(v.dims, v.values.shape, strict=True)}
-        file.dimensions = sizes
-        file.attrs.update(answer_attributes(answer))
+        file.dimensions = {d: n for v in variables.values() for d, n in zip(v.dims, v.values.shape, strict=True)}
+        file.attrs.update(attributes)
         for name, (dims, values, attrs) in variables.items():
             kind = h5netcdf.core.h5py.string_dtype() if values.dtype == object else values.dtype
-            variable = file.create_variable(name, dims, dtype=kind, data=values)
-            variable.attrs.update(attrs | _si(name, answer.case.scales))
+            file.create_variable(name, dims, dtype=kind, data=values).attrs.update(attrs)
 
 
 def _si(name: str, scales: Scales | None) -> dict[str, Any]:

@@ -1,0 +1,59 @@
+"""Stability diagrams: loads against another parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from rodwell.analysis.curves import Curve
+from rodwell.plots.style import INK, MODES, WARN, minus, new_axes
+
+AXES = {
+    "weight": "weight γ = mg L³/B",
+    "alpha": "inclination α from the vertical  [degrees]",
+    "clearance": "clearance Δ/L",
+    "twist": "end twisting moment T₁  [B/L]",
+}
+
+MARKERS = {
+    "double_point": ("x", "modes switch"),
+    "veering": ("+", "closest approach"),
+    "switch": ("o", "touching place switches"),
+    "turn": ("s", "curve turns back"),
+}
+
+
+def plot_curves(curves: Sequence[Curve], ax: Any = None) -> Any:
+    """Draw curves in two parameters; loads as compression −F at s = 1, twist as it is. Returns the axes."""
+    ax = new_axes() if ax is None else ax
+    first = curves[0]
+    sign = -1.0 if first.quantity == "force" else 1.0
+    seen = set()
+    for i, curve in enumerate(curves):
+        ax.plot(curve.x, sign * curve.values, color=MODES[i % len(MODES)], lw=1.8, label=f"{curve.kind}, {curve.name}")
+        for mark in curve.marks:
+            marker = MARKERS[mark.kind][0]
+            face = WARN if marker == "o" else INK
+            ax.plot(mark.x, sign * mark.value, marker, color=face, mec=INK, ms=6, zorder=5)
+            seen.add(mark.kind)
+    for kind, (marker, text) in MARKERS.items():
+        if kind in seen:
+            ax.plot([], [], marker, color=WARN if marker == "o" else INK, mec=INK, ms=6, ls="none", label=text)
+    ax.set_xlabel(AXES[first.over])
+    label = "end compression −F at s = 1  [B/L²]" if first.quantity == "force" else "second lift-off at T₁  [B/L]"
+    ax.set_ylabel(label)
+    ax.set_title(minus(_title(first)), loc="left", fontsize=9.5)
+    ax.margins(x=0.01)
+    ax.legend(loc="best")
+    return ax
+
+
+def _title(curve: Curve) -> str:
+    problem = curve.problem
+    fixed = {
+        "weight": f"γ = {problem.weight:g}",
+        "alpha": f"α = {problem.alpha:g}°",
+        "clearance": f"Δ/L = {problem.clearance:g}",
+    }
+    parts = [text for name, text in fixed.items() if name != curve.over]
+    return ",  ".join([*parts, "-".join(problem.ends), *(["on top"] if problem.on_top else [])])
