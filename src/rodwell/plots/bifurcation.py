@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.symmetry import Reflection, images
+from rodwell.analysis.symmetry import ODD, Reflection, images
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
@@ -140,18 +140,26 @@ def _special(ax: Any, line: _Line, color: str, fx: float, fy: float) -> set[str]
 def _labels(ax: Any, branches: Sequence[Branch], ordinate: Measured, fx: float, fy: float, height: float) -> None:
     """Name the primary branches at their ends, pushed apart where they would overlap."""
     ends = sorted(
-        (abs(float(b.numbers(ordinate)[-1])) * fy, -float(b.force[-1]) * fx, i, b)
-        for i, b in enumerate(branches)
-        if b.origin.parent is None and "mirror" not in b.name
+        (
+            (float(b.numbers(ordinate)[-1]) * fy, -float(b.force[-1]) * fx, i, b)
+            for i, b in enumerate(branches)
+            if b.origin.parent is None and "mirror" not in b.name
+        ),
+        key=lambda item: -_upper(item[0], ordinate),
     )
-    last = -np.inf
+    last = np.inf
     for y, x, number, branch in ends:
-        place = max(y, last + 0.055 * height)
+        place = min(_upper(y, ordinate), last - 0.055 * height)
         ax.annotate(
             branch.name, (x, y), xytext=(x, place), textcoords="data", color=_color(branch, number),
             va="center", fontweight="bold", fontsize=8.5, annotation_clip=False,
         ).set_position((x * 1.012, place))  # fmt: skip
         last = place
+
+
+def _upper(y: float, ordinate: Measured) -> float:
+    """The ordinate of a branch or of its image, whichever is higher."""
+    return abs(y) if ordinate in ODD else y
 
 
 SECONDARY = ("#e08214", "#12a4b8", "#c51b8a", "#7f9a1a")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rodwell.analysis.curves import Curve
-from rodwell.plots.style import INK, MODES, WARN, minus, new_axes
+from rodwell.plots.style import INK, MODES, WARN, new_axes
 
 AXES = {
     "weight": "weight γ = mg L³/B",
@@ -42,7 +42,7 @@ def plot_curves(curves: Sequence[Curve], ax: Any = None) -> Any:
     ax.set_xlabel(AXES[first.over])
     label = "end compression −F at s = 1  [B/L²]" if first.quantity == "force" else "second lift-off at T₁  [B/L]"
     ax.set_ylabel(label)
-    ax.set_title(minus(_title(first)), loc="left", fontsize=9.5)
+    ax.set_title(_title(first), loc="left", fontsize=9.5)
     ax.margins(x=0.01)
     ax.legend(loc="best")
     return ax
