@@ -1,7 +1,8 @@
 """Parts of the pages that come from the program itself, written to ``_generated`` before each build.
 
 Tables (nomenclature, case file), the output of the commands and of the examples that the pages show, and the
-pictures of the drill-string case. Nothing of it is kept under version control.
+pictures of the drill-string case; what the other how-to pages show comes from ``make_howto``. Nothing of it is kept
+under version control.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import make_howto
 from click.testing import CliRunner
 
 import rodwell
@@ -32,6 +34,7 @@ COMMANDS = {
     "critical": "critical --weight 15 --alpha 90",
     "liftoff": "liftoff --weight 15 --alpha 90",
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
+    **make_howto.COMMANDS,
 }
 
 PRETTY = {
@@ -52,7 +55,7 @@ def build() -> dict[str, str]:
     shutil.copytree(HERE.parent / "examples", OUT / "examples", dirs_exist_ok=True)
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
-    _write("twist.md", twist_table())
+    _write("twist.md", twistmake_howto.table())
     with contextlib.chdir(OUT):
         for name, line in COMMANDS.items():
             _write(f"{name}.txt", f"$ rodwell {line}\n{_run(line)}")
@@ -61,7 +64,9 @@ def build() -> dict[str, str]:
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
-    return _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+    for name, text in make_howto.pages(OUT).items():
+        _write(name, text)
+    return _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8"))) | make_howto.numbers()
 
 
 def _write(name: str, text: str) -> None:
@@ -78,11 +83,6 @@ def _run(line: str) -> str:
     return "\n".join(row.rstrip() for row in result.output.splitlines()) + "\n"
 
 
-def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    lines = [head, ("---",) * len(head), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
-
-
 def nomenclature_tables() -> str:
     """The fields along the rod and the numbers of one state, as two tables."""
     parts = []
@@ -95,11 +95,11 @@ def nomenclature_tables() -> str:
             si = nomenclature.SI_UNITS[q.dimension]
             rows.append((q.symbol, f"`{q.name}`", q.meaning, unit, PRETTY.get(si, si), q.equation))
         head = ("Symbol", "Name in code", "Meaning", "Unit", "SI", "Equation")
-        parts.append(f"## {title}\n\n{_table(head, rows)}")
+        parts.append(f"## {title}\n\n{make_howto.table(head, rows)}")
     return "\n".join(parts)
 
 
-def twist_table() -> str:
+def twistmake_howto.table() -> str:
     """Lift-off loads without and with end twist, on both arms."""
     rows = []
     for weight, mode in ((15, 1), (5, 2), (5, 1), (15, 2)):
@@ -110,7 +110,7 @@ def twist_table() -> str:
         loads = [f"{branch.lift_off.force:.4f}".replace("-", "−") for branch in (plain, *arms)]
         rows.append((f"{weight}, mode {mode}", parity, *loads))
     head = ("γ, mode", "y", "lift-off, T₁ = 0", "T₁ = 0.5, arm ω₂(1) < 0", "T₁ = 0.5, arm ω₂(1) > 0")
-    return _table(head, rows)
+    return make_howto.table(head, rows)
 
 
 def _branch_point(weight: float, mode: int, until: float) -> str:
@@ -178,7 +178,7 @@ def case_keys() -> str:
             )
         text = (model.__doc__ or "").partition("\n")[0].partition(": ")[2]
         parts.append(f"### `[{section}]`\n\n{text[:1].upper()}{text[1:]}\n")
-        parts.append(_table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
+        parts.append(make_howto.table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
     return "\n".join(parts)
 
 

@@ -40,6 +40,13 @@ COLUMNS = {
 the shear nothing remains then, so y‴ = F y′ all along."""
 
 
+def line_loads(problem: Problem) -> tuple[float, float]:
+    """Weight per length along the cylinder, w cos α, and across it, w sin α; negative for a rod on top (paper, 4.3)."""
+    angle = math.radians(problem.alpha)
+    across = problem.weight * math.sin(angle)
+    return problem.weight * math.cos(angle), -across if problem.on_top else across
+
+
 def chebyshev(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Points on [0, 1], rising, and the differentiation matrix (Trefethen, program cheb), rows of sum zero."""
     k = np.arange(n + 1)
@@ -60,8 +67,9 @@ def collocation_loads(problem: Problem, n: int, count: int) -> np.ndarray:
     s, d1 = chebyshev(n)
     d2 = d1 @ d1
     d3 = d2 @ d1
-    weight = np.diag(problem.axial_weight * (s - 1.0))
-    k = d2 @ d2 - d1 @ weight @ d1 + problem.foundation / problem.clearance * np.eye(n + 1)
+    axial, lateral = line_loads(problem)
+    weight = np.diag(axial * (s - 1.0))
+    k = d2 @ d2 - d1 @ weight @ d1 + lateral / problem.clearance * np.eye(n + 1)
     g = -d2.copy()  # K y = λ G y, λ = −F
     for end, rows in zip(problem.ends, ((0, 1), (n, n - 1)), strict=True):
         at = 0 if rows[0] == 0 else n
@@ -93,7 +101,7 @@ def test_pinned_rod_on_a_foundation(weight: float, top: bool) -> None:
     """F = −(n²π² + (wₗ/Δ)/(n²π²)) with y = sin nπs (Timoshenko and Gere, section 2.10), in falling order of F."""
     problem = Problem(weight, clearance=0.02, on_top=top, ends=("pinned", "pinned"))
     n2 = PI2 * np.arange(1, 30) ** 2
-    expected = np.sort(-(n2 + problem.foundation / 0.02 / n2))[::-1][:4]
+    expected = np.sort(-(n2 + (-weight if top else weight) / 0.02 / n2))[::-1][:4]
     assert critical_loads(problem, 4).forces == pytest.approx(expected, rel=1e-10)
 
 
@@ -106,7 +114,7 @@ def test_critical_loads_by_collocation(ends: tuple[str, str], weight: float, alp
     problem = problem.but(on_top=top and problem.holds_angle)
     loads = critical_loads(problem, 4).forces
     expected = collocation_loads(problem, 36, 4)
-    size = np.abs(expected) + problem.axial_weight + 4.0 * PI2
+    size = np.abs(expected) + weight + 4.0 * PI2
     assert np.max(np.abs(loads - expected) / size) < 1e-7
 
 
@@ -138,6 +146,17 @@ def test_branches_converge_and_lift_off(branch: Branch) -> None:
     off = branch.numbers(Measured.P_MAX)[:-1] > 0.0
     assert np.all(branch.force[:-1][off] <= lift_off.force)
     assert np.all(branch.force[:-1][~off] >= lift_off.force)
+
+
+def test_contact_pressure_balances_the_rod(branch: Branch) -> None:
+    """(48) along d₁: p = dF₂/ds + ω₃ F₁ − ω₁ F₃ − wₗ cos ξ₂, the derivative by fourth-order differences of F₂."""
+    s = np.linspace(0.0, 1.0, 2001)
+    f = branch[-1].fields(s)
+    rate = (f["rod_F2"][:-4] - 8.0 * f["rod_F2"][1:-3] + 8.0 * f["rod_F2"][3:-1] - f["rod_F2"][4:]) / (12.0 * s[1])
+    _, lateral = line_loads(branch.problem)
+    p = f["omega3"] * f["rod_F1"] - f["omega1"] * f["rod_F3"] - lateral * np.cos(f["xi2"])
+    gap = np.abs(f["contact_pressure"][2:-2] - p[2:-2] - rate)
+    assert np.max(gap) < 1e-6 * np.max(np.abs(f["contact_pressure"]))
 
 
 def test_natural_conditions_and_certificate(branch: Branch) -> None:

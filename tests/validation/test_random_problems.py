@@ -24,9 +24,9 @@ from rodwell.analysis.measures import Measured
 
 SEED = 20_240_601
 PROBLEMS = 1000
-BRANCHES = 240
-DIAGRAMS = 40
-COMPARED = 20
+BRANCHES = 160
+DIAGRAMS = 32
+COMPARED = 15
 EULER = 4.0 * math.pi**2
 RIGID = 0.1
 """Wavenumber below which a mode is the rod turning as a rigid whole."""
@@ -35,6 +35,13 @@ FREE = {"clamped": (False, False), "pinned": (False, True), "guided": (True, Fal
 """Whether y and y′ are free at an end."""
 
 Arrays = tuple[np.ndarray, ...]
+
+
+def line_loads(problem: Problem) -> tuple[float, float]:
+    """Weight per length along the cylinder, w cos α, and across it, w sin α; negative for a rod on top (paper, 4.3)."""
+    angle = math.radians(problem.alpha)
+    across = problem.weight * math.sin(angle)
+    return problem.weight * math.cos(angle), -across if problem.on_top else across
 
 
 def random_problem(rng: np.random.Generator) -> Problem:
@@ -48,9 +55,16 @@ def random_problem(rng: np.random.Generator) -> Problem:
     return problem.but(on_top=True) if allowed and rng.random() < 0.15 else problem
 
 
+def in_reach(problem: Problem) -> bool:
+    """Whether wₗ/Δ is moderate for the ends: few loads far from the many others are left out."""
+    foundation = problem.foundation / problem.clearance
+    return -1e4 < foundation < (1e7 if "free" in problem.ends else 3e8)
+
+
 def random_problems(seed: int, count: int) -> list[Problem]:
     rng = np.random.default_rng(seed)
-    return [random_problem(rng) for _ in range(count)]
+    drawn = (random_problem(rng) for _ in itertools.count())
+    return list(itertools.islice(filter(in_reach, drawn), count))
 
 
 @functools.cache
@@ -94,9 +108,10 @@ def second_method(problem: Problem, degree: int, count: int) -> np.ndarray:
     """Critical loads, falling: G v = μ (K + τG) v with K + τG positive definite, F = τ − 1/μ."""
     bends, slopes, ramps, squares = grams(degree)
     keep = np.ix_(*2 * (unknowns(problem, degree),))
-    foundation = problem.foundation / problem.clearance
-    tau = 1.0 + problem.axial_weight + 4.0 * max(-foundation, 0.0) / math.pi**2
-    stiffness = bends + problem.axial_weight * (ramps - slopes) + foundation * squares
+    axial, lateral = line_loads(problem)
+    foundation = lateral / problem.clearance
+    tau = 1.0 + axial + 4.0 * max(-foundation, 0.0) / math.pi**2
+    stiffness = bends + axial * (ramps - slopes) + foundation * squares
     n = len(keep[0])
     shifted = (stiffness + tau * slopes)[keep]
     mu = scipy.linalg.eigh(slopes[keep], shifted, eigvals_only=True, subset_by_index=[n - count, n - 1])
@@ -105,8 +120,8 @@ def second_method(problem: Problem, degree: int, count: int) -> np.ndarray:
 
 def enough(problem: Problem, forces: np.ndarray) -> int:
     """Degree that resolves the modes: half waves by the largest load, layers under tension by its root."""
-    largest = float(np.max(np.abs(forces))) + problem.axial_weight
-    foundation = abs(problem.foundation) / problem.clearance
+    largest = float(np.max(np.abs(forces))) + problem.weight
+    foundation = problem.weight / problem.clearance
     compression = max(-float(forces[-1]), 0.0) + problem.axial_weight
     return 20 * math.ceil((40.0 + 0.9 * math.sqrt(compression) + 3.0 * (largest**0.25 + foundation**0.125)) / 20.0)
 
@@ -115,24 +130,21 @@ def enough(problem: Problem, forces: np.ndarray) -> int:
 def test_critical_loads_of_a_thousand_random_problems(part: int) -> None:
     """The first three agree to 1e-8 and to the errors claimed, up to round-off of either method."""
     for problem in random_problems(SEED, PROBLEMS)[part::10]:
-        if not in_reach(problem):
-            continue
         loads = critical_loads(problem, 3)
-        degree = enough(problem, loads.forces)
-        rough, expected = (second_method(problem, d, 3) for d in (degree, degree + 20))
+        expected = second_method(problem, enough(problem, loads.forces), 3)
         size = np.abs(expected) + problem.axial_weight + EULER
-        doubt = 2.0 * np.abs(rough - expected) + 1e-10 * size
-        gap = np.abs(loads.forces - expected)
-        assert np.all(doubt <= 1e-8 * size), problem
-        assert np.all(gap <= 1e-8 * size + doubt), problem
+        gap, doubt = np.abs(loads.forces - expected), 1e-10 * size
+        assert np.all(gap <= 1e-8 * size), problem
         assert np.all(gap <= loads.errors + doubt), problem
         assert np.all(np.diff(loads.forces) <= 0.0), problem
 
 
-def in_reach(problem: Problem) -> bool:
-    """Whether wₗ/Δ is moderate for the ends: where a few loads lie far from the many others, less is asked for."""
-    foundation = problem.foundation / problem.clearance
-    return -1e4 < foundation < (1e7 if "free" in problem.ends else 3e8)
+def test_the_second_method_has_converged() -> None:
+    """Its own error is below the 1e-10 taken for it above: forty more functions change nothing."""
+    for problem in random_problems(SEED, PROBLEMS)[::20]:
+        degree = enough(problem, second_method(problem, 200, 3))
+        rough, sharp = (second_method(problem, n, 3) for n in (degree, degree + 40))
+        assert np.all(np.abs(rough - sharp) <= 1e-10 * (np.abs(sharp) + problem.axial_weight + EULER)), problem
 
 
 def buckled(problem: Problem, rtol: float = 1e-8) -> Branch | None:
@@ -180,7 +192,7 @@ def equilibrium_and_index(state: Solution, degree: int) -> tuple[float, int, flo
     """Weak residual of the energy's first variation, index of the second, and its eigenvalue nearest to zero.
 
     e = ½ y″²/(1 − y′²) + ½ y′⁴/Δ² − Δ wₗ cos(y/Δ) − N √(1 − y′²), for all trial functions that the ends allow: natural
-    conditions included. Eigenvalues relative to ∫φ″φ″ + ∫φφ, which is near one for the functions used.
+    conditions included. Eigenvalues relative to ∫φ″φ″ + ∫φ′φ′ + ∫φφ.
     """
     problem = state.problem
     nodes, weights = legendre.leggauss(2 * degree)
@@ -188,10 +200,11 @@ def equilibrium_and_index(state: Solution, degree: int) -> tuple[float, int, flo
     f = state.fields(s)
     y, y1, y2 = f["y"], np.sin(f["eta"]), -f["omega2"] * np.cos(f["eta"])
     d, c2 = problem.clearance, 1.0 - y1**2
-    axial = state.force + problem.axial_weight * (s - 1.0)
+    along, lateral = line_loads(problem)
+    axial = state.force + along * (s - 1.0)
     phi = [table[unknowns(problem, degree)] @ legendre.legvander(nodes, degree).T for table in shapes(degree)]
     first = (
-        problem.foundation * np.sin(y / d),
+        lateral * np.sin(y / d),
         y2**2 * y1 / c2**2 + 2.0 * y1**3 / d**2 + axial * y1 / c2**0.5,
         y2 / c2,
     )
@@ -200,7 +213,7 @@ def equilibrium_and_index(state: Solution, degree: int) -> tuple[float, int, flo
     slope = y2**2 * (1.0 + 3.0 * y1**2) / c2**3 + 6.0 * y1**2 / d**2 + axial / c2**1.5
     second = (phi[2] * w / c2) @ phi[2].T + (phi[1] * w * slope) @ phi[1].T
     mixed = (phi[2] * w * 2.0 * y1 * y2 / c2**2) @ phi[1].T
-    second += mixed + mixed.T + (phi[0] * w * problem.foundation * np.cos(y / d) / d) @ phi[0].T
+    second += mixed + mixed.T + (phi[0] * w * lateral * np.cos(y / d) / d) @ phi[0].T
     values = scipy.linalg.eigvalsh(second, phi[2] * w @ phi[2].T + phi[1] * w @ phi[1].T + phi[0] * w @ phi[0].T)
     return float(np.max(np.abs(work)) / np.max(effort)), int(np.sum(values < 0.0)), float(np.min(np.abs(values)))
 
@@ -210,7 +223,7 @@ def test_first_branches_of_random_problems(part: int) -> None:
     """Equilibrium and stability index at the end by the second method, and the claims of the branch."""
     followed = 0
     problems = random_problems(SEED + 1, BRANCHES)[part::8]
-    for problem in filter(in_reach, problems):
+    for problem in problems:
         branch = buckled(problem)
         if branch is None:
             continue
@@ -230,7 +243,7 @@ def test_first_branches_of_random_problems(part: int) -> None:
 def test_diagrams_of_random_problems(part: int) -> None:
     """Two primary branches and what leaves them, somewhat beyond the second critical load."""
     for problem in random_problems(SEED + 2, DIAGRAMS)[part::4]:
-        if not in_reach(problem) or problem.weight == 0.0 or abs(problem.foundation) / problem.clearance > 3e5:
+        if problem.weight == 0.0 or abs(problem.foundation) / problem.clearance > 3e5:
             continue
         first, second = critical_loads(problem, 2)
         if first.wavenumber < RIGID:
@@ -239,6 +252,12 @@ def test_diagrams_of_random_problems(part: int) -> None:
         for branch in found:
             check_index(branch)
             check_claims(branch)
+            if branch.ended_because == OUT_OF_RANGE:
+                continue
+            degree = 20 + enough(problem, branch.values[-1:])
+            residual, index, nearest = equilibrium_and_index(branch[-1], degree)
+            assert residual < 1e-8, problem
+            assert nearest < 1e-7 or index == branch[-1].stability_index, (problem, branch.name)
         assert {joint.child for joint in found.joints} >= {branch.name for branch in found.secondary}
 
 
@@ -261,7 +280,7 @@ def test_claimed_errors_cover_what_a_finer_run_finds() -> None:
     for problem in random_problems(SEED + 3, 400):
         if compared == COMPARED:
             break
-        if not in_reach(problem) or problem.ends[1] not in ("clamped", "guided") or problem.lateral_weight == 0.0:
+        if problem.ends[1] not in ("clamped", "guided") or problem.lateral_weight == 0.0:
             continue
         rough, fine = buckled(problem, 1e-6), buckled(problem)
         assert rough is not None, problem

@@ -1,7 +1,8 @@
 """Tracing a curve in the plane of a load and another parameter, every point solved on both meshes.
 
 A point of the curve is a zero of a function of equilibria on the line x = const, or load = const where the curve is
-steep, found by the secant method; prediction is along the last two points. So the curve may turn back in x.
+steep, found by the secant method in arclength along those equilibria; prediction is along the last two points. So the
+curve may turn back in x, and pass places where the equilibria fold.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,8 +37,15 @@ NEAR = 0.03
 """Places on the rod closer than this count as the same place that moves."""
 
 MOST_REFINEMENTS = 3
-Guess = tuple[FloatArray, FloatArray]
 Function = Callable[[Family, State], float]
+
+
+class Guess(NamedTuple):
+    """Coefficients close to a point of the curve on both meshes, and states near it along the load."""
+
+    coarse: FloatArray
+    fine: FloatArray
+    near: tuple[State | None, State | None] = (None, None)
 
 
 class CurveLostError(RuntimeError):
@@ -66,7 +75,7 @@ class Seed:
     @property
     def guess(self) -> Guess:
         """Coefficients on both meshes."""
-        return self.solution.point.coarse.c, self.solution.point.fine.c
+        return Guess(self.solution.point.coarse.c, self.solution.point.fine.c)
 
 
 @dataclass(frozen=True)
@@ -77,11 +86,13 @@ class Solved:
     error: float
     solution: Solution
     places: tuple[float, ...]
+    along_load: bool
 
     @property
     def guess(self) -> Guess:
-        """Coefficients on both meshes."""
-        return self.solution.point.coarse.c, self.solution.point.fine.c
+        """Coefficients on both meshes, and the states where they were found along the load."""
+        point = self.solution.point
+        return Guess(point.coarse.c, point.fine.c, (point.coarse, point.fine) if self.along_load else (None, None))
 
     def as_point(self) -> CurvePoint:
         """The point as users see it."""
@@ -125,52 +136,52 @@ class Zero(ABC):
         for refinement in range(MOST_REFINEMENTS + 1):
             line = self.ladder(ladder, spot, along)
             start = spot.value if along == self.load else spot.x
-            coarse = _zero_on(line.coarse, guess[0], start, self.function)
-            fine = _zero_on(line.fine, guess[1], coarse.lam, self.function)
+            near = guess.near if along == self.load else (None, None)
+            coarse = _zero_on(line.coarse, guess.coarse, start, near[0], self.function)
+            fine = _zero_on(line.fine, guess.fine, coarse.lam, near[1], self.function)
             point = line.point(coarse, fine)
             finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
             if finer is None:
                 break
             ladder = finer
-            guess = (
+            guess = Guess(
                 Prolongation(line.coarse.space, finer.coarse.space)(coarse.c),
                 Prolongation(line.fine.space, finer.fine.space)(fine.c),
             )
         there = Spot(spot.x, float(fine.lam)) if along == self.load else Spot(float(fine.lam), spot.value)
         error = (point.lam_gap + 2e-13 * abs(fine.lam)) * (1.0 if along == self.load else abs(slope))
         solution = self.solution(line, point, there)
-        return Solved(there, error, solution, solution.highest_pressure[2] if self.touch else ())
+        return Solved(there, error, solution, solution.highest_pressure[2] if self.touch else (), along == self.load)
 
 
-def _zero_on(family: Family, c: FloatArray, lam: float, function: Function) -> State:
-    """Zero of a function of the equilibria of a family, by the secant method from ``(c, λ)``."""
-    state = _at(family, c, lam)
-    value = function(family, state)
-    size = max(abs(lam), 1.0)
-    step = PROBE * size
+def _zero_on(family: Family, c: FloatArray, lam: float, near: State | None, function: Function) -> State:
+    """Zero of a function of the equilibria of a family, by the secant method in arclength from ``(c, λ)``.
+
+    It begins on the hyperplane normal to the tangent of ``near``, so it works where the equilibria fold too; without
+    such a state, at λ.
+    """
+    if near is None or near.space is not family.space:
+        outcome, state, _ = family.at(c, lam)
+    else:
+        outcome, state, _ = family.correct(c, lam, near.row, near.row_lam, float(near.row @ c) + near.row_lam * lam)
+    if state is None:
+        raise CurveLostError(outcome.value)
+    value, step = function(family, state), PROBE
     for _ in range(MOST_SECANTS):
-        new = _at(family, state.c + step / state.tangent_lam * state.tangent, state.lam + step)
-        f = function(family, new)
-        if abs(step) <= SETTLED * size and abs(step) < PROBE * size:
+        outcome, new, _ = family.step(state, step)
+        if new is None:
+            raise CurveLostError(outcome.value)
+        if abs(step) <= SETTLED:
             return new
+        f = function(family, new)
         if f == value:
             raise CurveLostError("the function does not change along the line")
-        next_step = -f * step / (f - value)
-        state, value, step = new, f, float(np.clip(next_step, -FARTHEST * size, FARTHEST * size))
-        if step == 0.0:
-            return state
+        state, value, step = new, f, float(np.clip(-f * step / (f - value), -FARTHEST, FARTHEST))
     raise CurveLostError("the secant method did not settle")
 
 
-PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-8, 0.1, 30
-"""First step, last step (the error left is about its square) and longest step of the secant method, relatively."""
-
-
-def _at(family: Family, c: FloatArray, lam: float) -> State:
-    outcome, state, _ = family.at(c, lam)
-    if state is None:
-        raise CurveLostError(outcome.value)
-    return state
+PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-9, 0.1, 30
+"""First step, last step (the error left is about its square) and longest step of the secant method, in the metric."""
 
 
 def trace_curve(
@@ -235,23 +246,29 @@ class _Tracer:
             raise CurveLostError(f"the curve leaves the range of {self.zero.over}") from problem
         moved = (np.array([new.spot.x, new.spot.value]) - here) / scale
         missed = float(np.linalg.norm((np.array([new.spot.x, new.spot.value]) - target) / scale)) - 1e-7
-        if not self.fresh and missed > BENT * step + 1e-9:
+        if not self.fresh and missed > BENT * step + 1e-9 and not _straightens(last, new):
             raise CurveLostError("the curve bends too sharply")
         return new, moved
 
     def _guess(self, step: float) -> Guess:
         """Coefficients at the next point, extrapolated from the last two where they stand on the same meshes."""
         last = self.solved[-1]
-        if self.fresh or self.solved[-2].guess[0].size != last.guess[0].size:
-            return last.guess
+        before, here = self.solved[-2].guess if len(self.solved) > 1 else last.guess, last.guess
+        if self.fresh or before.coarse.size != here.coarse.size:
+            return here
         ratio = step / self.travelled
-        (a, b), (c, d) = self.solved[-2].guess, last.guess
-        return c + ratio * (c - a), d + ratio * (d - b)
+        return Guess(
+            here.coarse + ratio * (here.coarse - before.coarse),
+            here.fine + ratio * (here.fine - before.fine),
+            here.near,
+        )
 
     def _accept(self, new: Solved, moved: np.ndarray, step: float) -> str:
         """Add a point, with what is special between it and the last; returns why the curve ends there, or ""."""
         last = self.solved[-1]
-        if np.max(np.abs(new.guess[1])) < STRAIGHT * new.solution.problem.clearance:
+        if _straightens(last, new):
+            if step > 10.0 * SMALLEST_STEP:
+                raise CurveLostError(BECOMES_STRAIGHT)
             return BECOMES_STRAIGHT
         kink = self.zero.touch and _jumped(last, new)
         if kink:
@@ -278,9 +295,13 @@ class _Tracer:
         def at(x: float) -> Solved:
             part = (x - a.spot.x) / (b.spot.x - a.spot.x)
             value = a.spot.value + part * (b.spot.value - a.spot.value)
-            same = a.guess[0].size == b.guess[0].size
-            guess = (a.guess[0] + part * (b.guess[0] - a.guess[0]), a.guess[1] + part * (b.guess[1] - a.guess[1])) \
-                if same else a.guess  # fmt: skip
+            guess, other = a.guess, b.guess
+            if guess.coarse.size == other.coarse.size:
+                guess = Guess(
+                    guess.coarse + part * (other.coarse - guess.coarse),
+                    guess.fine + part * (other.fine - guess.fine),
+                    guess.near,
+                )
             return self.zero.solve(a.solution.ladder, guess, Spot(x, value), self.zero.load)
 
         def lead(x: float) -> float:
@@ -304,6 +325,12 @@ STRAIGHT = 1e-3
 """Amplitude, in radians around the cylinder, below which a curve of buckled states ends."""
 
 MOST_POINTS = 2000
+
+
+def _straightens(a: Solved, b: Solved) -> bool:
+    """Whether the rod becomes straight on the way: nearly so, or buckled to the other side."""
+    small = np.max(np.abs(b.guess.fine)) < STRAIGHT * b.solution.problem.clearance
+    return bool(small or (a.guess.fine.size == b.guess.fine.size and a.guess.fine @ b.guess.fine < 0.0))
 
 
 def _main(solved: Solved) -> float:

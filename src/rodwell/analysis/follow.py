@@ -284,29 +284,39 @@ def _traced(
         events.append(Event(LEFT, lambda lam, _: lam - back))
         stops = (*stops, LEFT)
 
+    meetings: dict[float, Found | None] = {}
+
+    def meeting(found: Found) -> Found | None:
+        if found.point.lam not in meetings:
+            meetings[found.point.lam] = rejoined(problem, found)
+        return meetings[found.point.lam]
+
     def stop(found: Found) -> str:
         if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * ladder.coarse.scale_c:
             return STRAIGHT
-        if found.name == TURN and rejoined(problem, found) is not None:
+        if found.name == TURN and meeting(found) is not None:
             return REJOINS
         return found.name if found.name in stops else ""
 
     report = None if progress is None else lambda p: progress(p.lam)
     result = trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report)
-    return _end_exactly(problem, result, until)
-
-
-def _end_exactly(problem: Problem, result: Trace, value: float) -> Trace:
-    """Put the end of a branch that reached its end exactly there; that of one which met another branch, on it."""
-    last: Point | None = None
     if result.end == REJOINS:
-        meeting = rejoined(problem, result.found[-1])
-        if meeting is not None:
-            result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
-            result.found[-1] = replace(
-                result.found[-1], ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error
-            )
-        return result
+        return _ended_at(result, meeting(result.found[-1]))
+    return _end_exactly(result, until)
+
+
+def _ended_at(result: Trace, meeting: Found | None) -> Trace:
+    """Put the end of a branch on the branch point at which it meets another."""
+    if meeting is not None:
+        result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
+        last = result.found[-1]
+        result.found[-1] = replace(last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error)
+    return result
+
+
+def _end_exactly(result: Trace, value: float) -> Trace:
+    """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
+    last: Point | None = None
     if result.end == END:
         last = result.ladders[-1].at(result.points[-1], value)
     elif result.end == STRAIGHT:

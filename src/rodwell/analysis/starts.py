@@ -41,9 +41,14 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
         shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
         return on.project(-shape if mirror else shape, equilibria.ends)
 
-    # the index just above the critical load: as many modes as have been met before this one
-    states = [f.state(np.zeros(f.space.size), mode.force, straight(f.space), 0.0, mode.number - 1)
-              for f in (ladder.coarse, ladder.fine)]  # fmt: skip
+    states = []
+    for f in (ladder.coarse, ladder.fine):
+        zero = np.zeros(f.space.size)
+        # the index just above the critical load: as many modes as have been met before this one
+        trivial = f.state(zero, mode.force, zero, 1.0, mode.number - 1)
+        shape = straight(f.space)
+        rise = 0.0 if problem.twist == 0.0 else _share_of_tangent(f, trivial, shape) * trivial.tangent_lam
+        states.append(f.state(zero, mode.force, shape, rise, mode.number - 1))
     return ladder, ladder.point(*states)
 
 
@@ -113,7 +118,7 @@ def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> f
     free = equilibria.free
     size = STENCIL * equilibria.scale_c
     v = vector / np.max(np.abs(vector)) * size
-    scale = size / np.max(np.abs(state.tangent))
+    scale = STENCIL  # a state's tangent has length one: about 1 rad, or the scale of λ
     t, t_lam = scale * state.tangent, scale * state.tangent_lam
 
     def along(a: float, b: float) -> float:

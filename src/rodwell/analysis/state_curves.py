@@ -25,7 +25,7 @@ from rodwell.problem import Problem
 __all__ = ["lift_off_curve", "secondary_curve", "twist_curve"]
 
 NEARLY_WEIGHTLESS = 1e-3
-"""Part of a range that starts without lateral weight at which the curve is picked up."""
+"""Part of a range, next to an end without lateral weight, that the curve leaps over."""
 
 
 def lift_off_curve(
@@ -73,9 +73,11 @@ def lift_off_curve(
     if lift is None or lift.kind != LIFT_OFF:
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
     zero = _Crossing(problem, over, "force", lambda family, state: pressure_maxima(family, state)[1].max(), touch=True)
-    points, marks, why = trace_curve(zero, Seed(start, lift.solution), end, progress)
     at_end = problem.but(**{over: end})
-    if why == BECOMES_STRAIGHT and at_end.lateral_weight == 0.0:
+    vanishes = at_end.lateral_weight == 0.0
+    traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
+    points, marks, why = trace_curve(zero, Seed(start, lift.solution), traced, progress)
+    if vanishes and why in ("end", BECOMES_STRAIGHT):
         last = min(critical_loads(at_end, mode + 3, rtol=rtol), key=lambda m: abs(m.force - points[-1].value))
         points, why = (*points, CurvePoint(end, last.force, last.error)), "end"
     name = f"mode {mode}" + (", mirror arm" if mirror else "")

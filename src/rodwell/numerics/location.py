@@ -51,6 +51,11 @@ class Span:
             raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
         return state
 
+    @property
+    def quick(self) -> Span:
+        """The same span without the step that makes tangents and index sharp."""
+        return replace(self, family=replace(self.family, extra_steps=0))
+
     def narrowed(self, low: float, high: float) -> Span:
         """Return the stretch between two places of this one."""
         return Span(self.family, self(low), self(high))
@@ -111,8 +116,14 @@ class Place:
 
 def locate(coarse: Span, fine: Span, function: Callable[[Span, State], float], ends: tuple[float, float]) -> Place:
     """Zero of a function of a state on both meshes; ``ends`` are its values at the ends of the fine span."""
-    place = bracketed_root(lambda t: function(fine, fine(t)), 0.0, 1.0, *ends)
-    other = _near(lambda t: function(coarse, coarse(t)), place, ends[1] > ends[0])
+    quick = coarse.quick, fine.quick
+    near = (function(quick[0], coarse.first), function(quick[0], coarse.last))
+    if (near[0] < 0.0) == (near[1] < 0.0):  # not seen on the coarse mesh: begin with the fine one
+        place = bracketed_root(lambda t: function(quick[1], quick[1](t)), 0.0, 1.0, *ends)
+        other = _near(lambda t: function(quick[0], quick[0](t)), place, ends[1] > ends[0])
+    else:
+        other = bracketed_root(lambda t: function(quick[0], quick[0](t)), 0.0, 1.0, *near)
+        place = _near(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0])
     return Place(place, coarse(other), fine(place))
 
 
@@ -165,8 +176,11 @@ def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = ()) -> li
     return [_located(coarse, fine, *bracket) for bracket in brackets]
 
 
-ALONE = 1e-2
+ALONE = 0.1
 """Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
+
+CLOSE = 5e-3
+"""Width of a bracket in which Newton's method may be kept off a direction: the error left goes with its 4th power."""
 
 FOLD_OFFSET = 1e-5
 """How far from a turning point, as a part of the span, the index is compared."""
@@ -210,6 +224,8 @@ def _located(coarse: Span, fine: Span, low: float, high: float, before: int, aft
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
     if low == high:
         return Crossing(Place(low, coarse(low), fine(low)), low, before, after, fold=False)
+    if fine.family.parity == 0:
+        low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high), coarse.narrowed(low, high)
     fold = parts[0].first.tangent_lam * parts[0].last.tangent_lam < 0.0
     if not fold and fine.family.parity == 0:
@@ -223,6 +239,14 @@ def _located(coarse: Span, fine: Span, low: float, high: float, before: int, aft
     return Crossing(
         Place(low + t * (high - low), parts[1](other), parts[0](t)), low + t * (high - low), before, after, fold
     )
+
+
+def _shrunk(span: Span, low: float, high: float, before: int) -> tuple[float, float]:
+    """Halve a bracket of one change of the index until the cubic between its ends is as good as the solution."""
+    while high - low > CLOSE:
+        middle, index = _cut(span, low, high)
+        low, high = (middle, high) if index == before else (low, middle)
+    return low, high
 
 
 def _steadied(span: Span) -> Span:

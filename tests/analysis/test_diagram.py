@@ -1,0 +1,187 @@
+"""Bifurcation diagrams: completeness, joints, symmetry, independence of the step; coils; other ends and sides."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rodwell import Diagram, InputError, Problem, branch_off, coil, diagram, equilibrium, follow
+from rodwell.analysis.measures import Measured
+from rodwell.analysis.symmetry import MIRROR, TURNED, TURNED_MIRROR, images, reflections
+
+FIG3C = {
+    "mode 1": "critical -111.2334402 0 0, lift_off -123.1730744 0 0, branch_point -362.629366 0 1",
+    "mode 2": "critical -127.2577803 1 1, lift_off -136.5685977 1 1, branch_point -164.784232 1 0",
+    "mode 3": "critical -206.5337588 2 2, lift_off -211.5020071 2 2",
+    "mode 4": "critical -249.5009528 3 3, lift_off -252.5953470 3 3, branch_point -403.730836 3 2",
+    "secondary 1": "branch_point -362.629366 0 1, branch_point -164.784232 1 1",
+    "secondary 2": "branch_point -403.730836 3 3",
+}
+"""AUTO-07p on the 15-dimensional system for the secondary bifurcations of the first two modes."""
+
+
+@pytest.fixture(scope="module")
+def whole() -> Diagram:
+    return diagram(Problem(15.0), until=-700.0)
+
+
+def check_fig3c(result: Diagram) -> None:
+    assert [branch.name for branch in result] == list(FIG3C)
+    for branch, line in zip(result, FIG3C.values(), strict=True):
+        expected = [words.split() for words in line.split(", ")]
+        found = [p for p in branch.special_points if p.kind != "end"]
+        assert [[p.kind, str(p.index_before), str(p.index_after)] for p in found] == [
+            [k, b, a] for k, _, b, a in expected
+        ]
+        assert [p.force for p in found] == pytest.approx([float(row[1]) for row in expected], abs=1e-6)
+    assert result.converged
+    assert result.unexplored == ()
+
+
+def test_fig3c_is_complete(whole: Diagram) -> None:
+    check_fig3c(whole)
+    assert [(j.branch, j.child) for j in whole.joints] == [
+        ("mode 1", "secondary 1"), ("mode 2", "secondary 1"), ("mode 4", "secondary 2"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("largest_step", [0.004, 0.1, 0.4])
+def test_fig3c_does_not_depend_on_the_step(largest_step: float) -> None:
+    check_fig3c(diagram(Problem(15.0), until=-700.0, largest_step=largest_step))
+
+
+def test_the_secondary_branch_is_unsymmetric_and_ends_with_no_end_curvature(whole: Diagram) -> None:
+    """Paper, section 4.1.2: it morphs from the first mode into the second, where ω₂(1) = 0."""
+    branch = whole["secondary 1"]
+    middle = branch[len(branch) // 2].fields(101)["y"]
+    size = np.max(np.abs(middle))
+    assert np.max(np.abs(middle - middle[::-1])) > 0.05 * size
+    assert np.max(np.abs(middle + middle[::-1])) > 0.05 * size
+    curvature = branch.numbers(Measured.OMEGA2_1)
+    assert abs(curvature[-1]) < 1e-6 * np.max(np.abs(curvature))
+    assert branch.ended_because.startswith("it meets a symmetric branch")
+    # first integral of the translation-invariant problem: equal end curvatures up to sign
+    assert np.abs(branch.numbers(Measured.OMEGA2_0)) == pytest.approx(np.abs(curvature), abs=1e-6)
+
+
+def test_index_chain_of_every_branch_is_closed(whole: Diagram) -> None:
+    for branch in whole:
+        index = branch.special_points[0].index_after
+        for point in branch.special_points[1:]:
+            assert point.index_before == index, (branch.name, point.kind)
+            index = point.index_after
+
+
+def test_images_of_a_branch_solve_the_problem_too(whole: Diagram) -> None:
+    state = whole["secondary 1"][10]
+    family, c = state.ladder.fine, state.point.fine.c
+    assert {image.name for image in whole.images(whole["secondary 1"])} == {"y(s)", "−y(s)", "y(1−s)", "−y(1−s)"}
+    for image in (MIRROR, TURNED, TURNED_MIRROR):
+        mirrored = image.sign * (c[::-1] if image.turned else c)
+        _, gradient, _ = family.assemble(mirrored, state.point.lam)
+        assert np.max(np.abs(gradient[family.free])) < 1e-9 * np.max(
+            np.abs(family.assemble(1.01 * c, state.point.lam)[1])
+        )
+
+
+def test_reflections_that_a_problem_has() -> None:
+    assert len(reflections(Problem(15.0))) == 4
+    assert reflections(Problem(15.0, twist=1.0))[1:] == (TURNED_MIRROR,)
+    assert reflections(Problem(15.0, alpha=60.0))[1:] == (MIRROR,)
+    assert reflections(Problem(15.0, ends=("clamped", "pinned")))[1:] == (MIRROR,)
+    assert len(reflections(Problem(15.0, alpha=60.0, twist=1.0))) == 1
+    assert [len(images(Problem(15.0), parity)) for parity in (1, -1, 0)] == [2, 2, 4]
+    assert [len(images(Problem(15.0, twist=1.0), parity)) for parity in (-1, 0)] == [1, 2]
+
+
+def test_with_twist_both_arms_are_followed_and_the_pitchforks_unfold() -> None:
+    """Odd modes keep y(1−s) = −y(s); mode 2 still crosses the secondary branch, though neither is symmetric there."""
+    result = diagram(Problem(15.0, twist=0.5), modes=2, until=-450.0)
+    assert [b.name for b in result] == ["mode 1", "mode 1, mirror arm", "mode 2", "secondary 1"]
+    assert result.converged
+    at = {b.name: [(p.kind, p.force) for p in b.special_points if p.kind in ("branch_point", "fold")] for b in result}
+    crossing = dict(at["mode 2"])["branch_point"]
+    assert min(abs(force - crossing) for _, force in at["secondary 1"]) < 1e-6
+    assert {(j.branch, j.child) for j in result.joints} >= {("mode 1", "secondary 1"), ("mode 2", "secondary 1")}
+
+
+def test_a_fold_next_to_a_branch_point_is_told_from_it() -> None:
+    """w = 22: index 1 → 2 → 1 → 0 within a change of load of 0.35, and in one step of the load."""
+    branch = follow(Problem(22.0), 2, until=-300.0)
+    found = [(p.kind, p.index_before, p.index_after) for p in branch.special_points[2:-1]]
+    assert found == [("fold", 1, 2), ("branch_point", 2, 1), ("fold", 1, 0)]
+
+
+def test_branching_off_in_either_direction_gives_mirror_images() -> None:
+    """The first mode at w = 15 is odd, so its reflection is y(s) → −y(1 − s)."""
+    parent = follow(Problem(15.0), until=-370.0)
+    point = next(p for p in parent.special_points if p.kind == "branch_point")
+    one, other = (branch_off(point, until=-400.0, mirror=mirror) for mirror in (False, True))
+    assert one.force == pytest.approx(other.force, rel=1e-9)
+    assert one.numbers(Measured.OMEGA2_0) == pytest.approx(-other.numbers(Measured.OMEGA2_1), abs=1e-7)
+
+
+def test_only_branch_points_can_be_branched_off() -> None:
+    lift = follow(Problem(15.0)).lift_off
+    assert lift is not None
+    with pytest.raises(InputError, match="kind branch_point"):
+        branch_off(lift, until=-200.0)
+
+
+def test_inclined_cylinder_unfolds_the_secondary_bifurcation() -> None:
+    """Axial weight leaves folds only: no branch has a symmetry to lose."""
+    result = diagram(Problem(15.0, alpha=80.0), modes=2, until=-500.0)
+    kinds = [p.kind for b in result for p in b.special_points]
+    assert "branch_point" not in kinds
+    assert kinds.count("fold") == 2
+    assert result.converged
+
+
+# Coiled states: energies from an independent minimisation off the wall (theory, section 5).
+
+
+def test_one_turn_coil_touches_between_two_loads_and_wins_against_the_straight_rod() -> None:
+    branch = coil(Problem(15.0, turns=1))
+    kinds = {p.kind: p for p in branch.special_points}
+    assert -112.0 < kinds["touch_down"].force < -108.0
+    assert -122.0 < kinds["equal_energy"].force < -120.0
+    assert kinds["lift_off"].force < -200.0
+    assert branch.converged
+    for force, energy in ((-140.0, -0.043325), (-160.0, -0.089700), (-200.0, -0.185518)):
+        assert branch.at(force).number(Measured.ENERGY)[0] == pytest.approx(energy, abs=1e-6)
+    assert kinds["equal_energy"].solution.number(Measured.ENERGY)[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_turning_the_other_way_is_a_mirror_image() -> None:
+    one, other = (equilibrium(Problem(15.0, turns=n), -160.0) for n in (1, -1))
+    assert one.fields()["y"] == pytest.approx(-other.fields()["y"], abs=1e-9)
+
+
+def test_diagram_of_a_coil_holds_its_unsymmetric_branch() -> None:
+    result = diagram(Problem(15.0, turns=1))
+    assert [b.name for b in result] == ["coil of 1 turn", "secondary 1"]
+    assert len(result.critical) == 0
+    assert result.converged
+
+
+# Rod on top, rod outside.
+
+
+def test_outside_contact_needs_the_opposite_sign() -> None:
+    """On top of the cylinder from outside: p = wₗ for the straight rod; the same states as on top inside."""
+    outside, inside = Problem(20.0, on_top=True, outside=True), Problem(20.0, on_top=True)
+    a, b = follow(outside, until=50.0), follow(inside, until=50.0)
+    assert a.force[0] == b.force[0]
+    assert a[0].highest_pressure[0] == pytest.approx(-20.0)
+    assert b[0].highest_pressure[0] == pytest.approx(20.0)
+    pressure = a.at(90.0).fields()["contact_pressure"]
+    assert pressure == pytest.approx(b.at(90.0).fields()["contact_pressure"], rel=1e-7)
+    lift = follow(outside).lift_off
+    assert lift is not None
+    at_lift_off = lift.solution.fields()["contact_pressure"]
+    assert np.min(at_lift_off) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_outside_below_is_not_pressed() -> None:
+    with pytest.raises(InputError, match="not pressed to the wall"):
+        follow(Problem(20.0, outside=True))
