@@ -96,7 +96,7 @@ def pair(path: Path) -> None:
 def veering(out: Path) -> None:
     """Critical loads against weight: horizontal and inclined cylinder."""
     for alpha in (90, 60):
-        curves = rodwell.critical_curves(rodwell.Problem(0, alpha=alpha), "weight", (0.0, 600.0))
+        curves = rodwell.critical_curves(rodwell.Problem(0, alpha=alpha), "weight", (0.0, 300.0))
         _save(plot_curves(curves), out / f"critical-{alpha}.png")
 
 
@@ -166,7 +166,7 @@ def torsion_table() -> str:
     for weight, mode in ((5, 1), (5, 2), (15, 1), (15, 2), (30, 1), (60, 1), (100, 1), (100, 2)):
         result = rodwell.torsion(rodwell.Problem(weight), mode, until=40.0)
         parity = "even" if result.prepared.solution.point.fine.symmetry > 0 else "odd"
-        places = ", ".join(f"{s:.4g}" for s in result.prepared.s)
+        places = ", ".join(f"{s:.3g}" for s in result.prepared.s)
         good = {1: "T₁ > 0", -1: "T₁ < 0", 0: "none"}[result.sense]
         again = "–" if result.sense == 0 else "none up to 40"
         if result.again is not None:
@@ -191,9 +191,11 @@ def ends_table(*, lift_off: bool) -> str:
             lift = rodwell.follow(problem, mode).lift_off
             if lift is None:
                 raise RuntimeError(f"docs: no lift-off with ends {first}-{last}")
-            row.append(f"{number(lift.force)} (s = {', '.join(f'{s:.3g}' for s in lift.s)})")
+            row.append(
+                f"{number(lift.force)} at {', '.join(f'{s:.3g}' for s in lift.s)}".replace(" ", "\N{NO-BREAK SPACE}")
+            )
         rows.append(row)
-    return table(("s = 0 ↓, s = 1 →", *ENDS), rows)
+    return table(("s = 0 \\ s = 1", *ENDS), rows)
 
 
 def column_table() -> str:

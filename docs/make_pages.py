@@ -55,7 +55,7 @@ def build() -> dict[str, str]:
     shutil.copytree(HERE.parent / "examples", OUT / "examples", dirs_exist_ok=True)
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
-    _write("twist.md", twistmake_howto.table())
+    _write("twist.md", twist_table())
     with contextlib.chdir(OUT):
         for name, line in COMMANDS.items():
             _write(f"{name}.txt", f"$ rodwell {line}\n{_run(line)}")
@@ -99,7 +99,7 @@ def nomenclature_tables() -> str:
     return "\n".join(parts)
 
 
-def twistmake_howto.table() -> str:
+def twist_table() -> str:
     """Lift-off loads without and with end twist, on both arms."""
     rows = []
     for weight, mode in ((15, 1), (5, 2), (5, 1), (15, 2)):

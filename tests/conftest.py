@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-import pytest
-from hypothesis import settings
+for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")  # threads that wait for each other slow small systems; before NumPy loads
 
-import rodwell
+import pytest  # noqa: E402
+from hypothesis import settings  # noqa: E402
+
+import rodwell  # noqa: E402
 
 settings.register_profile("rodwell", deadline=None, derandomize=True)  # tests do not time
 settings.load_profile("rodwell")

@@ -131,8 +131,12 @@ class Problem:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the problem is the same seen from either end: equal ends and no axial weight."""
-        return self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
+        """Whether the problem is the same seen from either end: equal ends and no axial weight.
+
+        A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal.
+        """
+        loose = self.lateral_weight == 0.0 and not self.holds_angle
+        return self.axial_weight == 0.0 and self.ends[0] == self.ends[1] and not loose
 
     @property
     def pressed(self) -> bool:

@@ -66,6 +66,8 @@ class SpecialPoint:
         The state itself.
     after
         Number of the point of the branch that it follows.
+    parameter
+        What varies along the branch.
     """
 
     kind: str
@@ -77,6 +79,7 @@ class SpecialPoint:
     index_after: int
     solution: Solution
     after: int
+    parameter: str = "force"
 
 
 @dataclass(frozen=True)
@@ -281,7 +284,9 @@ class Branch:
             if self.mode is not None:
                 kind, error = CRITICAL, self.mode.error
             before, index = points[0].fine.index, int(self.stability_index[0])
-            out.append(SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first, 0))
+            out.append(
+                SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first, 0, self.parameter)
+            )
         met = self._trace.found[-1:] if self._trace.end in (REJOINS, STRAIGHT) else []
         for found in self._trace.found:
             if found.name in KINDS:
@@ -289,7 +294,11 @@ class Branch:
         if not out or out[-1].kind != END:
             last = self._solution(points[-1], ladders[-1])
             index = self._trace.found[-1].index_after if met else last.stability_index
-            out.append(SpecialPoint(END, last.force, points[-1].lam, 0.0, (), index, index, last, len(points) - 1))
+            out.append(
+                SpecialPoint(
+                    END, last.force, points[-1].lam, 0.0, (), index, index, last, len(points) - 1, self.parameter
+                )
+            )
         return tuple(out)
 
     def _special(self, found: Found, *, met: bool) -> SpecialPoint:
@@ -304,7 +313,9 @@ class Branch:
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
         error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
         index = found.index_before, found.index_after
-        return SpecialPoint(kind, solution.force, found.point.lam, error, places, *index, solution, found.after)
+        return SpecialPoint(
+            kind, solution.force, found.point.lam, error, places, *index, solution, found.after, self.parameter
+        )
 
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""

@@ -39,7 +39,8 @@ class Mode:
     wavenumber
         √(∫y''²/∫y'²), in rad/L.
     space, coefficients
-        The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch.
+        The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch. At an end that can turn, where
+        y''(1) = 0: y'(1) < 0 if it is pinned, y(1) < 0 if it is free.
     """
 
     problem: Problem
@@ -75,7 +76,7 @@ class CriticalLoads(tuple[Mode, ...]):
 
 
 def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:
-    """Critical end forces of the straight rod and its buckling modes, from (64) with clamped ends (65).
+    """Critical end forces of the straight rod and its buckling modes, from (64) and its ends, (65) if clamped.
 
     Parameters
     ----------
@@ -188,12 +189,18 @@ def _with_symmetry(
     return values, out
 
 
+def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
+    """What tells the arms of a mode apart: y''(1), or, where that vanishes, −y'(1) if pinned, −y(1) if free."""
+    y, slope, bend = space.evaluate(vector, np.array([1.0]), 3)[:, 0]
+    return float({"pinned": -slope, "free": -y}.get(problem.ends[1], bend))
+
+
 def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray) -> Mode:
     parity = 0
     if problem.symmetric:
         parity = 1 if vector @ vector[::-1] > 0.0 else -1
         vector = 0.5 * (vector + parity * vector[::-1])
-    if space.evaluate(vector, np.array([1.0]), 3)[2, 0] < 0.0:
+    if _sense(problem, space, vector) < 0.0:
         vector = -vector
     _, slope, bend = space.at_points(vector)
     wavenumber = np.sqrt((space.weights @ bend**2) / (space.weights @ slope**2))

@@ -112,6 +112,7 @@ class Zero(ABC):
 
     function: Function
     touch: bool
+    either_way = True  # whether lines along the parameter can be searched too, where the curve is steep
 
     def __init__(self, over: str, load: str) -> None:
         self.over, self.load = over, load
@@ -228,7 +229,8 @@ class _Tracer:
         """Solve for the next point; returns it and the way to it, in scaled coordinates."""
         last, scale = self.solved[-1], self._scale()
         here = np.array([last.spot.x, last.spot.value])
-        along = self.zero.load if abs(self.direction[0]) >= STEEP else self.zero.over
+        steep = self.zero.either_way and abs(self.direction[0]) < STEEP
+        along = self.zero.over if steep else self.zero.load
         to_end = (self.end - last.spot.x) / (self.direction[0] * scale[0]) if self.direction[0] != 0.0 else np.inf
         if along == self.zero.load and 0.0 < to_end <= step:
             target = np.array([self.end, here[1] + to_end * self.direction[1] * scale[1]])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +50,7 @@ class CurvePoint:
     error: float
     s: tuple[float, ...] = ()
     converged: bool = True
-    solution: Solution | None = None
+    solution: Solution | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True)
@@ -110,6 +110,9 @@ class Curve:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def __repr__(self) -> str:
+        return f"<Curve {self.kind}, {self.name}: {len(self)} points, {self.over} = {self.x[0]:.6g} … {self.x[-1]:.6g}>"
 
     @cached_property
     def x(self) -> FloatArray:

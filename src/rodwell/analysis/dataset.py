@@ -81,6 +81,12 @@ def _special_points(branch: Branch) -> dict[str, Variable]:
         "special_kind": Variable(("special",), _text(p.kind for p in points), {"long_name": "what happens there"}),
         "special_force": Variable(("special",), forces, _about("force")),
         "special_force_error": Variable(("special",), errors, _about_error("force")),
+        "special_index_before": Variable(
+            ("special",), np.array([p.index_before for p in points]), {"long_name": "stability index before"}
+        ),
+        "special_index_after": Variable(
+            ("special",), np.array([p.index_after for p in points]), {"long_name": "stability index after"}
+        ),
         "special_s": Variable(("special",), _text(places), {"long_name": "places along the rod that lift off"}),
     }
 

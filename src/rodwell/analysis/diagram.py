@@ -80,6 +80,9 @@ class Diagram:
             raise InputError("branch", name, "must be one of " + ", ".join(b.name for b in self.branches))
         return found
 
+    def __repr__(self) -> str:
+        return f"<Diagram down to F = {self.until:.6g} B/L²: {', '.join(branch.name for branch in self.branches)}>"
+
     @property
     def primary(self) -> tuple[Branch, ...]:
         """Branches that leave the straight rod, or the coil."""
@@ -241,8 +244,8 @@ class _Work:
         while done < len(self.branches):
             parent = self.branches[done]
             done += 1
-            for point in self._open_points(parent):
-                if self._meets_known(parent, point):
+            for point in self._branch_points(parent):
+                if self._taken(parent, point) or self._meets_known(parent, point):
                     continue
                 if count == MOST_SECONDARY:
                     self.unexplored.append(f"the limit of {MOST_SECONDARY} secondary branches was reached")
@@ -250,17 +253,16 @@ class _Work:
                 tell(f"secondary branch at F = {point.force:.5g}", 0.6 + 0.4 * done / (len(self.branches) + 1))
                 count += self._leave(parent, point)
 
-    def _open_points(self, parent: Branch) -> list[SpecialPoint]:
-        """Branch points of ``parent`` inside it whose other branch is not known yet."""
+    @staticmethod
+    def _branch_points(parent: Branch) -> list[SpecialPoint]:
+        """Branch points inside ``parent``: where it does not begin or end."""
         inner = parent.special_points[1:] if parent.origin.switched else parent.special_points
-        taken = [joint.force for joint in self.joints if joint.branch == parent.name]
-        return [
-            p
-            for p in inner
-            if p.kind == BRANCH_POINT
-            and p.index_before != p.index_after
-            and not any(abs(p.force - force) <= SAME_LOAD * abs(force) for force in taken)
-        ]
+        return [p for p in inner if p.kind == BRANCH_POINT and p.index_before != p.index_after]
+
+    def _taken(self, parent: Branch, point: SpecialPoint) -> bool:
+        """Whether the branch that meets ``parent`` at ``point`` is known."""
+        known = (joint.force for joint in self.joints if joint.branch == parent.name)
+        return any(abs(point.force - force) <= SAME_LOAD * abs(force) for force in known)
 
     def _meets_known(self, parent: Branch, point: SpecialPoint) -> bool:
         """Whether the branch that crosses ``parent`` at ``point`` is already there; noted if so."""

@@ -27,7 +27,7 @@ from rodwell.analysis.measures import STEEPEST, Measured
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.starts import Start, at_branch_point, at_critical, at_state, rejoined
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
-from rodwell.numerics.continuation import TURN, Event, Found, Stepping, Trace, trace
+from rodwell.numerics.continuation import INDEX, TURN, Event, Found, Stepping, Trace, trace
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
@@ -42,6 +42,12 @@ FIRST_STEP_ON = 0.02
 
 LARGEST_BRAID_ANGLE = 89.5
 """Degrees of |η| at which a branch ends: the theory holds below 90°."""
+
+RIGID = 0.1
+"""Wavenumber, in rad/L, below which a mode hardly bends the rod: it is a rigid turn, resisted by weight alone."""
+
+SAME = 1e-7
+"""How close, relatively, to where a branch meets another a change of its index is that meeting."""
 
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
@@ -141,6 +147,11 @@ def _from_straight(
             until,
             f"must be below the critical load {found.force:.8g} B/L², where the branch starts towards compression",
         )
+    if found.wavenumber < RIGID:
+        raise NotConvergedError(
+            f"mode {found.number} turns the rod as a whole (its wavenumber is {found.wavenumber:.2g} rad/L): it has no "
+            "buckled branch that could be followed; hold an end, or take the next mode"
+        )
     start = at_critical(problem, found, until, mirror, rtol)
     stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
     limit = found.force - REACH * found.wavenumber**2 if until is None else until
@@ -228,16 +239,17 @@ def branch_off(
     """
     if point.kind != BRANCH_POINT:
         raise InputError("point", point.kind, "must be a special point of kind branch_point")
-    until = checked_force("until", until)
+    problem, parameter = point.solution.problem, point.parameter
+    until = checked_end(problem, parameter, until)
     start = at_branch_point(point, mirror, checked_rtol(rtol))
     stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
     result = _traced(
-        point.solution.problem, start, until, stepping, (END, OUT_OF_RANGE), switched=True, progress=progress
+        problem, start, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=True, progress=progress
     )
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return Branch(point.solution.problem, name, result, result.end in (END, REJOINS), result.end)
+    return Branch(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
@@ -309,8 +321,18 @@ def _ended_at(result: Trace, meeting: Found | None) -> Trace:
     """Put the end of a branch on the branch point at which it meets another."""
     if meeting is not None:
         result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
-        last = result.found[-1]
-        result.found[-1] = replace(last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error)
+        last = result.found.pop()
+        # next to the meeting the softest eigenvalue vanishes like the square of the distance: its sign is noise
+        near = SAME * abs(meeting.point.lam)
+        result.found = [f for f in result.found if f.name != INDEX or abs(f.point.lam - meeting.point.lam) > near]
+        changes = [f for f in result.found if f.name == INDEX]
+        index = changes[-1].index_after if changes else result.points[min(1, len(result.points) - 1)].fine.index
+        result.found.append(
+            replace(
+                last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error,
+                index_before=index, index_after=index,
+            )
+        )  # fmt: skip
     return result
 
 

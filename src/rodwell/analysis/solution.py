@@ -36,6 +36,9 @@ class Solution:
     point: Point
     ladder: Ladder
 
+    def __repr__(self) -> str:
+        return f"<Solution at F = {self.force:.10g} B/L², stability index {self.stability_index}>"
+
     @property
     def force(self) -> float:
         """End force F at s = 1 in B/L², tension positive."""

@@ -147,7 +147,7 @@ def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatA
 
 
 AROUND = (1e-4, 1e-3, 1e-2)
-"""How far from the turning point, in the family's scale of λ, the branch point of the symmetric branch is sought."""
+"""How far along the symmetric branch its branch point is sought, either way from the turning point."""
 
 
 def rejoined(problem: Problem, turn: Found) -> Found | None:
@@ -163,21 +163,32 @@ def rejoined(problem: Problem, turn: Found) -> Found | None:
     if parity == 0:
         return None
     ladder = measured_ladder(replace(old.coarse, parity=parity), old.rtol, old.most_elements)
-    shapes = (turn.point.coarse.symmetrised(parity), state.symmetrised(parity))
-    for part in AROUND:
+    pairs = ((ladder.coarse, turn.point.coarse), (ladder.fine, turn.point.fine))
+    middle = [_symmetric_state(f.sharp(), x, parity) for f, x in pairs]
+    for part in AROUND if middle[0] is not None and middle[1] is not None else ():
         points = []
-        for lam in (state.lam - part * ladder.coarse.lam_scale, state.lam + part * ladder.coarse.lam_scale):
-            pair = [f.sharp().at(c, lam)[1] for f, c in zip((ladder.coarse, ladder.fine), shapes, strict=True)]
-            if pair[0] is not None and pair[1] is not None:
-                points.append(ladder.point(pair[0], pair[1]))
+        for backwards in (True, False):
+            ends = [
+                f.sharp().step(x.reversed() if backwards else x, part)[1]  # type: ignore[union-attr, arg-type]
+                for f, x in zip((ladder.coarse, ladder.fine), middle, strict=True)
+            ]
+            if ends[0] is not None and ends[1] is not None:
+                turned = [x.reversed() if backwards else x for x in ends if x is not None]
+                points.append(ladder.point(turned[0], turned[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        changes = [
-            f for f in events_between(ladder, points[0], points[1], (), opening=False, leaves=False) if f.name == INDEX
-        ]
-        if len(changes) == 1 and changes[0].certain:
+        found = events_between(ladder, points[0], points[1], (), opening=False, leaves=False)
+        changes = [f for f in found if f.name == INDEX and not f.fold and f.certain]
+        if len(changes) == 1:
             return changes[0]
     return None
+
+
+def _symmetric_state(equilibria: Family, state: State, parity: int) -> State | None:
+    """The symmetric equilibrium of the same size as ``state``, which is nearly symmetric itself."""
+    c = state.symmetrised(parity)
+    row, row_lam, _, _ = equilibria.covector(c - c[0], 0.0)
+    return equilibria.correct(c, state.lam, row, row_lam, float(row @ c))[1]
 
 
 def _wavenumber(state: State) -> float:

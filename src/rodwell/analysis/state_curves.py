@@ -9,7 +9,7 @@ import numpy as np
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.branches import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, CurveLostError, Seed, Spot, Zero, trace_curve
+from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, Seed, Spot, Zero, trace_curve
 from rodwell.analysis.curves import Curve, CurvePoint, Progress, checked_range
 from rodwell.analysis.families import path, spline_ends
 from rodwell.analysis.follow import follow
@@ -202,14 +202,14 @@ class _Crossing(Zero):
 class _TwistAtLiftOff(_Crossing):
     """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
 
+    either_way = False
+
     def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
         super().__init__(problem, over, "twist", lambda f, state: pressure_maxima(f, state)[1].max(), touch=True)
         self.first = _Crossing(problem, over, "force", self.function, touch=True)
         self.lifting = lifting
 
     def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
-        if along != "twist":
-            raise CurveLostError("the curve turns back in its parameter")
         near = Seed(spot.x, self.lifting)
         self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force), "force").solution
         problem = self.problem.but(**{self.over: spot.x})

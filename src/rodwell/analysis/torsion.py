@@ -55,6 +55,9 @@ class Torsion:
     branch: Branch | None
     again: SpecialPoint | None
 
+    def __repr__(self) -> str:
+        return f"<Torsion at F = {self.prepared.force:.6g} B/L²: {self.meaning}>"
+
     @property
     def meaning(self) -> str:
         """The outcome in words."""

@@ -17,6 +17,7 @@ from rodwell.numerics.families import Outcome, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError
 from rodwell.numerics.spaces import FloatArray
+from rodwell.numerics.watch import Watch, hidden_change
 
 __all__ = ["INDEX", "TURN", "Event", "Found", "Stepping", "Trace", "trace"]
 
@@ -45,6 +46,14 @@ class Trace:
     found: list[Found] = field(default_factory=list)
     end: str = ""
 
+    def step_back(self, count: int) -> float:
+        """Take the last points back; returns how far apart the next and the one after it were."""
+        gap = self.points[-count - 1].coarse.space is self.points[-count].coarse.space
+        apart = self.points[-count - 1].coarse.along(self.points[-count].coarse) if gap else np.inf
+        del self.points[-count:], self.ladders[-count:]
+        self.found = [item for item in self.found if item.after < len(self.points) - 1]
+        return float(abs(apart))
+
 
 Progress = Callable[[Point], None]
 Stop = Callable[[Found], str]
@@ -66,13 +75,15 @@ def trace(
     """Follow the branch from ``start`` along its tangent until something found stops it, or a limit is met.
 
     A step is repeated with half the length if the corrector fails, if the branch turns by more than allowed, if the
-    end strays from where it was predicted, or if an event in it cannot be located. If the step falls below
+    end strays from where it was predicted, or if an event in it cannot be located; the last two steps are, if
+    the stability index changed and changed back within them. If the step falls below
     ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
     branch point, whose stability index is that of the branch left.
     """
     result = Trace([start], [ladder])
     length, work = stepping.first, 0.0
     bend: _Bend = None
+    watch = Watch()
     while True:
         work += 4.0 * result.ladders[-1].fine.space.elements  # about that many solves a step
         result.end = _limit(result, work, stepping)
@@ -87,9 +98,14 @@ def trace(
             continue
         if result.end:
             return result
+        bend, turn = advance
+        watch.add(result.ladders[-1], result.points[-1], length)
+        if length > stepping.smallest and watch.may_dip() and hidden_change(result.ladders, result.points):
+            length, bend = 0.25 * min(length, result.step_back(2)), None
+            watch.forget(2)
+            continue
         if progress is not None:
             progress(result.points[-1])
-        bend, turn = advance
         length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
 
 

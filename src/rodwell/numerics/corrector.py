@@ -5,10 +5,13 @@ Equilibria g(c, λ) = ∂E/∂c = 0 depend on one number λ through the paramete
 and m = ∂g/∂λ each iteration solves the bordered system
 
     ⎡ H    m   ⎤ ⎡δc⎤      ⎡        g        ⎤
-    ⎢          ⎥ ⎢  ⎥ = −  ⎢                 ⎥      by  δc = a − δλ b,  H a = −g,  H b = m.
+    ⎢          ⎥ ⎢  ⎥ = −  ⎢                 ⎥
     ⎣row  row_λ⎦ ⎣δλ⎦      ⎣row·c + … − target⎦
 
-The tangent follows from b, the stability index from the pivots of H: one factorisation gives all three.
+by mixed block elimination, which stays accurate where H is singular but the system is not, at folds: δλ first from
+H w = row, then, for what is left, from H b = m. See W. Govaerts, *Numerical Methods for Bifurcations of Dynamical
+Equilibria* (2000), section 3.6. The tangent follows from b, the stability index from the pivots of H: one
+factorisation gives all three.
 Only the unknowns ``first … last−1`` vary; the others are held by the end conditions or tied to their neighbour
 (:mod:`rodwell.numerics.ends`). A ``parity`` of ±1 keeps
 increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
@@ -28,6 +31,7 @@ from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.ends import gather, restrict, spread
 
 DEGREE = np.pi / 180.0
+STAGNANT = 100.0
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
 
 
@@ -63,6 +67,34 @@ def on_path(path, lam, parameters, rates):
 
 
 @kernel
+def dot(x, y):
+    """Return x·y."""
+    total = 0.0
+    for i in range(x.size):
+        total += x[i] * y[i]
+    return total
+
+
+@kernel
+def gather_row(row, w, first, last, tied_first, tied_last):
+    """Add the entries of ``row`` at tied unknowns to those of their neighbours in ``w``."""
+    if tied_first:
+        w[first] += row[0]
+    if tied_last:
+        w[last - 1] += row[row.size - 1]
+
+
+@kernel
+def solve_within(factors, x, first, last, tied_first, tied_last, parity, frozen, covector):
+    """Solve H x = b in place for the free unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
+    deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
+    solve(factors, x[first:last])
+    spread(x, first, last, tied_first, tied_last)
+    symmetrise(x, parity)
+    deflate(x, frozen, covector)  # ... and out of the solution
+
+
+@kernel
 def correct(
     model, local_tag, table, points, weights, first, last, tied_first, tied_last, parity,
     frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
@@ -73,7 +105,8 @@ def correct(
     The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
     the first step below ``tolerance`` (convergence is quadratic: the error left is about its square) and
-    fails after ``most`` steps, or as soon as a step is not smaller than the one before it. ``extra`` steps
+    fails after ``most`` steps, or as soon as a step is not smaller than the one before it, unless both are so small
+    that round-off in a nearly singular H explains it (the two meshes then disagree by as much). ``extra`` steps
     follow convergence: pivots and tangent belong to the iterate before the last step, and locating a change of
     the index takes them at the solution itself. Written: ``tangent`` (n,), dc/dλ.
 
@@ -84,7 +117,7 @@ def correct(
     n = c.size
     gradient, mixed = np.empty(n), np.empty(n)
     band = np.empty((n, table.shape[2]))
-    a, b = np.zeros(n), np.zeros(n)
+    a, b, w = np.zeros(n), np.zeros(n), np.zeros(n)
     parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
     previous = np.inf
     negative, energy, step, settled = -1, np.nan, np.inf, 0
@@ -97,26 +130,26 @@ def correct(
         gather(gradient, first, last, tied_first, tied_last)
         gather(mixed, first, last, tied_first, tied_last)
         negative = factorise(inner)
-        for i in range(first, last):
-            a[i], b[i] = -gradient[i], mixed[i]
-        deflate(a, covector, frozen)  # what H would blow up is kept out of the right-hand sides ...
-        deflate(b, covector, frozen)
-        solve(inner, a[first:last])
-        solve(inner, b[first:last])
-        spread(a, first, last, tied_first, tied_last)
-        spread(b, first, last, tied_first, tied_last)
-        symmetrise(a, parity)
-        symmetrise(b, parity)
-        deflate(a, frozen, covector)  # ... and out of the solutions
-        deflate(b, frozen, covector)
-        gap, lever = target - row_lam * lam, row_lam
+        gap = target - row_lam * lam - dot(row, c)
         for i in range(n):
-            gap -= row[i] * (c[i] + a[i])
-            lever -= row[i] * b[i]
-        dlam = gap / lever
+            free = first <= i < last
+            b[i], w[i] = (mixed[i], row[i]) if free else (0.0, 0.0)
+        gather_row(row, w, first, last, tied_first, tied_last)
+        solve_within(inner, b, first, last, tied_first, tied_last, parity, frozen, covector)
+        solve_within(inner, w, first, last, tied_first, tied_last, parity, frozen, covector)
+        first_dlam, lever = gap, row_lam
+        for i in range(first, last):
+            first_dlam += w[i] * gradient[i]
+            lever -= w[i] * mixed[i]
+        first_dlam /= lever
+        for i in range(n):
+            a[i] = -gradient[i] - mixed[i] * first_dlam if first <= i < last else 0.0
+        solve_within(inner, a, first, last, tied_first, tied_last, parity, frozen, covector)
+        more_dlam = (gap - row_lam * first_dlam - dot(row, a)) / (row_lam - dot(row, b))
+        dlam = first_dlam + more_dlam
         step = abs(dlam) / scale_lam
         for i in range(n):
-            dc = a[i] - dlam * b[i]
+            dc = a[i] - more_dlam * b[i]
             c[i] += dc
             step = max(step, abs(dc) / scale_c)
         lam += dlam
@@ -129,7 +162,8 @@ def correct(
             if settled > extra:
                 return CONVERGED, lam, negative, energy, step, iteration
         elif iteration > 1 and step > previous:
-            return DIVERGED, lam, negative, energy, step, iteration
+            at_round_off = extra == 0 and max(step, previous) <= STAGNANT * tolerance
+            return CONVERGED if at_round_off else DIVERGED, lam, negative, energy, step, iteration
         previous = step
     return NOT_CONVERGED, lam, negative, energy, step, most
 

@@ -23,6 +23,12 @@ Gram = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
 BLOCK_SPARE = 4
 MOST_ITERATIONS = 200
+RESHIFT, SLOW = 6, 0.1
+"""After so many iterations, if the last one gained less than this, the shift moves to just below the first value that
+still changes: where a few lie far below the others, no shift below all makes the others converge fast."""
+
+SMALL, ROUND_OFF = 1e-13, 1e-11
+"""Relative changes of the eigenvalues from one iteration to the next that count as none."""
 
 
 class EigenError(RuntimeError):
@@ -79,21 +85,47 @@ def lowest(
     if count > n:
         raise EigenError(f"only {n} modes on this mesh, {count} were asked for")
     shift = _shift(stiffness, gram, below, size)
-    factors = stiffness - shift * gram
-    factorise(factors)
+    factors = _factors(stiffness, gram, shift)
     block = np.random.default_rng(0).standard_normal((size, n))
     if start is not None:
         block[: min(size, len(start))] = start[:size]
-    previous, last_change = np.full(count, np.inf), np.inf
-    for _ in range(MOST_ITERATIONS):
-        values, block = _rayleigh_ritz(_inverse_step(factors, gram, block), quadrature)
-        change = np.max(np.abs(values[:count] - previous) / (np.abs(values[:count] - shift)))
+    previous, history, kept = np.full(count, np.inf), [np.inf], 0
+    for iteration in range(1, MOST_ITERATIONS + 1):
+        moved = _inverse_step(factors, gram, block[kept:])
+        values, block = _rayleigh_ritz(np.concatenate([block[:kept], moved]), quadrature)
+        changes = np.abs(values[:count] - previous) / (np.abs(values[:count]) + 1.0)
         previous = values[:count].copy()
-        settled = change < 1e-13 or (change < 1e-10 and change > 0.5 * last_change)
-        last_change = change
-        if settled and _confirmed(stiffness, gram, values, count):
+        history.append(float(np.max(changes)))
+        if _settled(history) and _confirmed(stiffness, gram, values, count):
             return values, block
+        if iteration % RESHIFT == 0 and history[-1] > max(ROUND_OFF, SLOW * history[-2]):
+            kept = int(np.argmax(changes > SMALL))
+            shift = _shift_above(stiffness, gram, values, kept) if kept > 0 else shift
+            factors = _factors(stiffness, gram, shift)
+            history.append(np.inf)
     raise EigenError("inverse iteration did not settle, or the count of eigenvalues does not agree")
+
+
+def _factors(stiffness: FloatArray, gram: FloatArray, shift: float) -> FloatArray:
+    factors = stiffness - shift * gram
+    factorise(factors)
+    return factors
+
+
+def _settled(history: list[float]) -> bool:
+    """Whether the values no longer change: to the last digits, or to round-off, which does not fall any more."""
+    change, before = history[-1], history[-2]
+    return change < SMALL or (change < ROUND_OFF and before < np.inf and change > 0.5 * before)
+
+
+def _shift_above(stiffness: FloatArray, gram: FloatArray, values: FloatArray, kept: int) -> float:
+    """A shift above the first ``kept`` eigenvalues and just below the next one, which counting brackets."""
+    low, high = float(values[kept - 1]), float(values[kept])
+    low += 1e-6 * (high - low)
+    width = 0.02 * float(values[-1] - values[kept])
+    while high - low > width and low < 0.5 * (low + high) < high:
+        low, high = _halve(stiffness, gram, low, high, kept + 1)
+    return low
 
 
 def _shift(stiffness: FloatArray, gram: FloatArray, below: float, size: int) -> float:

@@ -21,6 +21,9 @@ AT_START = 1e-6
 NEARLY = 1e-2
 """Largest asymmetry of a turning point, relative to the state, or angle in rad, that may be none."""
 
+SHORT_OF = 0.98
+"""Part of the way to where a branch meets its mirror image up to which its index is looked at."""
+
 MOST_REFINEMENTS = 2
 """How often the meshes are refined for a located point that does not meet the tolerance."""
 
@@ -92,11 +95,17 @@ class _Segment:
 
     def index_changes(self, turn: Place | None = None) -> list[_Placed]:
         """Changes of the stability index; together they make up the whole difference of the two ends."""
-        turns = [] if turn is None or self._meets(turn.fine) else [turn.t]
-        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.spans, turns)]
+        turns, end = [] if turn is None else [turn.t], 1.0
+        if turn is not None and self._meets(turn.fine):
+            turns, end = [], SHORT_OF * turn.t
+        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.spans, turns, end)]
 
     def _meets(self, state: State) -> bool:
-        """Whether a branch turns back since it meets its own mirror image: the index is then the same on both sides."""
+        """Whether a branch turns back since it meets its own mirror image.
+
+        The index is then the same on both sides, and its softest eigenvalue, which vanishes there without changing
+        sign, must not be looked at.
+        """
         family = self.ladder.fine
         straight = np.max(np.abs(state.c)) < NEARLY * family.scale_c
         return bool(straight or (family.parity == 0 and state.space.symmetric and state.symmetry_within(NEARLY) != 0))

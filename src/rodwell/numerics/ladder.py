@@ -29,8 +29,8 @@ CLAIMED_GAIN = 8.0
 pressure at degree 9, gains 2⁷; where the gain is not seen (round-off), the point counts as not converged."""
 
 
-ROUND_OFF = 1e-14
-"""Relative error that round-off leaves in a measured number even where both meshes agree."""
+ROUND_OFF = 2e-12
+"""Error that round-off leaves in a number even where both meshes agree, relative to its scale."""
 
 
 def estimated_error(fine: Any, coarse: Any) -> Any:

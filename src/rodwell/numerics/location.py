@@ -127,15 +127,15 @@ def locate(coarse: Span, fine: Span, function: Callable[[Span, State], float], e
     return Place(place, coarse(other), fine(place))
 
 
-def _near(function: Callable[[float], float], place: float, rising: bool) -> float:
-    """Zero of ``function`` close to ``place``, where a function that differs little from it has one."""
+def _near(function: Callable[[float], float], place: float, rising: bool, farthest: float = 1.0) -> float:
+    """Zero of ``function`` within ``farthest`` of ``place``, where a function that differs little from it has one."""
     middle = function(place)
     if middle == 0.0:
         return place
     width = 1e-6
     direction = -1.0 if (middle > 0.0) == rising else 1.0
     near, f_near = place, middle
-    while width < 1.0:
+    while width < farthest:
         far = place + direction * width
         f_far = function(far)
         if (f_far < 0.0) != (middle < 0.0):
@@ -159,30 +159,30 @@ class Crossing:
     fold: bool
 
 
-def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = ()) -> list[Crossing]:
-    """All places where the stability index changes, each stretch whose ends differ in it resolved by bisection.
+def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
+    """All places up to ``end`` where the stability index changes, each stretch with a change resolved by bisection.
 
     The span is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
     back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
     crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
     """
-    cuts = [0.0, 1.0]
+    cuts = [0.0, end]
     for turn in turns:
-        cuts += [t for t in (turn - FOLD_OFFSET, turn + FOLD_OFFSET) if 0.0 < t < 1.0]
+        cuts += [t for t in (turn - FOLD_OFFSET, turn + FOLD_OFFSET) if 0.0 < t < end]
     cuts.sort()
     brackets = []
     for low, high in pairwise(cuts):
         brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
-    return [_located(coarse, fine, *bracket) for bracket in brackets]
+    return [_located(coarse, fine, turns, *bracket) for bracket in brackets]
 
 
 ALONE = 0.1
 """Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
 
-CLOSE = 5e-3
+CLOSE = 3e-3
 """Width of a bracket in which Newton's method may be kept off a direction: the error left goes with its 4th power."""
 
-FOLD_OFFSET = 1e-5
+FOLD_OFFSET = 1e-3
 """How far from a turning point, as a part of the span, the index is compared."""
 
 CUTS = (0.5, 0.37, 0.64)
@@ -220,20 +220,23 @@ def _changes_sign(span: Span, low: float, high: float) -> bool:
     return eigenvalue(low) * eigenvalue(high) < 0.0
 
 
-def _located(coarse: Span, fine: Span, low: float, high: float, before: int, after: int) -> Crossing:
+def _located(
+    coarse: Span, fine: Span, turns: Sequence[float], low: float, high: float, before: int, after: int
+) -> Crossing:
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
     if low == high:
         return Crossing(Place(low, coarse(low), fine(low)), low, before, after, fold=False)
-    if fine.family.parity == 0:
+    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
+    steady = fine.family.parity == 0 and not fold
+    if steady:
         low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high), coarse.narrowed(low, high)
-    fold = parts[0].first.tangent_lam * parts[0].last.tangent_lam < 0.0
-    if not fold and fine.family.parity == 0:
+    if steady:
         parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
     eigenvalue = _Eigenvalue(parts[0], 0.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, eigenvalue(0.0), eigenvalue(1.0))
     try:
-        other = _near(_Eigenvalue(parts[1], t), t, rising=after < before)
+        other = _near(_Eigenvalue(parts[1], t), t, rising=after < before, farthest=ALONE / (high - low))
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     return Crossing(

@@ -9,7 +9,7 @@ integration follow from the same rule. An end that holds y bears the circumferen
 y′ the moment M₂(1); what an end does not hold vanishes (natural conditions). At an end that can turn (pinned,
 free) the rod keeps the curvature ω₃ = sin²η/Δ, though no fitting bends it: the moment ω₃ u₁ there comes from the
 rim of contact, as a pair of opposite radial forces close together, which does no work and acts on the cylinder
-in return.
+in return. Where y is free, it is F₁ sin η + F₃ cos η of the rod together with ω₃ sin η/Δ from that pair that vanishes.
 """
 
 from __future__ import annotations

@@ -1,0 +1,135 @@
+"""Watching the softest eigenvalues along a branch: one that dips through zero and back between two points is seen.
+
+Counting negative eigenvalues at the points of a branch misses two changes that undo each other within a step. Such an
+eigenvalue comes close to zero at the points around; where its course could reach zero, places in between are counted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rodwell.jit import kernel
+from rodwell.numerics.assembly import assemble
+from rodwell.numerics.banded import factorise, multiply, solve
+from rodwell.numerics.corrector import dot, symmetrise
+from rodwell.numerics.ends import gather, restrict, spread
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.location import LocationError, Span
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+
+FIRST_ITERATIONS, ITERATIONS = 8, 2
+DEEP = 0.5
+"""A minimum of the parabola through three values below this part of the middle one may be a dip through zero."""
+
+BETWEEN = (0.2, 0.4, 0.6, 0.8)
+"""Places between two points at which the index is counted, as parts of the step."""
+
+
+@dataclass
+class Watch:
+    """Softest eigenvalues of even and odd variations (the two softest, on a mesh without symmetry) at each point."""
+
+    vectors: FloatArray | None = None
+    space: SplineSpace | None = None
+    values: list[FloatArray] = field(default_factory=list)
+    places: list[float] = field(default_factory=list)
+
+    def add(self, ladder: Ladder, point: Point, travelled: float) -> None:
+        """Take in the next point of the branch, ``travelled`` from the last."""
+        self.values.append(self._softest(ladder.coarse, point.coarse))
+        self.places.append((self.places[-1] if self.places else 0.0) + travelled)
+
+    def forget(self, count: int) -> None:
+        """Take the last points back."""
+        del self.values[-count:], self.places[-count:]
+
+    def may_dip(self) -> bool:
+        """Whether an eigenvalue may have passed zero and come back around the last point but one."""
+        if len(self.values) < 3:
+            return False
+        place, values = np.array(self.places[-3:]), np.array(self.values[-3:])
+        return any(_dips(place - place[1], column) for column in values.T)
+
+    def _softest(self, family: Family, state: State) -> FloatArray:
+        space = family.space
+        iterations = ITERATIONS
+        if self.vectors is None or self.space is not space:
+            self.vectors, self.space = np.random.default_rng(0).standard_normal((2, space.size)), space
+            iterations = FIRST_ITERATIONS
+        free = family.free
+        return np.asarray(
+            softest(
+                family.model, space.local_tag, space.table, space.points, space.weights, state.c,
+                family.parameters(state.lam), free.start, free.stop, *family.ends.tied, space.slope_gram,
+                space.symmetric, iterations, self.vectors,
+            )
+        )  # fmt: skip
+
+
+@kernel
+def softest(
+    model, local_tag, table, points, weights, c, parameters, first, last, tied_first, tied_last, gram,
+    symmetric, iterations, vectors,
+):  # fmt: skip
+    """Eigenvalues (2,) of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vectors`` (2, n).
+
+    On a ``symmetric`` mesh the first is that of even vectors and the second that of odd ones; otherwise the second
+    vector is kept normal to the first. ``vectors`` become the eigenvectors, of length one.
+    """
+    n = c.size
+    gradient, mixed, rates = np.empty(n), np.empty(n), np.zeros(parameters.size)
+    band = np.empty((n, table.shape[2]))
+    assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
+    factors = restrict(band, first, last, tied_first, tied_last)
+    factorise(factors)
+    values = np.zeros(2)
+    for _ in range(iterations):
+        for k in range(2):
+            right = multiply(gram, vectors[k])
+            length = np.sqrt(dot(vectors[k], right))
+            gather(right, first, last, tied_first, tied_last)
+            new = np.zeros(n)
+            for i in range(first, last):
+                new[i] = right[i] / length
+            solve(factors, new[first:last])
+            spread(new, first, last, tied_first, tied_last)
+            if symmetric:
+                symmetrise(new, 1 - 2 * k)
+            elif k == 1:
+                part = dot(vectors[0], multiply(gram, new))
+                for i in range(n):
+                    new[i] -= part * vectors[0, i]
+            values[k] = length / dot(multiply(gram, vectors[k]), new)
+            size = np.sqrt(dot(new, multiply(gram, new)))
+            for i in range(n):
+                vectors[k, i] = new[i] / size
+    return values
+
+
+def _dips(place: FloatArray, values: FloatArray) -> bool:
+    """Whether the parabola through three values of one sign, the middle one nearest to zero, comes much nearer."""
+    size = np.abs(values)
+    if not (np.all(values > 0.0) or np.all(values < 0.0)) or size[1] > min(size[0], size[2]):
+        return False
+    a, b, c = np.polyfit(place, size, 2)
+    return bool(a > 0.0 and c - b * b / (4.0 * a) < DEEP * size[1])
+
+
+def hidden_change(ladders: list[Ladder], points: list[Point]) -> bool:
+    """Whether the index changes and changes back between the last three points of a branch."""
+    for k in (-3, -2):
+        ladder, last = ladders[k + 1], points[k + 1]
+        first = points[k] if ladders[k] is ladder else ladder.adopt(ladders[k], points[k])[1]
+        if first is None or first.fine.index != last.fine.index:
+            continue
+        span = Span(ladder.coarse.sharp(), first.coarse, last.coarse)
+        for t in BETWEEN:
+            try:
+                if span(t).index != last.fine.index:
+                    return True
+            except LocationError:
+                return True
+    return False
