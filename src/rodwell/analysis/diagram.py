@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol
-from rodwell.analysis.branches import BRANCH_POINT, REJOINS, Branch, Origin, SpecialPoint
+from rodwell.analysis.branches import BRANCH_POINT, END, REJOINS, Branch, Origin, SpecialPoint
 from rodwell.analysis.coiled import coil
 from rodwell.analysis.critical import MOST_MODES, CriticalLoads, critical_loads
-from rodwell.analysis.follow import LARGEST_STEP, branch_off, follow
+from rodwell.analysis.families import PATHS
+from rodwell.analysis.follow import LARGEST_STEP, branch_off, checked_end, follow
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.symmetry import Reflection, images
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
@@ -91,7 +92,7 @@ class Diagram:
     @property
     def secondary(self) -> tuple[Branch, ...]:
         """Branches that leave other buckled states."""
-        return tuple(branch for branch in self.branches if branch.origin.parent is not None)
+        return tuple(b for b in self.branches if b.origin.parent is not None and b.parameter == "force")
 
     @property
     def converged(self) -> bool:
@@ -138,6 +139,8 @@ def special_dict(point: SpecialPoint) -> dict[str, Any]:
     return {
         "kind": point.kind,
         "force": point.force,
+        "parameter": point.parameter,
+        "value": point.value,
         "error": point.error,
         "index_before": point.index_before,
         "index_after": point.index_after,
@@ -151,6 +154,7 @@ def diagram(
     modes: int = MODES,
     until: float | None = None,
     secondary: bool = True,
+    then: tuple[str, float] | None = None,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -172,6 +176,9 @@ def diagram(
         End force at s = 1 in B/L², tension positive, at which branches end; without it, somewhat beyond the last mode.
     secondary
         Whether to follow secondary branches.
+    then
+        A parameter ("weight", "alpha", "clearance" or "twist") and the value to which each branch is continued in it,
+        from its state at ``until`` and at that force; these branches come last, named "…, in weight".
     rtol, largest_step
         As for :func:`rodwell.follow`.
     progress
@@ -187,6 +194,10 @@ def diagram(
     rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
     largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
     tell = progress or (lambda _what, _done: None)
+    if then is not None and (then[0] not in PATHS or then[0] == "force"):
+        raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
+    if then is not None:
+        checked_end(problem, *then)
     if problem.turns != 0:
         start = coil(problem, until=until, rtol=rtol, largest_step=largest_step)
         until = float(start.force[-1]) if until is None else until
@@ -199,6 +210,8 @@ def diagram(
         work.follow_primary(tell)
     if secondary:
         work.follow_secondary(tell)
+    if then is not None:
+        work.continue_in(*then)
     tell("done", 1.0)
     return Diagram(problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored))
 
@@ -237,6 +250,20 @@ class _Work:
                         rtol=self.rtol, largest_step=self.largest_step,
                     )
                 )  # fmt: skip
+
+    def continue_in(self, parameter: str, until: float) -> None:
+        """Continue each branch that reached its end in another parameter."""
+        for branch in [b for b in self.branches if b.ended_because == END]:
+            name = f"{branch.name}, in {parameter}"
+            try:
+                further = follow(
+                    self.problem, start=branch[-1], parameter=parameter, until=until,
+                    rtol=self.rtol, largest_step=self.largest_step,
+                )  # fmt: skip
+            except (InputError, NotConvergedError) as problem:
+                self.unexplored.append(f"{name}: {problem}")
+                continue
+            self.branches.append(further.renamed(Origin(name, parent=branch.name)))
 
     def follow_secondary(self, tell: Progress) -> None:
         """Follow what leaves each branch point, those on secondary branches included."""

@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 @click.option("--modes", default=4, show_default=True, help="How many primary branches.")
 @click.option("--until", type=float, help="End force at s = 1 (tension positive) at which branches end.")
 @click.option("--secondary/--no-secondary", default=True, show_default=True, help="Follow secondary branches.")
+@click.option(
+    "--then",
+    type=click.Choice(["weight", "alpha", "clearance", "twist"]),
+    help="Continue each branch in this parameter, from its state at --until.",
+)
+@click.option("--to", type=float, help="Value to which --then goes.")
 @click.option("--largest-step", default=0.04, show_default=True, help="Longest step of continuation.")
 @rtol_option
 @json_option
@@ -38,6 +44,8 @@ def diagram(
     modes: int,
     until: float | None,
     secondary: bool,
+    then: str | None,
+    to: float | None,
     largest_step: float,
     rtol: float,
     as_json: bool,
@@ -51,6 +59,8 @@ def diagram(
     """
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
+    if (then is None) != (to is None):
+        raise click.UsageError("--then and --to belong together.")
     problem = make_problem(given)
     check_writable(out)
     from rodwell.analysis.diagram import diagram as compute  # noqa: PLC0415
@@ -62,6 +72,7 @@ def diagram(
             modes=modes,
             until=until,
             secondary=secondary,
+            then=None if then is None or to is None else (then, to),
             rtol=rtol,
             largest_step=largest_step,
             progress=tell,
@@ -80,14 +91,16 @@ def _print_diagram(result: Diagram) -> None:
 
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
     for branch in result:
-        parent = f", leaves {branch.origin.parent}" if branch.origin.parent else ""
+        verb = "leaves" if branch.parameter == "force" else "continues"
+        parent = f", {verb} {branch.origin.parent}" if branch.origin.parent else ""
         others = [image.name for image in result.images(branch)[1:]]
         mirrored = f"   images: {', '.join(others)}" if others else ""
         click.echo(f"\n{branch.name}{parent}: {len(branch)} points{mirrored}")
         for p in branch.special_points:
             where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
             index = f"index {p.index_before} → {p.index_after}"
-            click.echo(f"  {p.kind:<13} F = {p.force:+.10g}  ± {p.error:.1e}   {index}{where}")
+            value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
+            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{where}")
         if not branch.reached_end or branch.origin.parent:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:

@@ -50,7 +50,8 @@ def draw_diagram(diagram: Diagram, folder: Path) -> None:
     """Draw a bifurcation diagram as PNG and SVG: end curvature, or energy for a coil, against compression."""
     ordinate = Measured.ENERGY if diagram.problem.turns else Measured.OMEGA2_1
     with mpl.rc_context(RC):
-        _save(plot_bifurcation(diagram.branches, diagram.critical, ordinate=ordinate), folder / "diagram")
+        shown = [branch for branch in diagram.branches if branch.parameter == "force"]
+        _save(plot_bifurcation(shown, diagram.critical, ordinate=ordinate), folder / "diagram")
 
 
 def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
