@@ -65,6 +65,7 @@ def test_diagram_continued_in_the_inclination(place: Path) -> None:
     data = json.loads(done.output)
     further = data["branches"][1]
     assert (further["name"], further["parent"]) == ("mode 1, in alpha", "mode 1")
+    assert further["images"] == ["y(s)", "−y(s)"]
     end = further["special_points"][-1]
     assert (end["kind"], end["parameter"], end["value"], end["force"]) == ("end", "alpha", 75.0, -140.0)
     direct = follow(Problem(15.0, alpha=75.0), until=-140.0)[-1]

@@ -185,3 +185,61 @@ def test_outside_contact_needs_the_opposite_sign() -> None:
 def test_outside_below_is_not_pressed() -> None:
     with pytest.raises(InputError, match="not pressed to the wall"):
         follow(Problem(20.0, outside=True))
+
+
+# What once went wrong.
+
+
+@pytest.mark.parametrize("largest_step", [0.04, 0.4])
+def test_a_secondary_branch_ends_next_to_a_fold_of_the_other(largest_step: float) -> None:
+    """w = 22: it meets mode 2 at −206.5691, where that folds at −206.5634."""
+    result = diagram(Problem(22.0), modes=2, until=-450.0, largest_step=largest_step)
+    assert [b.name for b in result] == ["mode 1", "mode 2", "secondary 1"]
+    assert [p.kind for p in result["secondary 1"].special_points] == ["branch_point", "branch_point", "end"]
+    assert {(j.branch, j.child) for j in result.joints} == {("mode 1", "secondary 1"), ("mode 2", "secondary 1")}
+
+
+def test_two_changes_of_the_index_within_a_step_are_seen() -> None:
+    """With twist, a fold and a branch point lie 0.006 apart; steps are ten times as long."""
+    result = diagram(Problem(15.0, twist=0.5), modes=1, until=-450.0, largest_step=0.4)
+    found = [(p.kind, p.index_before, p.index_after) for p in result["secondary 1"].special_points[1:-1]]
+    assert found == [("branch_point", 1, 0), ("fold", 0, 1), ("branch_point", 1, 1)]
+
+
+def test_far_out_no_spurious_branches() -> None:
+    """The translation eigenvalue is small there, and vanishes like a square where secondary branches end."""
+    result = diagram(Problem(15.0), modes=1, until=-3000.0)
+    assert [b.name for b in result] == ["mode 1", "secondary 1", "secondary 2"]
+    forces = [p.force for p in result["mode 1"].special_points if p.kind == "branch_point"]
+    assert forces == pytest.approx([-362.629366, -1442.295015, -2945.100569], abs=1e-5)
+    ends = [result[name].force[[0, -1]] for name in ("secondary 1", "secondary 2")]
+    assert ends == [pytest.approx([-362.629366, -164.784232], abs=1e-5), pytest.approx(forces[1:], abs=1e-5)]
+
+
+def test_arms_do_not_depend_on_how_many_modes_are_asked_for() -> None:
+    problem = Problem(3.023298560032434, clearance=0.020483836133333794, ends=("free", "pinned"))
+    from rodwell import critical_loads
+
+    ends = [follow(problem, critical_loads(problem, n)[0], until=-30.0)[-1].fields(3)["xi2"][0] for n in (1, 2, 3)]
+    assert ends == pytest.approx([ends[0]] * 3, rel=1e-7)
+
+
+def test_weightless_rods_that_nothing_holds() -> None:
+    """Without a held end, y(0) = 0 picks one of equal states; a rigid turn has no buckled branch."""
+    from rodwell import NotConvergedError
+
+    assert follow(Problem(0.0, ends=("guided", "guided")), until=-12.0).converged
+    for ends in (("free", "free"), ("pinned", "free")):
+        with pytest.raises(NotConvergedError, match="turns the rod as a whole"):
+            follow(Problem(0.0, ends=ends), until=-2.0)
+
+
+def test_branch_off_in_another_parameter() -> None:
+    """A symmetric branch followed in weight meets its secondary bifurcation; what leaves it is followed so too."""
+    start = follow(Problem(15.0), until=-250.0)[-1]
+    along = follow(Problem(15.0), start=start, parameter="weight", until=9.0)
+    point = next(p for p in along.special_points if p.kind == "branch_point")
+    branch = branch_off(point, until=9.0)
+    assert branch.parameter == "weight"
+    assert branch[-1].problem.weight == branch.values[-1]
+    assert np.all(branch.force == -250.0)

@@ -211,3 +211,32 @@ def test_turned_round(ends: tuple[str, str]) -> None:
     assert a.s == pytest.approx(sorted(1.0 - s for s in b.s), abs=1e-5)
     y, z = a.solution.fields()["y"], b.solution.fields()["y"][::-1]
     assert min(np.max(np.abs(y - z)), np.max(np.abs(y + z))) < 1e-7 * np.max(np.abs(y))
+
+
+@pytest.mark.parametrize(
+    ("weight", "clearance", "ends"),
+    [
+        (63.273270035833676, 0.00013822808914166674, "guided-pinned"),
+        (1e3, 1e-4, "pinned-guided"),
+        (1e4, 1e-3, "pinned-guided"),
+    ],
+)
+def test_loads_far_apart_on_top(weight: float, clearance: float, ends: str) -> None:
+    """y = sin kπs with k = n − ½ solves (64): F = −(k²π² − |wₗ|/(Δ k²π²)); the first loads lie far from the others."""
+    problem = Problem(weight, clearance=clearance, on_top=True, ends=ends)  # type: ignore[arg-type]
+    loads = critical_loads(problem, 3)
+    k = (np.arange(1, 4) - 0.5) * np.pi
+    exact = -(k**2 + problem.foundation / clearance / k**2)
+    assert np.all(np.abs(loads.forces - exact) <= loads.errors + 1e-14 * np.abs(exact))
+
+
+@pytest.mark.parametrize("ends", ["clamped-free", "free-free", "free-guided"])
+def test_loads_of_a_free_end_come_before_a_cluster(ends: str) -> None:
+    """A free end of a long rod buckles at −√(wₗ/Δ), half of the −2√(wₗ/Δ) inside.
+
+    M. Hetényi, *Beams on Elastic Foundation* (1946), chapter 7.
+    """
+    loads = critical_loads(Problem(1e6, clearance=1e-4, ends=ends), 3).forces  # type: ignore[arg-type]
+    free = ends.split("-").count("free")
+    assert loads[:free] == pytest.approx([-1e5] * free, rel=1e-9)
+    assert loads[free:] == pytest.approx([-2e5] * (3 - free), rel=1e-3)

@@ -101,7 +101,8 @@ class Diagram:
 
     def images(self, branch: Branch) -> tuple[Reflection, ...]:
         """Reflections that make other branches of the diagram out of ``branch``, the identity first."""
-        return images(self.problem, branch[len(branch) // 2].point.fine.symmetry)
+        middle = branch[len(branch) // 2]
+        return images(middle.problem, middle.point.fine.symmetry)
 
     @cached_property
     def datasets(self) -> dict[str, xr.Dataset]:
