@@ -13,8 +13,8 @@ from typing import Any
 import matplotlib as mpl
 
 import rodwell
-from rodwell.analysis.branches import SpecialPoint
 from rodwell.analysis.measures import Measured
+from rodwell.analysis.special import SpecialPoint
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.style import RC

@@ -33,7 +33,7 @@ _HOME = {
     "Problem": "rodwell.problem",
     "RodwellError": "rodwell.errors",
     "Solution": "rodwell.analysis.solution",
-    "SpecialPoint": "rodwell.analysis.branches",
+    "SpecialPoint": "rodwell.analysis.special",
     "Torsion": "rodwell.analysis.torsion",
     "branch_off": "rodwell.analysis.follow",
     "coil": "rodwell.analysis.coiled",
@@ -51,7 +51,7 @@ _HOME = {
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
-    from rodwell.analysis.branches import Branch, SpecialPoint
+    from rodwell.analysis.branches import Branch
     from rodwell.analysis.coiled import coil
     from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.critical_curves import critical_curves
@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
     from rodwell.analysis.solution import Solution
+    from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.torsion import Torsion, torsion
     from rodwell.errors import InputError, NotConvergedError, RodwellError

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 
 from rodwell.analysis.accuracy import RTOL, checked_force
-from rodwell.analysis.branches import Branch, Origin
+from rodwell.analysis.branches import Branch
 from rodwell.analysis.equilibrium import equilibrium
-from rodwell.analysis.follow import LARGEST_STEP, Progress, follow
+from rodwell.analysis.follow import LARGEST_STEP, follow
+from rodwell.analysis.special import Origin
+from rodwell.analysis.tracing import Progress
 from rodwell.errors import InputError
 from rodwell.problem import Problem
 

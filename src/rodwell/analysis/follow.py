@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol
-from rodwell.analysis.branches import (
+from rodwell.analysis.branches import Branch, continued
+from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
+from rodwell.analysis.families import PATHS, parameter_value
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.special import (
     BRANCH_POINT,
     END,
-    EQUAL_ENERGY,
     LIFT_OFF,
     OUT_OF_RANGE,
     REJOINS,
-    STRAIGHT,
-    Branch,
     Origin,
     SpecialPoint,
-    continued,
 )
-from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
-from rodwell.analysis.families import PATHS, parameter_value
-from rodwell.analysis.measures import STEEPEST, Measured
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.starts import Start, at_branch_point, at_critical, at_state, rejoined
+from rodwell.analysis.starts import at_branch_point, at_critical, at_state
+from rodwell.analysis.tracing import Progress, traced
 from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
-from rodwell.numerics.continuation import INDEX, TURN, Event, Found, Stepping, Trace, trace
-from rodwell.numerics.ladder import Ladder, Point
-from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem
+from rodwell.numerics.continuation import Stepping
+from rodwell.problem import Problem
 
 LARGEST_STEP = 0.04
 """Default of the longest step: one unit is an amplitude of about 1 rad, or the whole range of the parameter."""
@@ -40,29 +33,11 @@ FIRST_STEP = 0.05
 FIRST_STEP_ON = 0.02
 """First step from a given state."""
 
-LARGEST_BRAID_ANGLE = 89.5
-"""Degrees of |η| at which a branch ends: the theory holds below 90°."""
-
 RIGID = 0.1
 """Wavenumber, in rad/L, below which a mode hardly bends the rod: it is a rigid turn, resisted by weight alone."""
 
-SAME = 1e-7
-"""How close, relatively, to where a branch meets another a change of its index is that meeting."""
-
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
-
-FLAT = 1e-5
-"""Largest angle around the cylinder, in rad, of a rod that counts as straight where a branch turns back."""
-
-LEFT = "the parameter reached the end of its range, or came back past its start"
-
-Progress = Callable[[float], None]
-"""Called with the parameter of each new point."""
-
-_CONTACT = Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX])
-_ENERGY = Event(EQUAL_ENERGY, lambda _, values: values[Measured.ENERGY])
-_ACROSS = Event(OUT_OF_RANGE, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)))
 
 
 def follow(
@@ -158,7 +133,7 @@ def _from_straight(
     if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
     stops = (END, OUT_OF_RANGE, LIFT_OFF) if until is None else (END, OUT_OF_RANGE)
-    result = _traced(problem, start, limit, stepping, stops, switched=True, progress=progress)
+    result = traced(problem, start, limit, stepping, stops, switched=True, progress=progress)
     if len(result.points) == 1:
         raise NotConvergedError(
             f"mode {found.number} could not be followed from its critical load {found.force:.6g} B/L²: {result.end}"
@@ -188,7 +163,7 @@ def _from_state(
         raise InputError("until", until, "must differ from the value at the start")
     stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
     begin = at_state(problem, start, parameter, until, rtol)
-    result = _traced(
+    result = traced(
         problem, begin, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=False, progress=progress
     )
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
@@ -243,7 +218,7 @@ def branch_off(
     until = checked_end(problem, parameter, until)
     start = at_branch_point(point, mirror, checked_rtol(rtol))
     stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
-    result = _traced(
+    result = traced(
         problem, start, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=True, progress=progress
     )
     if len(result.points) == 1:
@@ -263,96 +238,10 @@ def extended(branch: Branch, until: float, *, progress: Progress | None = None) 
     until = checked_force("until", until)
     ladder, point = branch.last
     stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
-    result = _traced(
+    result = traced(
         branch.problem, (ladder, point), until, stepping, (END, OUT_OF_RANGE), switched=False, progress=progress
     )
     return continued(branch, result, result.end == END, result.end)
-
-
-def _traced(
-    problem: Problem,
-    start: Start,
-    until: float,
-    stepping: Stepping,
-    stops: Sequence[str],
-    *,
-    parameter: str = "force",
-    switched: bool,
-    progress: Progress | None,
-) -> Trace:
-    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
-    ladder, point = start
-    events = [_ACROSS, Event(END, lambda lam, _: lam - until)]
-    if problem.lateral_weight > 0.0 or problem.turns != 0:
-        events.append(_CONTACT)
-
-    if problem.turns != 0:
-        events.append(_ENERGY)
-    if parameter != "force":
-        low, high, _ = LIMITS[parameter]
-        back = low if until > point.lam else high
-        if back == 0.0 and parameter == "clearance":
-            back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
-        events.append(Event(LEFT, lambda lam, _: lam - back))
-        stops = (*stops, LEFT)
-
-    meetings: dict[float, Found | None] = {}
-
-    def meeting(found: Found) -> Found | None:
-        if found.point.lam not in meetings:
-            meetings[found.point.lam] = rejoined(problem, found)
-        return meetings[found.point.lam]
-
-    def stop(found: Found) -> str:
-        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * ladder.coarse.scale_c:
-            return STRAIGHT
-        if found.name == TURN and meeting(found) is not None:
-            return REJOINS
-        return found.name if found.name in stops else ""
-
-    report = None if progress is None else lambda p: progress(p.lam)
-    result = trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report)
-    if result.end == REJOINS:
-        return _ended_at(result, meeting(result.found[-1]))
-    return _end_exactly(result, until)
-
-
-def _ended_at(result: Trace, meeting: Found | None) -> Trace:
-    """Put the end of a branch on the branch point at which it meets another."""
-    if meeting is not None:
-        result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
-        last = result.found.pop()
-        # next to the meeting the softest eigenvalue vanishes like the square of the distance: its sign is noise
-        near = SAME * abs(meeting.point.lam)
-        result.found = [f for f in result.found if f.name != INDEX or abs(f.point.lam - meeting.point.lam) > near]
-        changes = [f for f in result.found if f.name == INDEX]
-        index = changes[-1].index_after if changes else result.points[min(1, len(result.points) - 1)].fine.index
-        result.found.append(
-            replace(
-                last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error,
-                index_before=index, index_after=index,
-            )
-        )  # fmt: skip
-    return result
-
-
-def _end_exactly(result: Trace, value: float) -> Trace:
-    """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
-    last: Point | None = None
-    if result.end == END:
-        last = result.ladders[-1].at(result.points[-1], value)
-    elif result.end == STRAIGHT:
-        last = _flattened(result.ladders[-1], result.points[-1])
-    if last is not None:
-        result.points[-1] = last
-        result.found[-1] = replace(result.found[-1], point=last)
-    return result
-
-
-def _flattened(ladder: Ladder, point: Point) -> Point:
-    """The straight rod where a branch reaches it."""
-    pairs = ((ladder.coarse, point.coarse), (ladder.fine, point.fine))
-    return ladder.point(*(f.state(np.zeros_like(x.c), x.lam, x.tangent, x.tangent_lam, x.index) for f, x in pairs))
 
 
 def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:

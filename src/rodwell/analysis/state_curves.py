@@ -7,14 +7,15 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_rtol
-from rodwell.analysis.branches import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, Seed, Spot, Zero, trace_curve
+from rodwell.analysis.curve_points import Seed, Spot, Zero
+from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, trace_curve
 from rodwell.analysis.curves import Curve, CurvePoint, Progress, checked_range
 from rodwell.analysis.families import path, spline_ends
 from rodwell.analysis.follow import follow
 from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
+from rodwell.analysis.special import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.starts import kept_parity
 from rodwell.analysis.torsion import torsion
 from rodwell.errors import InputError, NotConvergedError

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_rtol
-from rodwell.analysis.branches import Branch, SpecialPoint
+from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.follow import follow
 from rodwell.analysis.solution import Solution
+from rodwell.analysis.special import SpecialPoint
 from rodwell.analysis.starts import at_state
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, State

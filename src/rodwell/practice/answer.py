@@ -8,56 +8,18 @@ from functools import cached_property
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.analysis.branches import Branch, SpecialPoint
-from rodwell.analysis.critical import EULER, CriticalLoads, Mode, critical_loads
+from rodwell.analysis.branches import Branch
+from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.follow import extended, follow
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
+from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
+from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures
 from rodwell.problem import ends_text
 
 Progress = Callable[[str, float], None]
 """Called with what is being done and how much of the whole is done (0 to 1)."""
-
-STRAIGHT_AT = 1e-6
-"""A torque below this part of the largest torque in the cylinder counts as none."""
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A number of the answer: value and error estimate in units B = L = 1, and what it is.
-
-    ``scale`` is the size of its kind, against which the error is judged.
-    """
-
-    name: str
-    label: str
-    value: float
-    error: float
-    dimension: str
-    scale: float
-    note: str = ""
-
-    def physical(self, case: Case) -> tuple[float, float, str] | None:
-        """Value, error and unit in SI, or None for a case without dimensions."""
-        if case.scales is None:
-            return None
-        factor = case.scales.factor(self.dimension)
-        return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
-
-    def as_dict(self, case: Case) -> dict[str, Any]:
-        """Everything about the number, for JSON."""
-        out: dict[str, Any] = {
-            "label": self.label, "value": self.value, "error": self.error, "unit": UNITS[self.dimension],
-        }  # fmt: skip
-        physical = self.physical(case)
-        if physical is not None:
-            out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
-        if self.note:
-            out["note"] = self.note
-        return out
 
 
 @dataclass(frozen=True)
@@ -117,16 +79,16 @@ class Answer:
     @cached_property
     def figures(self) -> dict[str, Figure]:
         """The key figures by name."""
-        out = [_critical_figure(mode) for mode in self.critical]
+        out = [critical_figure(mode) for mode in self.critical]
         lift = self.lift_off
         if lift is not None:
             note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
             if self.first.lift_off_at_buckling:
                 note = "coincides with buckling: no lateral weight presses the rod to the wall"
             label = "Lift-off load, end force at s = 1"
-            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", _force_scale(lift.force), note))
+            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", force_scale(lift.force), note))
         if self.at_lift_off is not None:
-            out += _state_figures(self.at_lift_off)
+            out += state_figures(self.at_lift_off)
         return {figure.name: figure for figure in out}
 
     def as_dict(self) -> dict[str, Any]:
@@ -161,68 +123,6 @@ class Answer:
             "certificate": self.worst_certificate,
             "rtol": case.rtol,
         }
-
-
-def _critical_figure(mode: Mode) -> Figure:
-    symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
-    label = f"Critical load of mode {mode.number}, end force at s = 1"
-    scale = _force_scale(mode.force) + mode.problem.axial_weight
-    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
-
-
-def _force_scale(force: float) -> float:
-    return abs(force) + EULER
-
-
-def _state_figures(state: Solution) -> list[Figure]:
-    """Wall and support loads of one state."""
-    torque, torque_error = state.number(Measured.TORQUE_0)
-    shortening, shortening_error = state.number(Measured.SHORTENING)
-
-    def largest(name: str, field: str, label: str) -> Figure:
-        value, error, place = state.largest(field)
-        return Figure(name, label, value, error, QUANTITIES[field].dimension, value, f"at s/L = {place:.4g}")
-
-    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|")
-    largest_bending = largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|")
-    self_balanced = abs(torque) <= STRAIGHT_AT * largest_torque.value
-    wall_force = state.total_wall_force
-    return [
-        largest("largest_wall_force", "contact_pressure", "Largest contact force on the wall per length, outward"),
-        Figure(
-            "total_wall_force",
-            "Total contact force on the wall, all directions added",
-            *wall_force,
-            "force",
-            wall_force[0],
-        ),
-        largest_torque,
-        Figure(
-            "support_torque",
-            "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
-            0.0 if self_balanced else torque,
-            torque_error,
-            "moment",
-            largest_torque.value,
-            "none: the twisting moment balances itself" if self_balanced else "",
-        ),
-        largest_bending,
-        Figure(
-            "end_shear",
-            f"Sideways force at the end s = 1 ({state.problem.ends[1]}), F₃(1)",
-            *state.end_reactions["shear"],
-            "force",
-            _force_scale(state.force),
-        ),
-        Figure(
-            "end_moment",
-            f"Bending moment at the end s = 1 ({state.problem.ends[1]}), M₂(1)",
-            *state.end_reactions["moment"],
-            "moment",
-            largest_bending.value,
-        ),
-        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length", shortening),
-    ]
 
 
 def _branch_dict(branch: Branch) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.branches import CRITICAL, LIFT_OFF
+from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.units import readable
 

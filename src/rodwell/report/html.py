@@ -11,8 +11,9 @@ from typing import Any
 import jinja2
 
 from rodwell._version import __version__
-from rodwell.practice.answer import Answer, Figure
+from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
+from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
 from rodwell.practice.units import readable
 

@@ -1,0 +1,114 @@
+"""Key figures of an answer: numbers with errors, and what they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from rodwell.analysis.critical import EULER, Mode
+from rodwell.analysis.measures import Measured
+from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
+from rodwell.analysis.solution import Solution
+from rodwell.practice.case import Case
+
+STRAIGHT_AT = 1e-6
+"""A torque below this part of the largest torque in the cylinder counts as none."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A number of the answer: value and error estimate in units B = L = 1, and what it is.
+
+    ``scale`` is the size of its kind, against which the error is judged.
+    """
+
+    name: str
+    label: str
+    value: float
+    error: float
+    dimension: str
+    scale: float
+    note: str = ""
+
+    def physical(self, case: Case) -> tuple[float, float, str] | None:
+        """Value, error and unit in SI, or None for a case without dimensions."""
+        if case.scales is None:
+            return None
+        factor = case.scales.factor(self.dimension)
+        return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
+
+    def as_dict(self, case: Case) -> dict[str, Any]:
+        """Everything about the number, for JSON."""
+        out: dict[str, Any] = {
+            "label": self.label, "value": self.value, "error": self.error, "unit": UNITS[self.dimension],
+        }  # fmt: skip
+        physical = self.physical(case)
+        if physical is not None:
+            out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
+        if self.note:
+            out["note"] = self.note
+        return out
+
+
+def critical_figure(mode: Mode) -> Figure:
+    """Critical load of a mode."""
+    symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
+    label = f"Critical load of mode {mode.number}, end force at s = 1"
+    scale = force_scale(mode.force) + mode.problem.axial_weight
+    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
+
+
+def force_scale(force: float) -> float:
+    """Size against which the error of a force is judged."""
+    return abs(force) + EULER
+
+
+def state_figures(state: Solution) -> list[Figure]:
+    """Wall and support loads of one state."""
+    torque, torque_error = state.number(Measured.TORQUE_0)
+    shortening, shortening_error = state.number(Measured.SHORTENING)
+
+    def largest(name: str, field: str, label: str) -> Figure:
+        value, error, place = state.largest(field)
+        return Figure(name, label, value, error, QUANTITIES[field].dimension, value, f"at s/L = {place:.4g}")
+
+    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|")
+    largest_bending = largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|")
+    self_balanced = abs(torque) <= STRAIGHT_AT * largest_torque.value
+    wall_force = state.total_wall_force
+    return [
+        largest("largest_wall_force", "contact_pressure", "Largest contact force on the wall per length, outward"),
+        Figure(
+            "total_wall_force",
+            "Total contact force on the wall, all directions added",
+            *wall_force,
+            "force",
+            wall_force[0],
+        ),
+        largest_torque,
+        Figure(
+            "support_torque",
+            "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
+            0.0 if self_balanced else torque,
+            torque_error,
+            "moment",
+            largest_torque.value,
+            "none: the twisting moment balances itself" if self_balanced else "",
+        ),
+        largest_bending,
+        Figure(
+            "end_shear",
+            f"Sideways force at the end s = 1 ({state.problem.ends[1]}), F₃(1)",
+            *state.end_reactions["shear"],
+            "force",
+            force_scale(state.force),
+        ),
+        Figure(
+            "end_moment",
+            f"Bending moment at the end s = 1 ({state.problem.ends[1]}), M₂(1)",
+            *state.end_reactions["moment"],
+            "moment",
+            largest_bending.value,
+        ),
+        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length", shortening),
+    ]
