@@ -24,7 +24,7 @@ from rodwell.errors import InputError, NotConvergedError, checked_number, checke
 from rodwell.numerics.continuation import Stepping
 from rodwell.problem import Problem
 
-LARGEST_STEP = 0.04
+LARGEST_STEP = 0.06
 """Default of the longest step: one unit is an amplitude of about 1 rad, or the whole range of the parameter."""
 
 FIRST_STEP = 0.05

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     help="Continue each branch in this parameter, from its state at --until.",
 )
 @click.option("--to", type=float, help="Value to which --then goes.")
-@click.option("--largest-step", default=0.04, show_default=True, help="Longest step of continuation.")
+@click.option("--largest-step", default=0.06, show_default=True, help="Longest step of continuation.")
 @rtol_option
 @json_option
 @out_option("diagram")

@@ -16,65 +16,81 @@ from rodwell.jit import density, kernel
 def assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band):
     """Energy of the fields with coefficients ``c``; write ``gradient``, ``mixed`` (n,) and ``band`` (n, width).
 
-    ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space; ``local_tag`` is a
-    tuple of p + 1 zeros, whose length the compiler knows, so that the inner loops are unrolled. The
-    element matrices K[f, e] = Σ_q w Bᵀ h[f, e] B, with B (3, p+1) the basis at a point, are summed with the
-    innermost loop over memory that lies together; of those on the diagonal, the lower half.
+    ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space, p − 1 points in each
+    element; ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, so that short loops are unrolled.
+
+    With ``basis`` B (3 (p−1), p+1) the functions of an element at its points, its matrices are products LᵀB,
+    L[e] = w h[e, f] B for each field f, and in the last two columns of L, w g and w m: the gradient comes with them.
     """
     local, fields = len(local_tag), len(model)
-    elements = c.size // fields - local + 1
-    per_element = points.size // elements
+    wide = (table.shape[2] + 3) // 4 * 4  # whole vector registers; not a constant, or loops over it would be unrolled
+    per_element = local - 2
     size = 3 * fields
     u, g, m = np.empty(size), np.empty(size), np.empty(size)
     h = np.empty((size, size))
-    matrix = np.empty((fields, fields, local, local))
+    basis = np.zeros((3 * per_element, wide))
+    left = np.empty((fields, 3 * per_element, fields * local + wide))
+    blocks = np.empty((fields, fields * local + 2, wide))
     gradient[:] = 0.0
     mixed[:] = 0.0
     band[:] = 0.0
     energy = 0.0
-    for element in range(elements):
+    for element in range(c.size // fields - local + 1):
         start = element * fields
-        matrix[:] = 0.0
-        for q in range(element * per_element, (element + 1) * per_element):
-            w = weights[q]
-            u[:] = 0.0
-            for a in range(local):
-                for f in range(fields):
-                    value = c[start + a * fields + f]
-                    u[3 * f] += table[q, 0, a] * value
-                    u[3 * f + 1] += table[q, 1, a] * value
-                    u[3 * f + 2] += table[q, 2, a] * value
-            energy += w * density(model, points[q], u, parameters, rates, g, h, m)
-            for f in range(fields):
-                i = 3 * f
+        for i in range(per_element):
+            q = element * per_element + i
+            for d in range(3):
                 for a in range(local):
-                    k = start + a * fields + f
-                    b0, b1, b2 = w * table[q, 0, a], w * table[q, 1, a], w * table[q, 2, a]
-                    gradient[k] += b0 * g[i] + b1 * g[i + 1] + b2 * g[i + 2]
-                    mixed[k] += b0 * m[i] + b1 * m[i + 1] + b2 * m[i + 2]
-                    for e in range(f + 1):
-                        j = 3 * e
-                        t0 = b0 * h[i, j] + b1 * h[i + 1, j] + b2 * h[i + 2, j]
-                        t1 = b0 * h[i, j + 1] + b1 * h[i + 1, j + 1] + b2 * h[i + 2, j + 1]
-                        t2 = b0 * h[i, j + 2] + b1 * h[i + 1, j + 2] + b2 * h[i + 2, j + 2]
-                        for b in range(a + 1 if e == f else local):
-                            matrix[f, e, a, b] += t0 * table[q, 0, b] + t1 * table[q, 1, b] + t2 * table[q, 2, b]
-        _scatter(matrix, start, fields, band)
+                    basis[3 * i + d, a] = table[q, d, a]
+            for f in range(fields):
+                u0 = u1 = u2 = 0.0
+                for a in range(local):
+                    value = c[start + a * fields + f]
+                    u0 += table[q, 0, a] * value
+                    u1 += table[q, 1, a] * value
+                    u2 += table[q, 2, a] * value
+                u[3 * f], u[3 * f + 1], u[3 * f + 2] = u0, u1, u2
+            w = weights[q]
+            energy += w * density(model, points[q], u, parameters, rates, g, h, m)
+            for e in range(fields):
+                for d in range(3):
+                    row, k = 3 * i + d, 3 * e + d
+                    for f in range(fields):
+                        h0, h1, h2 = w * h[k, 3 * f], w * h[k, 3 * f + 1], w * h[k, 3 * f + 2]
+                        for a in range(wide):
+                            left[e, row, f * local + a] = (
+                                h0 * basis[3 * i, a] + h1 * basis[3 * i + 1, a] + h2 * basis[3 * i + 2, a]
+                            )  # beyond a = p these are zeros, overwritten in what follows
+                    left[e, row, fields * local], left[e, row, fields * local + 1] = w * g[k], w * m[k]
+        _multiply(model, local_tag, left, basis, blocks)
+        _scatter(model, local_tag, blocks, start, gradient, mixed, band)
     return energy
 
 
+@kernel(fastmath={"contract"})
+def _multiply(model, local_tag, left, basis, product):
+    """Write Lᵀ B to ``product`` for each field: the sum is unrolled, the columns go through vector registers."""
+    for e in range(left.shape[0]):
+        for i in range(len(model) * len(local_tag) + 2):
+            for j in range(basis.shape[1]):
+                total = 0.0
+                for k in range(3 * (len(local_tag) - 2)):
+                    total += left[e, k, i] * basis[k, j]
+                product[e, i, j] = total
+
+
 @kernel
-def _scatter(matrix, start, fields, band):
-    """Add the element matrices to the lower band; ``matrix[f, e]`` is known for e ≤ f only."""
-    local = matrix.shape[2]
-    for a in range(local):
-        for f in range(fields):
-            i = start + a * fields + f
-            for b in range(a + 1):
-                for e in range(fields if b < a else f + 1):
-                    value = matrix[f, e, a, b] if e <= f else matrix[e, f, b, a]
-                    j = start + b * fields + e
-                    band[j, i - j] += value
+def _scatter(model, local_tag, blocks, start, gradient, mixed, band):
+    """Add the products of an element to gradient, mixed derivatives and lower band."""
+    fields, last = len(model), len(model) * len(local_tag)
+    for e in range(fields):
+        for b in range(len(local_tag)):
+            j = start + b * fields + e
+            gradient[j] += blocks[e, last, b]
+            mixed[j] += blocks[e, last + 1, b]
+            for a in range(b, len(local_tag)):
+                for f in range(e if a == b else 0, fields):
+                    band[j, (a - b) * fields + f - e] += blocks[f, e * len(local_tag) + b, a]
 
 
 @kernel

@@ -100,6 +100,7 @@ def trace(
             return result
         bend, turn = advance
         watch.add(result.ladders[-1], result.points[-1], length)
+        result.points[-1] = result.points[-1].light()
         if length > stepping.smallest and watch.may_dip() and hidden_change(result.ladders, result.points):
             length, bend = 0.25 * min(length, result.step_back(2)), None
             watch.forget(2)

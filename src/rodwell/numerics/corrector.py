@@ -112,20 +112,21 @@ def correct(
 
     Returns
     -------
-    status, λ, negative pivots of H, energy, size of the last step, number of steps
+    status, λ, negative pivots of H, energy, number of steps, last factors of H (free unknowns)
     """
     n = c.size
     gradient, mixed = np.empty(n), np.empty(n)
     band = np.empty((n, table.shape[2]))
     a, b, w = np.zeros(n), np.zeros(n), np.zeros(n)
     parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
+    inner = np.empty((0, 0))
     previous = np.inf
     negative, energy, step, settled = -1, np.nan, np.inf, 0
     for iteration in range(1, most + extra + 1):
         on_path(path, lam, parameters, rates)
         energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
-            return OUT_OF_RANGE, lam, negative, energy, step, iteration
+            return OUT_OF_RANGE, lam, negative, energy, iteration, inner
         inner = restrict(band, first, last, tied_first, tied_last)
         gather(gradient, first, last, tied_first, tied_last)
         gather(mixed, first, last, tied_first, tied_last)
@@ -156,16 +157,16 @@ def correct(
         for i in range(n):
             tangent[i] = -b[i]
         if not np.isfinite(step):
-            return DIVERGED, lam, negative, energy, step, iteration
+            return DIVERGED, lam, negative, energy, iteration, inner
         if step <= tolerance or settled > 0:
             settled += 1
             if settled > extra:
-                return CONVERGED, lam, negative, energy, step, iteration
+                return CONVERGED, lam, negative, energy, iteration, inner
         elif iteration > 1 and step > previous:
             at_round_off = extra == 0 and max(step, previous) <= STAGNANT * tolerance
-            return CONVERGED if at_round_off else DIVERGED, lam, negative, energy, step, iteration
+            return CONVERGED if at_round_off else DIVERGED, lam, negative, energy, iteration, inner
         previous = step
-    return NOT_CONVERGED, lam, negative, energy, step, most
+    return NOT_CONVERGED, lam, negative, energy, most, inner
 
 
 @kernel

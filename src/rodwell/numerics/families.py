@@ -43,7 +43,8 @@ class State:
     """An equilibrium: coefficients ``c`` on ``space`` at parameter λ, with tangent and stability index.
 
     ``tangent`` (n,) and ``tangent_lam`` have length one in the metric of the family; ``row`` (n,) and ``row_lam``
-    are their covector. ``index`` is the number of negative eigenvalues of the Hessian.
+    are their covector. ``index`` is the number of negative eigenvalues of the Hessian. ``factors`` are those of the
+    Hessian in the last Newton step, as long as they are kept.
     """
 
     space: SplineSpace
@@ -55,6 +56,7 @@ class State:
     row_lam: float
     index: int
     energy: float
+    factors: FloatArray | None = None
 
     @property
     def symmetry(self) -> int:
@@ -73,6 +75,10 @@ class State:
         """Coefficients of the even (1) or odd (−1) part; of a coil, odd about its middle."""
         middle = self.c[0] + self.c[-1] if parity < 0 else 0.0
         return 0.5 * (self.c + parity * self.c[::-1] + middle)
+
+    def light(self) -> State:
+        """Return the same state without the factors."""
+        return replace(self, factors=None)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""
@@ -159,7 +165,7 @@ class Family:
         tangent = np.empty_like(c)
         free = self.free
         frozen, covector = self._normalised(frozen)
-        status, lam, index, energy, _, steps = corrector.correct(
+        status, lam, index, energy, steps, factors = corrector.correct(
             self.model, space.local_tag, space.table, space.points, space.weights, free.start, free.stop,
             *self.ends.tied, self.parity, frozen, covector, c, lam, self.path, row, row_lam, target,
             self.scale_c, self.lam_scale, self.tolerance, self.most_steps, self.extra_steps, tangent,
@@ -170,7 +176,7 @@ class Family:
         new_row, new_row_lam, unit, unit_lam = self.covector(sign * tangent, sign)
         return (
             Outcome.CONVERGED,
-            State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy),
+            State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy, factors),
             steps,
         )
 

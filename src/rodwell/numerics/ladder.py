@@ -57,6 +57,10 @@ class Point:
         """Parameter λ, from the finer mesh."""
         return self.fine.lam
 
+    def light(self) -> Point:
+        """Return the same point without the factors of its Hessians."""
+        return replace(self, coarse=self.coarse.light(), fine=self.fine.light())
+
     @property
     def lam_gap(self) -> float:
         """Error estimate of a λ that was located on both meshes."""

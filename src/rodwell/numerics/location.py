@@ -51,6 +51,10 @@ class Span:
             raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
         return state
 
+    def sharp(self, t: float) -> State:
+        """Return the equilibrium at ``t`` with its tangent and index taken at the solution itself."""
+        return replace(self, family=self.family.sharp())(t)
+
     @property
     def quick(self) -> Span:
         """The same span without the step that makes tangents and index sharp."""
@@ -74,6 +78,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     """
     a, b, c = high, low, high
     fa, fb, fc = f_high, f_low, f_high
+    nothing = PLACE_TOLERANCE * min(abs(f_low), abs(f_high))
     t = 0.5
     for _ in range(200):
         x = a + t * (b - a)
@@ -85,7 +90,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         a, fa = x, fx
         best, f_best = (a, fa) if abs(fa) < abs(fb) else (b, fb)
         share = PLACE_TOLERANCE / max(abs(b - a), PLACE_TOLERANCE)
-        if share >= 0.5 or f_best == 0.0:
+        if share >= 0.5 or abs(f_best) <= nothing:
             return best
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
         if phi**2 < xi and (1.0 - phi) ** 2 < 1.0 - xi:
@@ -230,7 +235,7 @@ def _located(
     steady = fine.family.parity == 0 and not fold
     if steady:
         low, high = _shrunk(fine, low, high, before)
-    parts = fine.narrowed(low, high), coarse.narrowed(low, high)
+    parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
     if steady:
         parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
     eigenvalue = _Eigenvalue(parts[0], 0.0)
@@ -240,7 +245,11 @@ def _located(
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     return Crossing(
-        Place(low + t * (high - low), parts[1](other), parts[0](t)), low + t * (high - low), before, after, fold
+        Place(low + t * (high - low), parts[1].sharp(other), parts[0].sharp(t)),
+        low + t * (high - low),
+        before,
+        after,
+        fold,
     )
 
 

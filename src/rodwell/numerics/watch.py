@@ -11,16 +11,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rodwell.jit import kernel
-from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.corrector import dot, symmetrise
-from rodwell.numerics.ends import gather, restrict, spread
+from rodwell.numerics.ends import gather, spread
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError, Span
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
-FIRST_ITERATIONS, ITERATIONS = 8, 2
+FIRST_ITERATIONS, ITERATIONS = 8, 1
 DEEP = 0.5
 """A minimum of the parabola through three values below this part of the middle one may be a dip through zero."""
 
@@ -59,32 +58,26 @@ class Watch:
         if self.vectors is None or self.space is not space:
             self.vectors, self.space = np.random.default_rng(0).standard_normal((2, space.size)), space
             iterations = FIRST_ITERATIONS
-        free = family.free
-        return np.asarray(
-            softest(
-                family.model, space.local_tag, space.table, space.points, space.weights, state.c,
-                family.parameters(state.lam), free.start, free.stop, *family.ends.tied, space.slope_gram,
-                space.symmetric, iterations, self.vectors,
-            )
-        )  # fmt: skip
+        factors = state.factors
+        if factors is None:
+            factors = family.free_part(family.assemble(state.c, state.lam)[2])
+            factorise(factors)
+        free, tied = family.free, family.ends.tied
+        values = softest(
+            factors, free.start, free.stop, *tied, space.slope_gram, space.symmetric, iterations, self.vectors
+        )
+        return np.asarray(values)
 
 
 @kernel
-def softest(
-    model, local_tag, table, points, weights, c, parameters, first, last, tied_first, tied_last, gram,
-    symmetric, iterations, vectors,
-):  # fmt: skip
+def softest(factors, first, last, tied_first, tied_last, gram, symmetric, iterations, vectors):
     """Eigenvalues (2,) of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vectors`` (2, n).
 
-    On a ``symmetric`` mesh the first is that of even vectors and the second that of odd ones; otherwise the second
-    vector is kept normal to the first. ``vectors`` become the eigenvectors, of length one.
+    ``factors`` are those of H for the unknowns ``first … last−1``. On a ``symmetric`` mesh the first value is that of
+    even vectors and the second that of odd ones; otherwise the second vector is kept normal to the first. ``vectors``
+    become the eigenvectors, of length one.
     """
-    n = c.size
-    gradient, mixed, rates = np.empty(n), np.empty(n), np.zeros(parameters.size)
-    band = np.empty((n, table.shape[2]))
-    assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
-    factors = restrict(band, first, last, tied_first, tied_last)
-    factorise(factors)
+    n = vectors.shape[1]
     values = np.zeros(2)
     for _ in range(iterations):
         for k in range(2):
