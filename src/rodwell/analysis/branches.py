@@ -115,6 +115,12 @@ class Branch:
         return changes[0].index_before if changes else int(after_first)
 
     @property
+    def reach(self) -> tuple[float, float]:
+        """Lowest and highest value of the parameter on the branch, folds included."""
+        values = [*self.values, *(p.value for p in self.special_points)]
+        return float(min(values)), float(max(values))
+
+    @property
     def last(self) -> tuple[Ladder, Point]:
         """Ladder and state of the last point, from which the branch can be continued."""
         return self._trace.ladders[-1], self._trace.points[-1]

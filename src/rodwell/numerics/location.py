@@ -78,7 +78,6 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     """
     a, b, c = high, low, high
     fa, fb, fc = f_high, f_low, f_high
-    nothing = PLACE_TOLERANCE * min(abs(f_low), abs(f_high))
     t = 0.5
     for _ in range(200):
         x = a + t * (b - a)
@@ -90,7 +89,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         a, fa = x, fx
         best, f_best = (a, fa) if abs(fa) < abs(fb) else (b, fb)
         share = PLACE_TOLERANCE / max(abs(b - a), PLACE_TOLERANCE)
-        if share >= 0.5 or abs(f_best) <= nothing:
+        if share >= 0.5 or f_best == 0.0:
             return best
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
         if phi**2 < xi and (1.0 - phi) ** 2 < 1.0 - xi:

@@ -209,6 +209,6 @@ def _check_reached(case: Case, branch: Branch, until: float) -> None:
         unit, factor = "N", case.scales.factor("force")
     raise NotConvergedError(
         f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
-        f"{branch.force.min() * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
+        f"{branch.reach[0] * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
         "give a load.until above that"
     )

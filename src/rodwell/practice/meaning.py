@@ -98,7 +98,7 @@ def _applied(answer: Answer) -> list[str]:
 def _lift_off(answer: Answer) -> str:
     lift = answer.lift_off
     if lift is None and not answer.first.reached_end:
-        lowest, highest = (force_text(answer, float(f(answer.first.force))) for f in (np.min, np.max))
+        lowest, highest = (force_text(answer, force) for force in answer.first.reach)
         return (
             f"No lift-off was found on the first mode, but its branch could be followed only over end forces from "
             f"{lowest} to {highest} at s = 1: {answer.first.ended_because}."
