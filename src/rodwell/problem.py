@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,9 +39,9 @@ def checked_ends(ends: object) -> tuple[str, str]:
     raise InputError("ends", ends, f"must be two of {', '.join(ENDS)}, that at s = 0 first: for example clamped-pinned")
 
 
-def ends_text(problem: Problem) -> str:
-    """End conditions in words."""
-    first, last = problem.ends
+def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
+    """End conditions in words: their names, or what ``words`` says of each."""
+    first, last = (words[end] if words else end for end in problem.ends)
     return f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
 
 

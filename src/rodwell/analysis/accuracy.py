@@ -37,6 +37,11 @@ def checked_rtol(rtol: float) -> float:
     return checked_number("rtol", rtol, LOWEST_RTOL, HIGHEST_RTOL, allowed)
 
 
+def checked_step(largest_step: float) -> float:
+    """Return a longest step of continuation that can be asked for, or raise."""
+    return checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
+
+
 def first_space(problem: Problem, compression: float, tension: float = 0.0) -> SplineSpace:
     """Spline space graded by the local wavenumber of (64) over a range of end forces.
 

@@ -27,8 +27,10 @@ from rodwell.analysis.special import (
     Origin,
     SpecialPoint,
 )
+from rodwell.analysis.symmetry import Reflection, images
 from rodwell.errors import InputError, NotConvergedError, checked_number
-from rodwell.numerics.continuation import INDEX, TURN, Found, Trace
+from rodwell.numerics.continuation import Trace
+from rodwell.numerics.events import INDEX, TURN, Found
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError, Span
 from rodwell.numerics.spaces import FloatArray
@@ -113,6 +115,12 @@ class Branch:
         changes = [f for f in self._trace.found if f.name == INDEX]
         after_first = self._trace.points[min(1, len(self) - 1)].fine.index
         return changes[0].index_before if changes else int(after_first)
+
+    @property
+    def images(self) -> tuple[Reflection, ...]:
+        """Reflections of the problem that make other branches out of this one, the identity first."""
+        middle = self[len(self) // 2]
+        return images(middle.problem, middle.point.fine.symmetry)
 
     @property
     def reach(self) -> tuple[float, float]:

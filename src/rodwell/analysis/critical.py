@@ -202,6 +202,4 @@ def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error
         vector = 0.5 * (vector + parity * vector[::-1])
     if _sense(problem, space, vector) < 0.0:
         vector = -vector
-    _, slope, bend = space.at_points(vector)
-    wavenumber = np.sqrt((space.weights @ bend**2) / (space.weights @ slope**2))
-    return Mode(problem, number, float(force), float(error), parity, float(wavenumber), space, vector)
+    return Mode(problem, number, float(force), float(error), parity, space.wavenumber(vector), space, vector)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodwell.analysis.dataset import Variable
 from rodwell.analysis.nomenclature import UNITS
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, checked_number
@@ -177,19 +178,19 @@ class Curve:
         """The points as an xarray Dataset."""
         import xarray as xr  # noqa: PLC0415 - slow to import
 
-        return xr.Dataset({k: (v[0], v[1], v[2]) for k, v in self.variables().items()}, attrs=self.attributes())
+        return xr.Dataset(dict(self.variables()), attrs=self.attributes())
 
-    def variables(self) -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
+    def variables(self) -> dict[str, Variable]:
         """Labelled arrays: dimensions, values, metadata."""
         unit = UNITS["force" if self.quantity == "force" else "moment"]
         about = {"long_name": convention(self.problem, self.quantity), "units": unit}
         text = [", ".join(f"{s:.9g}" for s in p.s) for p in self.points]
         return {
-            self.over: (("point",), self.x, {"long_name": LIMITS[self.over][2]}),
-            self.quantity: (("point",), self.values, about),
-            "error": (("point",), self.errors, {"long_name": "error estimate", "units": unit}),
-            "s": (("point",), np.array(text, dtype=object), {"long_name": "places that lift off, s/L"}),
-            "converged": (
+            self.over: Variable(("point",), self.x, {"long_name": LIMITS[self.over][2]}),
+            self.quantity: Variable(("point",), self.values, about),
+            "error": Variable(("point",), self.errors, {"long_name": "error estimate", "units": unit}),
+            "s": Variable(("point",), np.array(text, dtype=object), {"long_name": "places that lift off, s/L"}),
+            "converged": Variable(
                 ("point",),
                 np.array([p.converged for p in self.points], dtype=np.int8),
                 {"long_name": "1 if the point meets the tolerance"},

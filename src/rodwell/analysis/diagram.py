@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol
+from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol, checked_step
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.coiled import coil
 from rodwell.analysis.critical import MOST_MODES, CriticalLoads, critical_loads
@@ -15,8 +15,8 @@ from rodwell.analysis.exploring import Exploration, Joint, Progress
 from rodwell.analysis.families import PATHS
 from rodwell.analysis.follow import LARGEST_STEP, checked_end
 from rodwell.analysis.special import SpecialPoint
-from rodwell.analysis.symmetry import Reflection, images
-from rodwell.errors import InputError, checked_number, checked_whole
+from rodwell.analysis.symmetry import Reflection
+from rodwell.errors import InputError, checked_whole
 from rodwell.problem import Problem, ends_text
 
 if TYPE_CHECKING:
@@ -82,8 +82,7 @@ class Diagram:
 
     def images(self, branch: Branch) -> tuple[Reflection, ...]:
         """Reflections that make other branches of the diagram out of ``branch``, the identity first."""
-        middle = branch[len(branch) // 2]
-        return images(middle.problem, middle.point.fine.symmetry)
+        return branch.images
 
     @cached_property
     def datasets(self) -> dict[str, xr.Dataset]:
@@ -118,16 +117,7 @@ class Diagram:
 
 def special_dict(point: SpecialPoint) -> dict[str, Any]:
     """Return a special point as plain data."""
-    return {
-        "kind": point.kind,
-        "force": point.force,
-        "parameter": point.parameter,
-        "value": point.value,
-        "error": point.error,
-        "index_before": point.index_before,
-        "index_after": point.index_after,
-        "s": list(point.s),
-    }
+    return point.as_dict() | {"parameter": point.parameter, "value": point.value}
 
 
 def diagram(
@@ -144,9 +134,9 @@ def diagram(
     """Bifurcation diagram in the end force.
 
     Primary branches leave the straight rod at its critical loads; with ``problem.turns`` ≠ 0 the branch of the coil
-    takes their place. At every branch point on them the branch that leaves
-    there is followed too, until it meets a symmetric branch again or reaches the end. Branches that are images of
-    others by a reflection are not computed: :meth:`Diagram.images` names them.
+    takes their place. At every branch point on them the branch that leaves there is followed too, until it meets a
+    symmetric branch again or reaches the end. Branches that are images of others by a reflection are not computed:
+    :meth:`Diagram.images` names them.
 
     Parameters
     ----------
@@ -174,7 +164,7 @@ def diagram(
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
     rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
-    largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
+    largest_step = checked_step(largest_step)
     tell = progress or (lambda _what, _done: None)
     if then is not None and (then[0] not in PATHS or then[0] == "force"):
         raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")

@@ -103,10 +103,7 @@ class Exploration:
     def _meets_known(self, parent: Branch, point: SpecialPoint) -> bool:
         """Whether the branch that crosses ``parent`` at ``point`` is already there; noted if so."""
         for other in self.branches:
-            if other is not parent and any(
-                p.kind == BRANCH_POINT and p.index_before != p.index_after and _same(p.solution, point.solution)
-                for p in (other.special_points[1:] if other.origin.switched else other.special_points)
-            ):
+            if other is not parent and any(_same(p.solution, point.solution) for p in self._branch_points(other)):
                 self.joints.append(Joint(parent.name, other.name, point.force))
                 return True
         return False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol
+from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol, checked_step
 from rodwell.analysis.branches import Branch, continued
 from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.families import PATHS, parameter_value
@@ -13,14 +13,13 @@ from rodwell.analysis.special import (
     BRANCH_POINT,
     END,
     LIFT_OFF,
-    OUT_OF_RANGE,
     REJOINS,
     Origin,
     SpecialPoint,
 )
 from rodwell.analysis.starts import at_branch_point, at_critical, at_state
 from rodwell.analysis.tracing import Progress, traced
-from rodwell.errors import InputError, NotConvergedError, checked_number, checked_whole
+from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.continuation import Stepping
 from rodwell.problem import Problem
 
@@ -91,7 +90,7 @@ def follow(
         If the branch cannot even be started.
     """
     rtol = checked_rtol(rtol)
-    largest_step = checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
+    largest_step = checked_step(largest_step)
     if parameter not in PATHS:
         raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:
@@ -132,8 +131,7 @@ def _from_straight(
     limit = found.force - REACH * found.wavenumber**2 if until is None else until
     if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
-    stops = (END, OUT_OF_RANGE, LIFT_OFF) if until is None else (END, OUT_OF_RANGE)
-    result = traced(problem, start, limit, stepping, stops, switched=True, progress=progress)
+    result = traced(problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=progress)
     if len(result.points) == 1:
         raise NotConvergedError(
             f"mode {found.number} could not be followed from its critical load {found.force:.6g} B/L²: {result.end}"
@@ -163,9 +161,7 @@ def _from_state(
         raise InputError("until", until, "must differ from the value at the start")
     stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
     begin = at_state(problem, start, parameter, until, rtol)
-    result = traced(
-        problem, begin, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=False, progress=progress
-    )
+    result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=progress)
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
     return Branch(problem, origin, result, result.end == END, result.end, parameter)
 
@@ -196,8 +192,7 @@ def branch_off(
     point
         A special point of kind "branch_point", from ``Branch.special_points``.
     until
-        Value of the branch's parameter (the end force, usually) at which to end on the way down; on the way up it
-        ends at the same distance.
+        Value of the branch's parameter (the end force, usually) at which to end.
     mirror
         The other of the two directions. On a symmetric branch it gives the mirror image.
     rtol, largest_step, progress
@@ -216,11 +211,9 @@ def branch_off(
         raise InputError("point", point.kind, "must be a special point of kind branch_point")
     problem, parameter = point.solution.problem, point.parameter
     until = checked_end(problem, parameter, until)
-    start = at_branch_point(point, mirror, checked_rtol(rtol))
+    start, largest_step = at_branch_point(point, mirror, checked_rtol(rtol)), checked_step(largest_step)
     stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
-    result = traced(
-        problem, start, until, stepping, (END, OUT_OF_RANGE), parameter=parameter, switched=True, progress=progress
-    )
+    result = traced(problem, start, until, stepping, parameter=parameter, switched=True, progress=progress)
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
@@ -236,11 +229,8 @@ def extended(branch: Branch, until: float, *, progress: Progress | None = None) 
         If ``until`` is out of range.
     """
     until = checked_force("until", until)
-    ladder, point = branch.last
     stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
-    result = traced(
-        branch.problem, (ladder, point), until, stepping, (END, OUT_OF_RANGE), switched=False, progress=progress
-    )
+    result = traced(branch.problem, branch.last, until, stepping, switched=False, progress=progress)
     return continued(branch, result, result.end == END, result.end)
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.continuation import INDEX, TURN
+from rodwell.numerics.events import INDEX, TURN
 from rodwell.numerics.families import Outcome
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
@@ -65,6 +66,17 @@ class SpecialPoint:
     solution: Solution
     after: int
     parameter: str = "force"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the point without its state as plain data, for JSON."""
+        return {
+            "kind": self.kind,
+            "force": self.force,
+            "error": self.error,
+            "index_before": self.index_before,
+            "index_after": self.index_after,
+            "s": list(self.s),
+        }
 
 
 @dataclass(frozen=True)

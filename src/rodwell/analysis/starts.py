@@ -71,7 +71,7 @@ def at_state(problem: Problem, start: Solution, parameter: str, until: float, rt
         problem,
         old.coarse.space,
         parity=kept_parity(problem, old.fine.symmetry, parameter),
-        wavenumber=_wavenumber(old.fine),
+        wavenumber=old.fine.space.wavenumber(old.fine.c),
         scale=abs(until - here),
         parameter=parameter,
         force=start.force,
@@ -189,10 +189,3 @@ def _symmetric_state(equilibria: Family, state: State, parity: int) -> State | N
     c = state.symmetrised(parity)
     row, row_lam, _, _ = equilibria.covector(c - c[0], 0.0)
     return equilibria.correct(c, state.lam, row, row_lam, float(row @ c))[1]
-
-
-def _wavenumber(state: State) -> float:
-    """√(∫y''²/∫y'²) of a state, in rad/L."""
-    _, slope, bend = state.space.at_points(state.c)
-    weights = state.space.weights
-    return float(np.sqrt((weights @ bend**2) / max(weights @ slope**2, 1e-300)))

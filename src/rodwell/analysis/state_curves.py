@@ -73,7 +73,7 @@ def lift_off_curve(
     lift = branch.lift_off
     if lift is None or lift.kind != LIFT_OFF:
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
-    zero = _Crossing(problem, over, "force", lambda family, state: pressure_maxima(family, state)[1].max(), touch=True)
+    zero = _Crossing(problem, over, _highest_pressure, touch=True)
     at_end = problem.but(**{over: end})
     vanishes = at_end.lateral_weight == 0.0
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
@@ -133,7 +133,7 @@ def secondary_curve(
             f"{over} = {start:g}: start elsewhere, or give until"
         )
     point = found[number - 1]
-    zero = _Crossing(problem, over, "force", _Softest(point.solution), touch=False)
+    zero = _Crossing(problem, over, _Softest(point.solution), touch=False)
     points, marks, why = trace_curve(zero, Seed(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
 
@@ -183,18 +183,21 @@ class _Crossing(Zero):
     """Zero of a function of a state in the plane of a load and another parameter."""
 
     def __init__(
-        self, problem: Problem, over: str, load: str, function: Callable[[Family, State], float], *, touch: bool
+        self,
+        problem: Problem,
+        over: str,
+        function: Callable[[Family, State], float],
+        *,
+        touch: bool,
+        load: str = "force",
     ) -> None:
         super().__init__(over, load)
         self.problem, self.function, self.touch = problem, function, touch
 
     def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
         problem = self.problem.but(**{self.over: spot.x})
-        fixed = {"force": spot.value} if self.load == "force" else {}
-        if self.load == "twist" and along != "twist":
-            problem = problem.but(twist=spot.value)
         parity = kept_parity(problem, ladder.coarse.parity, self.over)
-        return ladder.on_path(path(problem, along, **fixed), spline_ends(problem), parity)
+        return ladder.on_path(path(problem, along, spot.value), spline_ends(problem), parity)
 
     def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
         return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
@@ -206,8 +209,8 @@ class _TwistAtLiftOff(_Crossing):
     either_way = False
 
     def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
-        super().__init__(problem, over, "twist", lambda f, state: pressure_maxima(f, state)[1].max(), touch=True)
-        self.first = _Crossing(problem, over, "force", self.function, touch=True)
+        super().__init__(problem, over, _highest_pressure, touch=True, load="twist")
+        self.first = _Crossing(problem, over, _highest_pressure, touch=True)
         self.lifting = lifting
 
     def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
@@ -219,6 +222,11 @@ class _TwistAtLiftOff(_Crossing):
 
     def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
         return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, ladder)
+
+
+def _highest_pressure(family: Family, state: State) -> float:
+    """Largest contact pressure, with the sign that makes contact negative."""
+    return float(pressure_maxima(family, state)[1].max())
 
 
 class _Softest:

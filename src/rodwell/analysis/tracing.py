@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from rodwell.analysis.measures import STEEPEST, Measured
 from rodwell.analysis.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_RANGE, REJOINS, STRAIGHT
 from rodwell.analysis.starts import Start, rejoined
-from rodwell.numerics.continuation import INDEX, TURN, Event, Found, Stepping, Trace, trace
+from rodwell.numerics.continuation import Stepping, Trace, trace
+from rodwell.numerics.events import INDEX, TURN, Event, Found
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
@@ -38,18 +39,18 @@ def traced(
     start: Start,
     until: float,
     stepping: Stepping,
-    stops: Sequence[str],
     *,
+    at_lift_off: bool = False,
     parameter: str = "force",
     switched: bool,
     progress: Progress | None,
 ) -> Trace:
     """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
     ladder, point = start
+    stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
     events = [_ACROSS, Event(END, lambda lam, _: lam - until)]
     if problem.lateral_weight > 0.0 or problem.turns != 0:
         events.append(_CONTACT)
-
     if problem.turns != 0:
         events.append(_ENERGY)
     if parameter != "force":
@@ -58,7 +59,6 @@ def traced(
         if back == 0.0 and parameter == "clearance":
             back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
         events.append(Event(LEFT, lambda lam, _: lam - back))
-        stops = (*stops, LEFT)
 
     meetings: dict[float, Found | None] = {}
 

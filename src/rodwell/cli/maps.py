@@ -11,6 +11,7 @@ from rodwell.cli.options import (
     json_option,
     make_problem,
     out_option,
+    places_text,
     print_json,
     problem_options,
     progress_bar,
@@ -97,10 +98,9 @@ def _print_diagram(result: Diagram) -> None:
         mirrored = f"   images: {', '.join(others)}" if others else ""
         click.echo(f"\n{branch.name}{parent}: {len(branch)} points{mirrored}")
         for p in branch.special_points:
-            where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
             index = f"index {p.index_before} → {p.index_after}"
             value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
-            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{where}")
+            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}")
         if not branch.reached_end or branch.origin.parent:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
@@ -207,8 +207,7 @@ def _print_curves(curves: Sequence[Curve]) -> None:
         step = max(1, (len(item) - 1) // (SHOWN - 1))
         shown = [*item.points[:-1:step], item.points[-1]]
         for p in shown:
-            where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in p.s) if p.s else ""
-            click.echo(f"  {item.over} = {p.x:<12.8g} {p.value:+.10g}  ± {p.error:.1e}{where}")
+            click.echo(f"  {item.over} = {p.x:<12.8g} {p.value:+.10g}  ± {p.error:.1e}{places_text(p.s)}")
         for m in item.marks:
             click.echo(
                 f"  {m.kind}: {item.over} = {m.x:.10g} ± {m.x_error:.1e}, {m.value:+.10g} ± {m.error:.1e}; {m.note}"

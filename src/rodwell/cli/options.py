@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -70,6 +70,11 @@ def make_problem(given: dict[str, Any]) -> Problem:
 def print_json(data: dict[str, Any]) -> None:
     """Print data as JSON."""
     click.echo(json.dumps(data, ensure_ascii=False))
+
+
+def places_text(places: Sequence[float]) -> str:
+    """Places along the rod at the end of a line, or nothing."""
+    return "   at s/L = " + ", ".join(f"{s:.6g}" for s in places) if places else ""
 
 
 def out_option(name: str) -> Callable[[Any], Any]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from rodwell.cli.options import json_option, make_problem, print_json, problem_options, rtol_option
+from rodwell.cli.options import json_option, make_problem, places_text, print_json, problem_options, rtol_option
 
 UNIT = "B/L²"
 
@@ -85,10 +85,9 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
             }
         )
         return
-    where = "   at s/L = " + ", ".join(f"{s:.6g}" for s in places) if places else ""
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {found.number}  {found.force:+.10g}  ± {found.error:.1e}")
-    click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{where}")
+    click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{places_text(places)}")
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
     if not branch.converged:

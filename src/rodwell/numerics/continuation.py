@@ -12,14 +12,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rodwell.numerics.events import INDEX, TURN, Event, Found, events_between
+from rodwell.numerics.events import Event, Found, events_between
 from rodwell.numerics.families import Outcome, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError
 from rodwell.numerics.spaces import FloatArray
 from rodwell.numerics.watch import Watch, hidden_change
-
-__all__ = ["INDEX", "TURN", "Event", "Found", "Stepping", "Trace", "trace"]
 
 STRAYED = 0.2
 """A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""

@@ -76,15 +76,6 @@ def dot(x, y):
 
 
 @kernel
-def gather_row(row, w, first, last, tied_first, tied_last):
-    """Add the entries of ``row`` at tied unknowns to those of their neighbours in ``w``."""
-    if tied_first:
-        w[first] += row[0]
-    if tied_last:
-        w[last - 1] += row[row.size - 1]
-
-
-@kernel
 def solve_within(factors, x, first, last, tied_first, tied_last, parity, frozen, covector):
     """Solve H x = b in place for the free unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
@@ -133,9 +124,10 @@ def correct(
         negative = factorise(inner)
         gap = target - row_lam * lam - dot(row, c)
         for i in range(n):
-            free = first <= i < last
-            b[i], w[i] = (mixed[i], row[i]) if free else (0.0, 0.0)
-        gather_row(row, w, first, last, tied_first, tied_last)
+            w[i] = row[i]
+        gather(w, first, last, tied_first, tied_last)
+        for i in range(n):
+            b[i], w[i] = (mixed[i], w[i]) if first <= i < last else (0.0, 0.0)
         solve_within(inner, b, first, last, tied_first, tied_last, parity, frozen, covector)
         solve_within(inner, w, first, last, tied_first, tied_last, parity, frozen, covector)
         first_dlam, lever = gap, row_lam

@@ -13,6 +13,7 @@ from rodwell.numerics.ends import Ends
 FloatArray = NDArray[np.float64]
 
 SAMPLES_PER_ELEMENT = 3
+TINY = 1e-300
 
 
 @lru_cache
@@ -82,6 +83,11 @@ class SplineSpace:
         """Values and two derivatives at the quadrature points, shape (3, m)."""
         local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1)
         return np.asarray(np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1))
+
+    def wavenumber(self, coefficients: FloatArray) -> float:
+        """√(∫y''²/∫y'²) of a function, in rad per unit length."""
+        _, slope, bend = self.at_points(coefficients)
+        return float(np.sqrt((self.weights @ bend**2) / max(self.weights @ slope**2, TINY)))
 
     def refined(self, marked: NDArray[np.bool_] | None = None) -> SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""

@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.symmetry import ODD, Reflection, images
+from rodwell.analysis.symmetry import ODD, Reflection
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
@@ -61,7 +61,7 @@ def plot_bifurcation(
     seen: set[str] = set()
     for number, branch in enumerate(branches):
         color = _color(branch, number)
-        for image in images(branch.problem, branch[len(branch) // 2].point.fine.symmetry):
+        for image in branch.images:
             line = _Line(branch, image, ordinate)
             _draw(ax, line, color, fx, fy)
             seen |= _special(ax, line, color, fx, fy)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 from rodwell._version import __version__
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
+from rodwell.analysis.exploring import Progress
 from rodwell.analysis.follow import extended, follow
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
@@ -17,9 +17,6 @@ from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures
 from rodwell.problem import ends_text
-
-Progress = Callable[[str, float], None]
-"""Called with what is being done and how much of the whole is done (0 to 1)."""
 
 
 @dataclass(frozen=True)
@@ -131,14 +128,8 @@ def _branch_dict(branch: Branch) -> dict[str, Any]:
         "points": len(branch),
         "reached_end": branch.reached_end,
         "ended_because": branch.ended_because,
-        "special_points": [
-            {
-                "kind": p.kind, "force": p.force, "error": p.error,
-                "index_before": p.index_before, "index_after": p.index_after, "s": list(p.s),
-            }
-            for p in branch.special_points
-        ],
-    }  # fmt: skip
+        "special_points": [point.as_dict() for point in branch.special_points],
+    }
 
 
 def answer(case: Case, progress: Progress | None = None) -> Answer:

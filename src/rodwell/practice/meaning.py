@@ -7,6 +7,7 @@ import numpy as np
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.units import readable
+from rodwell.problem import ends_text
 
 ASSUMPTIONS = (
     "end force and end torque are dead loads at s = 1",
@@ -26,9 +27,7 @@ ENDS_HOLD = {
 
 def assumptions(answer: Answer) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
-    first, last = (ENDS_HOLD[end] for end in answer.case.problem.ends)
-    ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
-    return (ends, *ASSUMPTIONS)
+    return (ends_text(answer.case.problem, ENDS_HOLD), *ASSUMPTIONS)
 
 
 def force_text(answer: Answer, value: float, error: float | None = None) -> str:

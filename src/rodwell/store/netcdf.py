@@ -104,7 +104,7 @@ def write_curves(curves: Sequence[Curve], path: Path) -> None:
     """Write curves to a NetCDF file; ``curve`` (point) holds the number of the curve, from 1."""
     parts = []
     for number, curve in enumerate(curves, start=1):
-        part = {name: Variable(*variable) for name, variable in curve.variables().items()}
+        part = curve.variables()
         part["curve"] = Variable(("point",), np.full(len(curve), number), {"long_name": "number of the curve, from 1"})
         parts.append(part)
     variables = {
