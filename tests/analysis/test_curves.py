@@ -130,7 +130,7 @@ def test_the_touching_place_switches_where_both_places_touch() -> None:
     at = follow(Problem(mark.x)).lift_off
     assert at is not None
     p = at.solution.fields(np.array([0.5, after.s[0]]))["contact_pressure"]
-    assert p == pytest.approx([0.0, 0.0], abs=1e-3)
+    assert p == pytest.approx([0.0, 0.0], abs=1e-5)
 
 
 def test_secondary_curve_ends_at_the_double_point() -> None:

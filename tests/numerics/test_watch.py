@@ -1,0 +1,62 @@
+"""Watching the softest eigenvalues: against dense linear algebra, and what counts as a dip through zero."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from rodwell import Problem, diagram, follow
+from rodwell.numerics import continuation
+from rodwell.numerics.watch import Watch, _dips, hidden_change
+
+PLACE = np.array([-1.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize("values", [[1.0, 0.2, 1.0], [-1.0, -0.1, -3.0], [0.5, 0.1, 0.5]])
+def test_a_deep_minimum_may_be_a_dip(values: list[float]) -> None:
+    """At unequal distances the parabola through the last three goes below half of the middle value, or below zero."""
+    assert _dips(np.array([-1.0, 0.0, 0.2]), np.array(values))
+
+
+@pytest.mark.parametrize("values", [[1.0, 0.95, 1.0], [3.0, 2.0, 1.0], [1.0, -0.1, 1.0], [1.0, 2.0, 1.0]])
+def test_what_is_no_dip(values: list[float]) -> None:
+    """Shallow, falling, of two signs (a change that counting sees), or a maximum."""
+    assert not _dips(PLACE, np.array(values))
+
+
+def dense(band: np.ndarray) -> np.ndarray:
+    out = np.zeros((len(band), len(band)))
+    for k in range(band.shape[1]):
+        i = np.arange(len(band) - k)
+        out[i + k, i] = out[i, i + k] = band[: len(i), k]
+    return out
+
+
+def test_softest_eigenvalues_against_dense_ones() -> None:
+    branch = follow(Problem(15.0), until=-340.0)
+    ladder, point = branch.last
+    watch = Watch()
+    for _ in range(12):
+        watch.add(ladder, point.light(), 0.0)
+    family = ladder.coarse
+    hessian = dense(family.free_part(family.assemble(point.coarse.c, point.coarse.lam)[2]))
+    values, vectors = eigh(hessian, dense(family.free_part(family.space.slope_gram)))
+    parity = np.array([np.sign(v @ v[::-1]) for v in vectors.T])
+    expected = [min(values[parity == p], key=abs) for p in (1, -1)]
+    assert watch.values[-1] == pytest.approx(expected, rel=1e-4)
+
+
+def test_a_branch_is_looked_at_between_points_where_an_eigenvalue_dips(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With twist 0.5 the secondary branch has index 1 → 0 → 1 within 0.006 of load, far less than a step."""
+    seen = []
+
+    def counted(*arguments: Any) -> bool:
+        seen.append(hidden_change(*arguments))
+        return seen[-1]
+
+    monkeypatch.setattr(continuation, "hidden_change", counted)
+    diagram(Problem(15.0, twist=0.5), modes=1, until=-450.0, largest_step=0.04)
+    assert any(seen)
