@@ -35,6 +35,10 @@ def test_rates_are_those_of_the_twisted_rod() -> None:
     force, h = found.prepared.force, 1e-3
     p = [follow(Problem(15.0, twist=t), until=force)[-1].fields([0.5])["contact_pressure"][0] for t in (-h, h)]  # type: ignore[arg-type]
     assert found.rates[0] == pytest.approx((p[1] - p[0]) / (2.0 * h), rel=1e-4)
+    assert found.rates[0] == pytest.approx(
+        -torsion(Problem(15.0), mirror=True).rates[0], abs=2.0 * found.rate_errors[0]
+    )
+    assert found.rate_errors[0] < 1e-4 * abs(found.rates[0])
 
 
 def test_second_lift_off_is_a_lift_off_of_the_twisted_rod() -> None:

@@ -219,7 +219,14 @@ class _Table:
         bend = abs(right.gap_slope(a, b) - left.gap_slope(a, b)) / abs(right.x - left.x)
         x_error = math.sqrt(error / bend) if bend > 0.0 else abs(right.x - left.x)
         gap = abs(node.gap(a, b))
-        return Mark(VEERING, x, x_error, load.force, load.error, f"modes {a[1]} and {b[1]} come within {gap:.6g} B/L²")
+        return Mark(
+            VEERING,
+            x,
+            x_error,
+            load.force,
+            load.error,
+            f"modes {a[1]} and {b[1]} come within {gap:.6g} ± {error:.0e} B/L²",
+        )
 
 
 def _half(problem: Problem, parity: int) -> Problem:

@@ -16,6 +16,7 @@ from rodwell.analysis.special import SpecialPoint
 from rodwell.analysis.starts import at_state
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import estimated_error
 from rodwell.physics.strand import towards_lift_off
 from rodwell.problem import Problem, ends_text
 
@@ -39,8 +40,9 @@ class Torsion:
         The problem, without twist.
     prepared
         The lift-off point: its force stays applied.
-    rates
-        dp/dT₁ at each place that lifts off, in 1/L²: a place is pressed to the wall by twist of the opposite sign.
+    rates, rate_errors
+        dp/dT₁ at each place that lifts off, in 1/L²: a place is pressed to the wall by twist of the opposite sign; and
+        the estimates of their errors.
     sense
         Sign of the twist that presses all of these places to the wall; 0 if there is none.
     branch
@@ -52,6 +54,7 @@ class Torsion:
     problem: Problem
     prepared: SpecialPoint
     rates: tuple[float, ...]
+    rate_errors: tuple[float, ...]
     sense: int
     branch: Branch | None
     again: SpecialPoint | None
@@ -91,6 +94,7 @@ class Torsion:
             "error": self.prepared.error,
             "s": list(self.prepared.s),
             "pressure_rates": list(self.rates),
+            "pressure_rate_errors": list(self.rate_errors),
             "sense": self.sense,
             "again": None if again is None else {"twist": again.value, "error": again.error, "s": list(again.s)},
             "converged": self.prepared.solution.converged and (self.branch is None or self.branch.converged),
@@ -137,27 +141,33 @@ def torsion(
     lift = follow(problem, mode, mirror=mirror, rtol=rtol).lift_off
     if lift is None:
         raise NotConvergedError("the rod has no lift-off within reach, at which it could be prepared")
-    rates = pressure_rates(lift.solution, lift.s)
+    rates, errors = pressure_rates(lift.solution, lift.s)
     size = NO_RATE * problem.lateral_weight * max(1.0, 1.0 / problem.clearance)
     senses = {0 if abs(rate) < size else int(-np.sign(rate)) for rate in rates}
     sense = senses.pop() if len(senses) == 1 else 0
     if sense == 0:
-        return Torsion(problem, lift, rates, 0, None, None)
+        return Torsion(problem, lift, rates, errors, 0, None, None)
     branch = follow(problem, start=lift.solution, parameter="twist", until=sense * until, rtol=rtol)
-    return Torsion(problem, lift, rates, sense, branch, branch.lift_off)
+    return Torsion(problem, lift, rates, errors, sense, branch, branch.lift_off)
 
 
-def pressure_rates(solution: Solution, places: tuple[float, ...]) -> tuple[float, ...]:
-    """dp/dT₁ along equilibria at constant force, at given places (p with the sign that makes contact negative)."""
+def pressure_rates(solution: Solution, places: tuple[float, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """dp/dT₁ along equilibria at constant force, at given places (p with the sign that makes contact negative).
+
+    Returns the rates and the estimates of their errors: from the two meshes and from twice the step.
+    """
     ladder, point = at_state(solution.problem, solution, "twist", solution.problem.twist + 1.0, solution.ladder.rtol)
-    state = point.fine
-    direction = state.tangent / state.tangent_lam
+    at = np.array(places)
 
-    def pressure(step: float) -> np.ndarray:
-        return _pressure(ladder.fine, state, state.c + step * direction, state.lam + step, np.array(places))
+    def rate(family: Family, state: State, step: float) -> np.ndarray:
+        direction = state.tangent / state.tangent_lam
+        up, down = (_pressure(family, state, state.c + h * direction, state.lam + h, at) for h in (step, -step))
+        return np.asarray((up - down) / (2.0 * step))
 
-    rates = (pressure(STEP) - pressure(-STEP)) / (2.0 * STEP)
-    return tuple(float(rate) for rate in rates)
+    fine = rate(ladder.fine, point.fine, STEP)
+    errors = estimated_error(fine, rate(ladder.coarse, point.coarse, STEP))
+    errors = errors + np.abs(rate(ladder.fine, point.fine, 2.0 * STEP) - fine)
+    return tuple(map(float, fine)), tuple(map(float, errors))
 
 
 def _pressure(family: Family, state: State, c: np.ndarray, twist: float, places: np.ndarray) -> np.ndarray:

@@ -116,6 +116,6 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     lift = result.prepared
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
     click.echo(f"  prepared at lift-off of mode {mode}  F = {lift.force:+.10g}  ± {lift.error:.1e}")
-    for s, rate in zip(lift.s, result.rates, strict=True):
-        click.echo(f"  at s/L = {s:.6g}  dp/dT₁ = {rate:+.6g} 1/L²")
+    for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
+        click.echo(f"  at s/L = {s:.6g}  dp/dT₁ = {rate:+.6g} ± {error:.0e} 1/L²")
     click.echo(result.meaning)
