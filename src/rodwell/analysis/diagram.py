@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from rodwell.analysis import ahead
 from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol, checked_step
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.coiled import coil
@@ -163,6 +164,7 @@ def diagram(
     NotConvergedError
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
+    ahead.begin()
     rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
     largest_step = checked_step(largest_step)
     tell = progress or (lambda _what, _done: None)

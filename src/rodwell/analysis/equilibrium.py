@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis import ahead
 from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol, first_space
 from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.measures import measured_ladder
@@ -37,6 +38,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     NotConvergedError
         If no minimum was found, with the reason.
     """
+    ahead.begin()
     rtol = checked_rtol(rtol)
     force = checked_force("force", force)
     if problem.turns == 0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rodwell.analysis import ahead
 from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol, checked_step
 from rodwell.analysis.branches import Branch, continued
 from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
@@ -91,6 +92,7 @@ def follow(
     """
     rtol = checked_rtol(rtol)
     largest_step = checked_step(largest_step)
+    ahead.begin()
     if parameter not in PATHS:
         raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:

@@ -6,6 +6,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from rodwell.compiling import wait_for
 from rodwell.jit import kernel
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
@@ -103,6 +104,7 @@ def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArra
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space = state.space
     grid, table = space.samples
+    wait_for("contact_maxima")
     places, values, lowest = contact_maxima(
         family.model,
         space.knots,

@@ -94,9 +94,10 @@ def progress_bar(show: bool, first: str) -> Iterator[Progress]:
     from rich.console import Console  # noqa: PLC0415
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
-    from rodwell.numerics.corrector import compiled_before  # noqa: PLC0415
+    from rodwell.compiling import on_disk  # noqa: PLC0415
+    from rodwell.numerics.corrector import correct  # noqa: PLC0415
 
-    note = "" if compiled_before() else " (first run: compiling once, some seconds)"
+    note = "" if on_disk(correct) else " (first run: compiling once, some seconds)"
     columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(first + note, total=1.0)

@@ -21,8 +21,6 @@ which a nearly singular H would blow up near a symmetry-breaking bifurcation. Wh
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from rodwell.jit import kernel
@@ -178,9 +176,3 @@ def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
         tangent_c[i] /= length
     tangent_lam /= length
     return row, weight_lam * tangent_lam, tangent_lam
-
-
-def compiled_before() -> bool:
-    """Whether compiled kernels lie on disk from an earlier run (if not, the first use takes some seconds)."""
-    folder = Path(correct.stats.cache_path)
-    return any(folder.glob("corrector.correct-*.nbc"))

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.compiling import wait_for
 from rodwell.numerics import assembly, banded, corrector
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.spaces import FloatArray, SplineSpace
@@ -165,6 +166,7 @@ class Family:
         tangent = np.empty_like(c)
         free = self.free
         frozen, covector = self._normalised(frozen)
+        wait_for("correct")
         status, lam, index, energy, steps, factors = corrector.correct(
             self.model, space.local_tag, space.table, space.points, space.weights, free.start, free.stop,
             *self.ends.tied, self.parity, frozen, covector, c, lam, self.path, row, row_lam, target,

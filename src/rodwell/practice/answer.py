@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from rodwell._version import __version__
+from rodwell.analysis import ahead
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.exploring import Progress
@@ -150,6 +151,7 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
+    ahead.begin()
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)

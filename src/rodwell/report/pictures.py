@@ -19,7 +19,8 @@ from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
 from rodwell.practice.answer import Answer
 
-DPI = 140
+PNG: Any = {"dpi": 140, "pil_kwargs": {"compress_level": 2}}
+"""Options of PNG files: the highest compression took longer than the drawing, for files a little smaller."""
 
 
 def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
@@ -35,7 +36,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
         }
         out = {}
         for name, ax in axes.items():
-            ax.figure.savefig(folder / f"{name}.png", dpi=DPI)
+            ax.figure.savefig(folder / f"{name}.png", **PNG)
             if name == "rod-3d":
                 out[name] = ("png", (folder / f"{name}.png").read_bytes())
                 continue
@@ -61,6 +62,6 @@ def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
 
 
 def _save(ax: Any, path: Path) -> None:
-    ax.figure.savefig(path.with_suffix(".png"), dpi=DPI)
+    ax.figure.savefig(path.with_suffix(".png"), **PNG)
     ax.figure.set_layout_engine("none")
     ax.figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})

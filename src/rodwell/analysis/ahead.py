@@ -1,0 +1,54 @@
+"""What the second process of a first run compiles: see :mod:`rodwell.compiling`.
+
+``python -m rodwell.analysis.ahead`` compiles the kernels below in the order in which a branch needs them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+from numba import types
+
+from rodwell import compiling
+from rodwell.analysis.accuracy import DEGREE
+from rodwell.numerics.corrector import correct
+from rodwell.numerics.extrema import contact_maxima
+from rodwell.physics.model import RodOnCylinder
+
+_VECTOR = types.Array(types.float64, 1, "C")
+_MATRIX = types.Array(types.float64, 2, "C")
+_TABLE = types.Array(types.float64, 3, "C")
+_MODEL: Any = numba.typeof(RodOnCylinder())  # type: ignore[no-untyped-call]
+_TAG: Any = types.UniTuple(types.int64, DEGREE + 1)  # type: ignore[no-untyped-call]
+_FREE = (types.int64, types.int64, types.boolean, types.boolean)  # first, last, tied_first, tied_last
+
+KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
+    (
+        correct,
+        (
+            *(_MODEL, _TAG, _TABLE, _VECTOR, _VECTOR, *_FREE, types.int64),  # ... points, weights, free, parity
+            *(_VECTOR, _VECTOR, _VECTOR, types.float64, _MATRIX, _VECTOR, types.float64, types.float64),  # ... target
+            *(types.float64, types.float64, types.float64, types.int64, types.int64, _VECTOR),  # scales ... tangent
+        ),
+    ),
+    (contact_maxima, (_MODEL, _VECTOR, types.int64, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+)
+"""Kernels and the types of their arguments: the only ones with which they are called."""
+
+
+def begin() -> None:
+    """Start the second process, on the first run."""
+    if correct.stats.cache_path is not None and not compiling.on_disk(correct):
+        compiling.begin(__name__)
+
+
+def main() -> None:
+    """Compile, and print the name of each kernel that is done."""
+    for kernel, arguments in KERNELS:
+        kernel.compile(arguments)
+        print(kernel.py_func.__name__, flush=True)  # read by the first process
+
+
+if __name__ == "__main__":
+    main()

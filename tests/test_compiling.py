@@ -1,0 +1,77 @@
+"""The second process of a first run: it compiles what is really called, and nothing hangs without it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+import rodwell
+from rodwell import compiling
+from rodwell.analysis import ahead
+
+
+@pytest.fixture
+def no_helper(monkeypatch):
+    monkeypatch.setattr(compiling, "_helper", None)
+    monkeypatch.setattr(os, "cpu_count", lambda: 2)
+
+
+def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
+    rodwell.follow(rodwell.Problem(weight=15, alpha=90), until=-130)
+    for kernel, arguments in ahead.KERNELS:
+        kernel.compile(arguments)
+        assert len(kernel.signatures) == 1  # compiling ahead added none: it was the one in use
+
+
+def test_each_kernel_is_announced(capsys):
+    ahead.main()
+    assert capsys.readouterr().out.split() == ["correct", "contact_maxima"]
+
+
+def test_waiting_ends_with_the_name_and_when_the_other_process_dies(no_helper, tmp_path, monkeypatch):
+    (tmp_path / "short_lived.py").write_text("print('one', flush=True)\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    compiling.begin("short_lived")
+    compiling.wait_for("one")
+    assert "one" in compiling._helper.ready
+    compiling.wait_for("never printed")
+    assert compiling._helper.process is None
+
+
+def test_without_permission_to_start_processes_there_is_no_helper(no_helper, monkeypatch):
+    def refused(*_args, **_options):
+        raise PermissionError
+
+    monkeypatch.setattr(subprocess, "Popen", refused)
+    compiling.begin("anything")
+    assert compiling._helper is None
+    compiling.wait_for("correct")
+
+
+def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
+    begun = []
+    monkeypatch.setattr(compiling, "begin", begun.append)
+    monkeypatch.setattr(compiling, "on_disk", lambda _kernel: False)
+    ahead.begin()
+    assert begun == ["rodwell.analysis.ahead"]
+    monkeypatch.setattr(compiling, "on_disk", lambda _kernel: True)
+    ahead.begin()
+    assert len(begun) == 1
+
+
+def test_machine_code_on_disk_is_seen(tmp_path):
+    script = (
+        "from rodwell import compiling; from rodwell.numerics.corrector import dot; import numpy as np;"
+        "print(compiling.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(compiling.on_disk(dot))"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", script],
+        env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert run.stdout.split() == ["False", "True"]
