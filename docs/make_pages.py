@@ -198,7 +198,7 @@ def _numbers(answer: dict[str, Any]) -> dict[str, str]:
     out["compression_2"] = out["critical_load_2"].lstrip("−")
     out["lift_off_compression"] = out["lift_off_load"].lstrip("−")
     out["gamma"] = f"{answer['problem']['weight']:.6g}"
-    out["certificate"] = f"{answer['certificate']:.0e}".replace("-", "−")
+    out["certificate"] = f"{answer['certificate']['worst']:.0e}".replace("-", "−")
     force = answer["figures"]["critical_load_1"]
     unit = force["si"]["value"] / force["value"]
     out["force_unit"] = readable(unit, "N", 6)

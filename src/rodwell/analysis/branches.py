@@ -65,6 +65,7 @@ class Branch:
     ) -> None:
         self.problem, self.origin, self.parameter = problem, origin, parameter
         self._trace = result
+        self._solutions: dict[int, Solution] = {}
         self.reached_end, self.ended_because = reached, why
         self.special_points = self._special_points()
 
@@ -72,7 +73,10 @@ class Branch:
         return len(self._trace.points)
 
     def __getitem__(self, i: int) -> Solution:
-        return self._solution(self._trace.points[i], self._trace.ladders[i])
+        i = range(len(self))[i]  # refuses what lies outside
+        if i not in self._solutions:  # kept: with it the certificate, once asked for
+            self._solutions[i] = self._solution(self._trace.points[i], self._trace.ladders[i])
+        return self._solutions[i]
 
     def __iter__(self) -> Iterator[Solution]:
         return (self[i] for i in range(len(self)))
@@ -141,11 +145,19 @@ class Branch:
         """Error estimates of :meth:`numbers`, (n,)."""
         return np.array([p.error[which] for p in self._trace.points])
 
-    @property
+    @cached_property
+    def certificates(self) -> FloatArray:
+        """What is left of the paper's equations at each point, (n,): see :attr:`Solution.certificate`."""
+        return np.array([solution.certificate.worst for solution in self])
+
+    @cached_property
     def converged(self) -> bool:
-        """Whether every measured number of every point meets the tolerance, special points and their place included."""
+        """Whether every measured number of every point meets the tolerance, special points and their place included.
+
+        Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
+        """
         rtol = self._trace.ladders[0].rtol
-        return all(p.accurate for p in self._trace.points) and all(
+        return all(solution.converged for solution in self) and all(
             p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
         )
 

@@ -77,7 +77,7 @@ class Solved:
     def as_point(self) -> CurvePoint:
         """The point as users see it."""
         allowed = self.solution.ladder.rtol * (abs(self.spot.value) + EULER)
-        converged = self.solution.converged and self.error <= allowed
+        converged = self.solution.accurate and self.error <= allowed
         return CurvePoint(self.spot.x, self.spot.value, self.error, self.places, converged, self.solution)
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from rodwell._version import __version__
+from rodwell.analysis.fields import GRID
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, UNITS
-from rodwell.analysis.solution import GRID
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,6 +67,8 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
     out["field_error"] = Variable(("point", "field"), errors, about)
     about = {"long_name": "number of negative eigenvalues of the second variation; 0 is stable", "units": "1"}
     out["stability_index"] = Variable(("point",), branch.stability_index, about)
+    about = {"long_name": "largest residual of the paper's equations, relative to their largest terms", "units": "1"}
+    out["certificate"] = Variable(("point",), branch.certificates, about)
     converged = np.array([solution.converged for solution in branch], dtype=np.int8)
     about = {"long_name": "1 if every measured number meets the tolerance", "units": "1"}
     out["converged"] = Variable(("point",), converged, about)

@@ -32,6 +32,18 @@ UNITS = {
 }
 """Units of the dimensionless problem by dimension."""
 
+POWERS = {
+    "1": (0, 0),
+    "angle": (0, 0),
+    "length": (0, 1),
+    "curvature": (0, -1),
+    "force": (1, -2),
+    "force_per_length": (1, -3),
+    "moment": (1, -1),
+    "energy": (1, -1),
+}
+"""Powers of B and L in the unit of each dimension."""
+
 SI_UNITS = {
     "1": "1",
     "angle": "rad",
@@ -78,11 +90,47 @@ _FIELDS = (
     ("mu", "μ = M₂⁽²⁾", "moment", "(42), (59)", "bending moment in the cylinder about d₁"),
     ("cylinder_M3", "M₃⁽²⁾ = λ cos η", "moment", "(59)", "bending moment in the cylinder about u₂"),
     ("lambda", "λ", "moment", "(41), (59)", "multiplier of the ω₃ constraint"),
+    ("material_omega1", "ω̃₁", "curvature", "(3), (32)", "twist of the rod's material, −T₁/C"),
+    ("material_omega2", "ω̃₂", "curvature", "(4)", "curvature of the rod along its material axis d₀"),
+    ("material_omega3", "ω̃₃", "curvature", "(5)", "curvature of the rod along its material axis v₁"),
+    ("cylinder_Omega1", "Ω₁", "curvature", "(20)", "rotation of the cylinder's braid frame about its axis, −ξ₂'"),
+    (
+        "cylinder_p2",
+        "p₂⁽²⁾",
+        "force_per_length",
+        "(60)",
+        "load on the cylinder along d₁, per length of cylinder: the balance is F⁽²⁾' = p⁽²⁾ z'",
+    ),
+    ("cylinder_p3", "p₃⁽²⁾", "force_per_length", "(60)", "load on the cylinder along u₂, per length of cylinder"),
+    (
+        "cylinder_m1",
+        "m₁⁽²⁾",
+        "force",
+        "(61)",
+        "distributed twisting moment on the cylinder, per length of cylinder: T₂' = m₁⁽²⁾ z'",
+    ),
 )
 
 _SCALARS = (
     ("force", "F", "force", "(B15)", "axial end force at s = 1, tension positive"),
     ("energy", "E", "energy", "(30)", "energy relative to the straight rod under the same dead loads"),
+    ("bending_energy", "½∫(ω₂² + ω₃²)", "energy", "(28)", "strain energy of bending"),
+    ("twist_energy", "½∫C ω̃₁²", "energy", "(28)", "strain energy of twisting, ½ T₁²/C"),
+    (
+        "lateral_energy",
+        "Δ mg sin α ∫(1 − cos ξ₂)",
+        "energy",
+        "(29)",
+        "height gained across the cylinder, from the straight rod",
+    ),
+    ("axial_energy", "mg cos α ∫(z − s)", "energy", "(90)", "height gained along the cylinder, from the straight rod"),
+    (
+        "end_work",
+        "F (z(1) − 1) + T₁ (ξ₁ + ξ₂)(1)",
+        "energy",
+        "(7)",
+        "work of the end loads from the straight, equally twisted rod",
+    ),
     ("end_shortening", "1 − z(1)", "length", "(44)", "approach of the ends"),
     (
         "largest_pressure",

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rodwell.physics.frames import material_curvatures
 from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_WEIGHT, TWIST
 from rodwell.physics.strand import axial_resultant, contact_pressure, curvatures, strand_force
 
@@ -55,12 +56,13 @@ def end_force(moment: float, reaction: float, y: float, y1: float, parameters: F
 def rates(
     s: FloatArray, u: FloatArray, parameters: FloatArray, torsional_stiffness: float, end: EndForce
 ) -> FloatArray:
-    """Derivatives along s of what has to be integrated, (6, m).
+    """Derivatives along s of what has to be integrated, (8, m).
 
-    z' (44), ξ₁' (32), T₂' (33), and M' = −t₁ × F (25)–(27) of the braid moment along i, j, k, with the braid
-    force F = N(s) k + F₃(1) j.
+    z' (44), ξ₁' (32), T₂' (33), M' = −t₁ × F (25)–(27) of the braid moment along i, j, k, with the braid
+    force F = N(s) k + F₃(1) j, and (48) along i and j: lateral weight and contact pressure on the rod.
     """
     clearance = parameters[CLEARANCE]
+    pressure = contact_pressure(s, *u, parameters)
     angle, sin_eta = u[0] / clearance, u[1]
     cos_eta, omega1, *_ = curvatures(u[1], u[2], u[3], clearance)
     axial, shear = axial_resultant(s, parameters), end.shear
@@ -72,6 +74,8 @@ def rates(
             cos_eta * shear - sin_eta * np.cos(angle) * axial,
             sin_eta * np.sin(angle) * axial,
             -sin_eta * np.sin(angle) * shear,
+            parameters[LATERAL_WEIGHT] + pressure * np.cos(angle),
+            -pressure * np.sin(angle),
         ]
     )
 
@@ -82,6 +86,7 @@ def reconstruct(
     from_left: FloatArray,
     from_right: FloatArray,
     parameters: FloatArray,
+    torsional_stiffness: float,
     end: EndForce,
 ) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,).
@@ -91,9 +96,11 @@ def reconstruct(
     s, u
         Places (m,) and y, y', y'', y''' there (4, m).
     from_left, from_right
-        Integrals of :func:`rates` (6, m): from 0 to s, and from s to 1.
+        Integrals of :func:`rates` (8, m): from 0 to s, and from s to 1.
     parameters
         Physical parameters (6,).
+    torsional_stiffness
+        C, in units of B.
     end
         Loads at s = 1.
 
@@ -102,19 +109,55 @@ def reconstruct(
     dict
         Field name to values (m,); names, symbols, units and equations are in ``rodwell.analysis.nomenclature``.
     """
+    out = _rod(s, u, from_left, parameters, torsional_stiffness)
+    frame = _Frame.along(u[0] / parameters[CLEARANCE], u[1])
+    out |= _braid(s, frame, from_right[3:6], parameters, end)
+    out |= _cylinder(frame, out, from_right, parameters, end)
+    out["tangential_balance"] = _tangential_balance(out, from_right[0], parameters)
+    return out
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """Sines and cosines of ξ₂ and η, (m,): the braid frame {t₁, d₁, u₁}."""
+
+    sin_a: FloatArray
+    cos_a: FloatArray
+    sin: FloatArray
+    cos: FloatArray
+
+    @classmethod
+    def along(cls, angle: FloatArray, sin_eta: FloatArray) -> _Frame:
+        return cls(np.sin(angle), np.cos(angle), sin_eta, np.sqrt(1.0 - sin_eta**2))
+
+    def components(self, vector: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Components along t₁, d₁, u₁ of a vector (3, m) given along i, j, k."""
+        inward = vector[0] * self.cos_a - vector[1] * self.sin_a
+        around = vector[0] * self.sin_a + vector[1] * self.cos_a
+        return self.sin * around + self.cos * vector[2], inward, self.cos * around - self.sin * vector[2]
+
+
+def _rod(
+    s: FloatArray, u: FloatArray, from_left: FloatArray, parameters: FloatArray, torsional_stiffness: float
+) -> dict[str, FloatArray]:
+    """Shape, curvatures, forces and moments of the rod, and the contact pressure on it."""
     clearance, twist = parameters[CLEARANCE], parameters[TWIST]
-    angle, sin_eta = u[0] / clearance, u[1]
-    cos_eta, omega1, omega2, omega3, _ = curvatures(u[1], u[2], u[3], clearance)
+    _, omega1, omega2, omega3, _ = curvatures(u[1], u[2], u[3], clearance)
     f1, f2, f3 = strand_force(s, u[1], u[2], u[3], parameters)
-    out = {
+    xi1 = from_left[1]
+    material = material_curvatures(xi1, omega2, omega3, twist, torsional_stiffness)
+    return {
         "y": u[0],
-        "xi2": angle,
-        "eta": np.arcsin(sin_eta),
+        "xi2": u[0] / clearance,
+        "eta": np.arcsin(u[1]),
         "omega1": omega1,
         "omega2": omega2,
         "omega3": omega3,
+        "material_omega1": material[0],
+        "material_omega2": material[1],
+        "material_omega3": material[2],
         "z": from_left[0],
-        "xi1": from_left[1],
+        "xi1": xi1,
         "contact_pressure": contact_pressure(s, u[0], u[1], u[2], u[3], parameters),
         "rod_F1": f1,
         "rod_F2": f2,
@@ -123,32 +166,46 @@ def reconstruct(
         "rod_M2": omega2,
         "rod_M3": omega3,
     }
-    # braid force and moment: components along i, j, k, then along t1, d1, u1
-    sin_a, cos_a = np.sin(angle), np.cos(angle)
-    t1 = np.array([sin_eta * sin_a, sin_eta * cos_a, cos_eta])
-    d1 = np.array([cos_a, -sin_a, np.zeros_like(s)])
-    u1 = np.array([cos_eta * sin_a, cos_eta * cos_a, -sin_eta])
+
+
+def _braid(
+    s: FloatArray, frame: _Frame, moment_from_right: FloatArray, parameters: FloatArray, end: EndForce
+) -> dict[str, FloatArray]:
+    """Force and moment of rod and cylinder together, components along t₁, d₁, u₁."""
     force = np.array([np.zeros_like(s), np.full_like(s, end.shear), axial_resultant(s, parameters)])
-    moment = _end_moment(end, twist)[:, None] - from_right[3:]
-    for name, vector in (("braid_F", force), ("braid_M", moment)):
-        for i, axis in enumerate((t1, d1, u1), start=1):
-            out[f"{name}{i}"] = np.sum(vector * axis, axis=0)
-    # cylinder: F² = F − F¹, M² = M − M¹ − Δ d1 × F² (45), with d1 × (a t1 + b d1 + c u1) = c t1 − a u1
-    g1, g2, g3 = (out[f"braid_F{i}"] - out[f"rod_F{i}"] for i in (1, 2, 3))
-    m1, m2, m3 = (out[f"braid_M{i}"] - out[f"rod_M{i}"] for i in (1, 2, 3))
-    m1, m3 = m1 - clearance * g3, m3 + clearance * g1
-    out |= {
-        "cylinder_F1": cos_eta * g1 - sin_eta * g3,
+    moment = _end_moment(end, float(parameters[TWIST]))[:, None] - moment_from_right
+    names = ("braid_F1", "braid_F2", "braid_F3", "braid_M1", "braid_M2", "braid_M3")
+    return dict(zip(names, frame.components(force) + frame.components(moment), strict=True))
+
+
+def _cylinder(
+    frame: _Frame, known: dict[str, FloatArray], from_right: FloatArray, parameters: FloatArray, end: EndForce
+) -> dict[str, FloatArray]:
+    """Forces, moments and loads of the cylinder.
+
+    F⁽²⁾ = F − F⁽¹⁾ and M⁽²⁾ = M − M⁽¹⁾ − Δ d₁ × F⁽²⁾, (45), where d₁ × (a t₂ + c u₂) = c t₂ − a u₂.
+    """
+    clearance, lateral = parameters[CLEARANCE], parameters[LATERAL_WEIGHT]
+    g1, g2, g3 = (known[f"braid_F{i}"] - known[f"rod_F{i}"] for i in (1, 2, 3))
+    m1, m2, m3 = (known[f"braid_M{i}"] - known[f"rod_M{i}"] for i in (1, 2, 3))
+    axial = frame.cos * g1 - frame.sin * g3
+    around = _cylinder_force_around(frame, from_right[6:], parameters, end)
+    bending = frame.sin * m1 + frame.cos * m3  # Δ d₁ × F⁽²⁾ has Δ h along u₂: none without friction
+    return {
+        "cylinder_F1": axial,
         "cylinder_F2": g2,
-        "cylinder_F3": sin_eta * g1 + cos_eta * g3,
+        "cylinder_F3": around,
         "T2": -from_right[2],
-        "T2_by_moments": cos_eta * m1 - sin_eta * m3,
+        "T2_by_moments": frame.cos * m1 - frame.sin * m3 - clearance * around,
         "mu": m2,
-        "cylinder_M3": sin_eta * m1 + cos_eta * m3,
+        "cylinder_M3": bending,
+        "lambda": bending / frame.cos,
+        "cylinder_Omega1": -frame.sin / clearance,
+        # p⁽²⁾ σ' = −p⁽¹⁾ − mg sin α i (50) and m⁽²⁾ σ' = −Δ d₁ × p⁽²⁾ σ' (51), with σ' = cos η
+        "cylinder_p2": -(known["contact_pressure"] + lateral * frame.cos_a) / frame.cos,
+        "cylinder_p3": -lateral * frame.sin_a / frame.cos,
+        "cylinder_m1": clearance * lateral * frame.sin_a / frame.cos,
     }
-    out["lambda"] = out["cylinder_M3"] / cos_eta
-    out["tangential_balance"] = _tangential_balance(f1, omega2, omega3, angle, from_right[0], parameters)
-    return out
 
 
 def _end_moment(end: EndForce, twist: float) -> FloatArray:
@@ -159,18 +216,26 @@ def _end_moment(end: EndForce, twist: float) -> FloatArray:
     return np.asarray(end.omega2 * d1 - twist * t1)
 
 
-def _tangential_balance(
-    f1: FloatArray,
-    omega2: FloatArray,
-    omega3: FloatArray,
-    angle: FloatArray,
-    z_right: FloatArray,
-    p: FloatArray,
-) -> FloatArray:
+def _cylinder_force_around(frame: _Frame, from_right: FloatArray, parameters: FloatArray, end: EndForce) -> FloatArray:
+    """F₃⁽²⁾ = (F − F⁽¹⁾)·u₂ with the rod's force F⁽¹⁾ from weight and contact pressure, (48), integrated from s = 1.
+
+    At s = 1 fitting and rim give the rod the force around the cylinder that (45) leaves, and F₂⁽¹⁾ towards the axis.
+    """
+    clearance, twist = parameters[CLEARANCE], parameters[TWIST]
+    sin_a, cos_a, cos_eta = np.sin(end.angle), np.cos(end.angle), np.sqrt(1.0 - end.slope**2)
+    around = end.shear - end.slope**3 / clearance**2  # the rim's part is ω₃ sin η/Δ
+    inward = -end.omega2 * (twist - 3.0 * end.slope * cos_eta / clearance)
+    rod_i = inward * cos_a + around * sin_a - from_right[0]
+    rod_j = -inward * sin_a + around * cos_a - from_right[1]
+    return np.asarray(-rod_i * frame.sin_a + (end.shear - rod_j) * frame.cos_a)
+
+
+def _tangential_balance(known: dict[str, FloatArray], z_right: FloatArray, p: FloatArray) -> FloatArray:
     """Residual of F₁⁽¹⁾ + ½(ω₂² + ω₃²) + Δ wₗ cos ξ₂ − wₐ z = const., the first integral of (22)–(24), (48).
 
     It must vanish: F₁⁽¹⁾ comes from h = 0, this from force balance along t₁, an independent route.
     """
-    weight = p[CLEARANCE] * p[LATERAL_WEIGHT]
-    total = f1 + 0.5 * (omega2**2 + omega3**2) + weight * np.cos(angle) + p[AXIAL_WEIGHT] * z_right
+    bending = 0.5 * (known["omega2"] ** 2 + known["omega3"] ** 2)
+    height = p[CLEARANCE] * p[LATERAL_WEIGHT] * np.cos(known["xi2"]) + p[AXIAL_WEIGHT] * z_right
+    total = known["rod_F1"] + bending + height
     return np.asarray(total - total[-1])

@@ -9,6 +9,7 @@ from typing import Any
 from rodwell._version import __version__
 from rodwell.analysis import ahead
 from rodwell.analysis.branches import Branch
+from rodwell.analysis.certificate import Certificate
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.exploring import Progress
 from rodwell.analysis.follow import extended, follow
@@ -67,12 +68,13 @@ class Answer:
         )
 
     @cached_property
-    def worst_certificate(self) -> float:
-        """Largest disagreement of independent routes to the same force or moment, over the states shown."""
-        states = [branch[-1] for branch in self.branches]
-        if self.at_lift_off is not None:
-            states.append(self.at_lift_off)
-        return max(state.certificate for state in states)
+    def worst_certificate(self) -> Certificate:
+        """Certificate of the state that solves the paper's equations least well, over all points of all branches."""
+        states = [
+            state for branch in self.branches for state in (*branch, *(p.solution for p in branch.special_points))
+        ]
+        certificates = [state.certificate for state in states]
+        return max(certificates, key=lambda certificate: certificate.worst)
 
     @cached_property
     def figures(self) -> dict[str, Figure]:
@@ -118,7 +120,7 @@ class Answer:
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
             "converged": self.converged,
-            "certificate": self.worst_certificate,
+            "certificate": self.worst_certificate.as_dict(),
             "rtol": case.rtol,
         }
 

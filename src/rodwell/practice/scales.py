@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS
+from rodwell.analysis.nomenclature import POWERS, QUANTITIES, SI_UNITS
 
 
 @dataclass(frozen=True)
@@ -16,17 +16,7 @@ class Scales:
 
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of ``dimension`` (see ``nomenclature.UNITS``)."""
-        powers = {
-            "1": (0, 0),
-            "angle": (0, 0),
-            "length": (0, 1),
-            "curvature": (0, -1),
-            "force": (1, -2),
-            "force_per_length": (1, -3),
-            "moment": (1, -1),
-            "energy": (1, -1),
-        }
-        stiffness, length = powers[dimension]
+        stiffness, length = POWERS[dimension]
         return float(self.stiffness**stiffness * self.length**length)
 
     def of(self, name: str) -> tuple[float, str]:

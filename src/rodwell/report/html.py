@@ -11,6 +11,7 @@ from typing import Any
 import jinja2
 
 from rodwell._version import __version__
+from rodwell.analysis.certificate import Certificate
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
@@ -99,11 +100,42 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         derived=derived(answer.case),
         special=_special(answer),
         pictures={name: _embed(*picture) for name, picture in pictures.items()},
-        certificate=f"{answer.worst_certificate:.1e}".replace("-", "−"),
+        certificate=_certificate(answer.worst_certificate),
         rtol=f"{answer.case.rtol:g}".replace("-", "−"),
         version=__version__,
         date=datetime.date.today().isoformat(),
     )
+
+
+def _certificate(certificate: Certificate) -> dict[str, Any]:
+    """The certificate for reading: the largest residual, its limit, and the residuals by group."""
+
+    def short(value: float) -> str:
+        return f"{value:.1e}".replace("-", "−")
+
+    groups: dict[str, float] = {}
+    for name, value in certificate.residuals.items():
+        group = next((title for title, names in _GROUPS.items() if name in names), name)
+        group = "end conditions (B1)–(B15)" if name.startswith("(B") else group
+        groups[group] = max(value, groups.get(group, 0.0))
+    return {
+        "worst": short(certificate.worst),
+        "where": certificate.worst_equation,
+        "limit": short(certificate.limit),
+        "passed": certificate.passed,
+        "groups": [(name, short(value)) for name, value in groups.items()],
+    }
+
+
+_GROUPS = {
+    "force and moment balance (22)–(27)": ("(22)", "(23)", "(24)", "(25)", "(26)", "(27)"),
+    "kinematics (32), (34)–(36), (44)": ("(32)", "(34)", "(35)", "(36)", "(44)"),
+    "twisting moment in the cylinder (33)": ("(33)",),
+    "multipliers and curvature (41)–(43)": ("(41)", "(42)", "(43)"),
+    "moments of rod and cylinder (37)–(39)": ("(37)", "(38)", "(39)"),
+    "forces of rod and cylinder (52)–(54), (56)–(58)": ("(52)", "(53)", "(54)", "(56)", "(57)", "(58)"),
+    "contact pressure (55)": ("(55)",),
+}
 
 
 def _embed(kind: str, content: bytes) -> str:

@@ -76,7 +76,7 @@ def answer_attributes(answer: Answer) -> dict[str, Any]:
         "title": case.title,
         "case": case.text or json.dumps(dict(case.given)),
         "converged": int(answer.converged),
-        "certificate": answer.worst_certificate,
+        "certificate": answer.worst_certificate.worst,
     }
     if case.scales is not None:
         out |= {"length_m": case.scales.length, "bending_stiffness_N_m2": case.scales.stiffness}

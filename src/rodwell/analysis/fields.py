@@ -1,0 +1,131 @@
+"""Fields along the rod, from the spline of one state on one mesh: at any places, and at Gauss points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.physics import braid
+from rodwell.physics.strand import contact_pressure
+from rodwell.problem import Problem
+
+GRID = 201
+"""Places along the rod at which fields are reported by default."""
+
+ZOOMS = 5
+"""Times that the search for the largest value of a field looks ten times closer: nine digits of the value."""
+
+PLACES = 10
+"""Gauss points in each element of :func:`element_fields`; polynomials through them give derivatives and integrals."""
+
+_GAUSS = {count: np.polynomial.legendre.leggauss(count) for count in (3, 6)}
+
+Rates = Callable[[FloatArray, FloatArray], FloatArray]
+
+
+def end_force(family: Family, state: State) -> braid.EndForce:
+    """What acts on the rod at s = 1, and where that is."""
+    y, y1 = state.space.evaluate(state.c, np.array([1.0]), 2)[:, 0]
+    return braid.end_force(*family.end_reactions(state), float(y), float(y1), family.parameters(state.lam))
+
+
+def total_wall_force(family: Family, state: State) -> float:
+    """∫|p| ds in B/L²."""
+    space = state.space
+    u = space.evaluate(state.c, space.points, 4)
+    pressure = contact_pressure(space.points, u[0], u[1], u[2], u[3], family.parameters(state.lam))
+    return float(space.weights @ np.abs(pressure))
+
+
+def fields_at(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:
+    """All fields at ``s`` (m,), in units B = L = 1."""
+    space, end, p = state.space, end_force(family, state), family.parameters(state.lam)
+    rates = _rates(problem, p, end)
+    integrals = _running_integrals(lambda places: rates(places, space.evaluate(state.c, places, 4)), s, space)
+    return _rebuilt(problem, s, space.evaluate(state.c, s, 4), integrals, p, end)
+
+
+def element_fields(problem: Problem, family: Family, state: State) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Half lengths of the elements (e, 1), and all fields at s = 0, at the Gauss points in turn, and at s = 1.
+
+    One evaluation of the spline serves everything: the integrals are those of polynomials through the Gauss points.
+    """
+    space, end, p = state.space, end_force(family, state), family.parameters(state.lam)
+    nodes, weights, running, _ = gauss_calculus()
+    half = 0.5 * np.diff(space.breaks)[:, None]
+    inside = (space.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
+    s = np.concatenate([[0.0], inside, [1.0]])
+    u = space.evaluate(state.c, s, 4)
+    values = _rates(problem, p, end)(inside, u[:, 1:-1])
+    values = values.reshape(values.shape[0], half.size, PLACES)
+    elements = values @ weights * half.T  # integral over each element
+    before = np.concatenate([np.zeros((len(values), 1)), np.cumsum(elements, axis=1)], axis=1)
+    after = np.concatenate([np.cumsum(elements[:, ::-1], axis=1)[:, ::-1], np.zeros((len(values), 1))], axis=1)
+    part = values @ running.T * half  # from the element's start to each Gauss point
+    left = (before[:, :-1, None] + part).reshape(len(values), -1)
+    right = (after[:, :-1, None] - part).reshape(len(values), -1)
+    from_left = np.concatenate([before[:, :1], left, before[:, -1:]], axis=1)
+    from_right = np.concatenate([after[:, :1], right, after[:, -1:]], axis=1)
+    return half, _rebuilt(problem, s, u, (from_left, from_right), p, end)
+
+
+@lru_cache
+def gauss_calculus() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Gauss points (k,) on [−1, 1], weights (k,), and the matrices (k, k) of running integrals and of derivatives."""
+    x, weights = np.polynomial.legendre.leggauss(PLACES)
+    legendre = np.polynomial.legendre
+    basis = np.linalg.inv(legendre.legvander(x, PLACES - 1))  # values → Legendre coefficients
+    identity = np.eye(PLACES)
+    integral = np.array([legendre.legval(x, legendre.legint(row, lbnd=-1.0)) for row in identity]).T
+    derivative = np.array([legendre.legval(x, legendre.legder(row)) for row in identity]).T
+    return x, weights, integral @ basis, derivative @ basis
+
+
+def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
+    """Largest size of a field and its place, by looking ever closer between its neighbours on a grid."""
+    s = np.linspace(0.0, 1.0, GRID)
+    for _ in range(ZOOMS):
+        size = np.abs(fields_at(problem, family, state, s)[name])
+        i = int(np.argmax(size))
+        value, place = float(size[i]), float(s[i])
+        s = np.linspace(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)], 21)
+    return value, place
+
+
+def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:
+    return lambda s, u: braid.rates(s, u, parameters, problem.torsional_stiffness, end)
+
+
+def _rebuilt(
+    problem: Problem,
+    s: FloatArray,
+    u: FloatArray,
+    integrals: tuple[FloatArray, FloatArray],
+    parameters: FloatArray,
+    end: braid.EndForce,
+) -> dict[str, FloatArray]:
+    out = braid.reconstruct(s, u, *integrals, parameters, problem.torsional_stiffness, end)
+    if problem.on_top:
+        out["xi2"] = out["xi2"] + np.pi
+    return out
+
+
+def _running_integrals(
+    rates: Callable[[FloatArray], FloatArray], s: FloatArray, space: SplineSpace
+) -> tuple[FloatArray, FloatArray]:
+    """Integrals from 0 to ``s`` and from ``s`` to 1: Gauss quadrature between grid points and mesh points."""
+    nodes = np.union1d(np.union1d(space.breaks, s), [0.0, 1.0])
+    half = 0.5 * np.diff(nodes)
+    gauss, weights = _GAUSS[3 if half.max() < 0.2 * np.diff(space.breaks).max() else 6]
+    places = (nodes[:-1, None] + half[:, None] * (gauss + 1.0)).ravel()
+    values = rates(places).reshape(-1, half.size, gauss.size)
+    pieces = np.einsum("kpq,q,p->kp", values, weights, half)
+    start = np.zeros((pieces.shape[0], 1))
+    left = np.concatenate([start, np.cumsum(pieces, axis=1)], axis=1)
+    right = np.concatenate([np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], start], axis=1)
+    where = np.searchsorted(nodes, s)
+    return left[:, where], right[:, where]
