@@ -21,6 +21,7 @@ from rodwell._version import __version__
 
 _HOME = {
     "Branch": "rodwell.analysis.branches",
+    "Certificate": "rodwell.analysis.certificate",
     "Case": "rodwell.practice.case",
     "Answer": "rodwell.practice.answer",
     "answer": "rodwell.practice.answer",
@@ -46,12 +47,14 @@ _HOME = {
     "secondary_curve": "rodwell.analysis.state_curves",
     "torsion": "rodwell.analysis.torsion",
     "twist_curve": "rodwell.analysis.state_curves",
+    "verify": "rodwell.analysis.verify",
 }
 
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
     from rodwell.analysis.branches import Branch
+    from rodwell.analysis.certificate import Certificate
     from rodwell.analysis.coiled import coil
     from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.critical_curves import critical_curves
@@ -63,6 +66,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.torsion import Torsion, torsion
+    from rodwell.analysis.verify import verify
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer
     from rodwell.practice.case import Case

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from rodwell._version import __version__
+from rodwell.analysis.balance import ENERGIES
 from rodwell.analysis.fields import GRID
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, UNITS
+from rodwell.analysis.nomenclature import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
+from rodwell.errors import InputError, checked_number
+from rodwell.physics.frames import AXES, FRAMES, frames
+from rodwell.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from rodwell.analysis.branches import Branch
+    from rodwell.analysis.solution import Solution
 
 _MEASURED = {
     Measured.P_MAX: "largest_pressure",
@@ -60,6 +66,10 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
     for which, name in _MEASURED.items():
         out[name] = Variable(("point",), branch.numbers(which), _about(name))
         out[f"{name}_error"] = Variable(("point",), branch.errors(which), _about_error(name))
+    energies = [solution.energies for solution in branch]
+    for name in ENERGIES:
+        out[name] = Variable(("point",), np.array([e[name][0] for e in energies]), _about(name))
+        out[f"{name}_error"] = Variable(("point",), np.array([e[name][1] for e in energies]), _about_error(name))
     for name in FIELDS:
         out[name] = Variable(("point", "s"), np.array([fields[name] for fields, _ in states]), _about(name))
     errors = np.array([[error[name] for name in FIELDS] for _, error in states])
@@ -95,19 +105,8 @@ def _special_points(branch: Branch) -> dict[str, Variable]:
 
 def branch_attributes(branch: Branch) -> dict[str, Any]:
     """What the arrays of a branch belong to: problem, conventions, tolerance, version."""
-    problem = branch.problem
-    return {
+    return _problem_attributes(branch.problem) | {
         "title": "Branch of equilibria of a heavy rod on a cylinder",
-        "conventions": CONVENTIONS,
-        "weight": problem.weight,
-        "alpha_degrees": problem.alpha,
-        "clearance": problem.clearance,
-        "poisson": problem.poisson,
-        "twist": problem.twist,
-        "turns": problem.turns,
-        "on_top": int(problem.on_top),
-        "outside": int(problem.outside),
-        "ends": "-".join(problem.ends),
         "name": branch.name,
         "parameter": branch.parameter,
         "mode": branch.mode.number if branch.mode else 0,
@@ -125,6 +124,125 @@ def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     data = dict(branch_variables(branch, places))
     coords = {name: data.pop(name) for name in ("s", "field")}
     return xr.Dataset(data, coords=coords, attrs=branch_attributes(branch))
+
+
+def solution_dataset(
+    solution: Solution, places: int = GRID, length: float | None = None, stiffness: float | None = None
+) -> xr.Dataset:
+    """Everything about one state as an xarray Dataset.
+
+    All fields along ``s``, with the largest error estimate of each as attribute ``error``; the frames R₁₁, R₀₁,
+    R₁₂, R₂₂ (s, axis, vector); contact loads, those that vanish without friction included; energies; reactions of the supports
+    (end, axis); measured numbers; the certificate (equation).
+
+    Parameters
+    ----------
+    solution
+        The state.
+    places
+        Number of evenly spaced places along the rod.
+    length, stiffness
+        Length L of the rod in m and its bending stiffness B in N m². With both, everything is in SI units; without,
+        in units B = L = 1.
+
+    Raises
+    ------
+    InputError
+        If only one of length and stiffness is given, or one is not positive.
+    """
+    import xarray as xr  # noqa: PLC0415 - slow to import
+
+    unit = _Units.of(length, stiffness)
+    s = np.linspace(0.0, 1.0, places)
+    fields, errors = solution.fields_with_errors(s)
+    data = {name: unit.array(name, ("s",), fields[name], errors[name]) for name in FIELDS}
+    for name in VANISHING:
+        data[name] = unit.array(name, ("s",), np.zeros(places), 0.0)
+    for name, matrices in frames(fields["xi1"], fields["eta"], fields["xi2"]).items():
+        about = {"long_name": f"frame, columns {', '.join(FRAMES[name])}", "equation": "(1)", "units": "1"}
+        data[name] = (("s", "axis", "vector"), matrices, about)
+    for name, (value, error) in solution.energies.items():
+        data[name] = unit.array(name, (), np.array(value), error)
+    for which, name in _MEASURED.items():
+        data[name] = unit.array(name, (), np.array(solution.number(which)[0]), solution.number(which)[1])
+    data["force"] = unit.array("force", (), np.array(solution.force), 0.0)
+    for reaction in solution.reactions:
+        for kind in ("force", "moment"):
+            error = float(np.max(getattr(reaction, f"{kind}_error")))
+            values = getattr(reaction, kind)
+            data[f"{reaction.on}_support_{kind}_{reaction.s:.0f}"] = unit.array(
+                f"support_{kind}", ("axis",), values, error
+            )
+    residuals = solution.certificate.residuals
+    about = {"long_name": "what is left of each equation of the paper, relative to its largest term", "units": "1"}
+    data["residual"] = (("equation",), np.array(list(residuals.values())), about)
+    coords = {
+        "s": unit.array("s", ("s",), s, 0.0),
+        "axis": list(AXES),
+        "vector": [0, 1, 2],
+        "equation": list(residuals),
+    }
+    return xr.Dataset(data, coords=coords, attrs=_solution_attributes(solution) | unit.attributes)
+
+
+@dataclass(frozen=True)
+class _Units:
+    """Units of a dataset: SI with ``length`` and ``stiffness``, else B = L = 1."""
+
+    length: float
+    stiffness: float
+    names: dict[str, str]
+    attributes: dict[str, float]
+
+    @classmethod
+    def of(cls, length: float | None, stiffness: float | None) -> _Units:
+        if length is None and stiffness is None:
+            return cls(1.0, 1.0, UNITS, {})
+        for name, value in (("length", length), ("stiffness", stiffness)):
+            if value is None:
+                raise InputError(name, None, "must be given too: SI units need both length (m) and stiffness (N m²)")
+            checked_number(name, value, _SMALLEST, np.inf, "must be positive: length in m, stiffness in N m²")
+        assert length is not None
+        assert stiffness is not None
+        return cls(length, stiffness, SI_UNITS, {"length_m": length, "bending_stiffness_N_m2": stiffness})
+
+    def array(
+        self, name: str, dims: tuple[str, ...], values: np.ndarray, error: float
+    ) -> tuple[tuple[str, ...], np.ndarray, dict[str, Any]]:
+        quantity = QUANTITIES[name]
+        b, length = POWERS[quantity.dimension]
+        factor = self.stiffness**b * self.length**length
+        about = _about(name) | {"units": self.names[quantity.dimension], "error": error * factor}
+        return dims, values * factor, about
+
+
+_SMALLEST = 1e-300
+
+
+def _solution_attributes(solution: Solution) -> dict[str, Any]:
+    return _problem_attributes(solution.problem) | {
+        "title": "Equilibrium of a heavy rod on a cylinder",
+        "stability_index": solution.stability_index,
+        "converged": int(solution.converged),
+        "certificate": solution.certificate.worst,
+        "rtol": solution.ladder.rtol,
+        "rodwell_version": __version__,
+    }
+
+
+def _problem_attributes(problem: Problem) -> dict[str, Any]:
+    return {
+        "conventions": CONVENTIONS,
+        "weight": problem.weight,
+        "alpha_degrees": problem.alpha,
+        "clearance": problem.clearance,
+        "poisson": problem.poisson,
+        "twist": problem.twist,
+        "turns": problem.turns,
+        "on_top": int(problem.on_top),
+        "outside": int(problem.outside),
+        "ends": "-".join(problem.ends),
+    }
 
 
 def _text(words: Any) -> np.ndarray:

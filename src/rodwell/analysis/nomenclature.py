@@ -157,11 +157,31 @@ _SCALARS = (
     ("support_torque", "T₂(0)", "moment", "(33)", "torque in the cylinder at its support at s = 0"),
 )
 
-QUANTITIES: dict[str, Quantity] = {row[0]: Quantity(*row) for row in _FIELDS + _SCALARS}
+_VANISHING = (
+    ("rod_p1", "p₁⁽¹⁾", "force_per_length", "(55)", "contact load on the rod along t₁: none without friction"),
+    ("rod_p3", "p₃⁽¹⁾", "force_per_length", "(55)", "contact load on the rod along u₁: none without friction"),
+    ("rod_m1", "m₁⁽¹⁾", "force", "(49)", "contact moment on the rod about t₁: none for equal bending stiffnesses"),
+    ("rod_m2", "m₂⁽¹⁾", "force", "(49)", "contact moment on the rod about d₁: none without friction"),
+    ("rod_m3", "m₃⁽¹⁾", "force", "(49)", "contact moment on the rod about u₁: none without friction"),
+    ("cylinder_p1", "p₁⁽²⁾", "force_per_length", "(60)", "load on the cylinder along t₂: none without friction"),
+    ("cylinder_m2", "m₂⁽²⁾", "force", "(61)", "distributed moment on the cylinder about d₁: none without friction"),
+    ("cylinder_m3", "m₃⁽²⁾", "force", "(61)", "distributed moment on the cylinder about u₂: none without friction"),
+)
+
+_PLACES = (
+    ("s", "s", "length", "(1)", "arclength of the rod from the end s = 0"),
+    ("support_force", "F⁽ⁱ⁾", "force", "(45)", "force of a support on an end, along i, j, k"),
+    ("support_moment", "M⁽ⁱ⁾", "moment", "(45)", "moment of a support on an end, about i, j, k, from its own axis"),
+)
+
+QUANTITIES: dict[str, Quantity] = {row[0]: Quantity(*row) for row in _FIELDS + _SCALARS + _VANISHING + _PLACES}
 """All quantities by the name they carry in code and datasets."""
 
 FIELDS: tuple[str, ...] = tuple(row[0] for row in _FIELDS)
 """Names of the fields along the rod."""
+
+VANISHING: tuple[str, ...] = tuple(row[0] for row in _VANISHING)
+"""Names of the contact loads that hard frictionless contact makes zero."""
 
 SCALARS: tuple[str, ...] = tuple(row[0] for row in _SCALARS)
 """Names of the numbers of one state."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from rodwell.numerics.ladder import Ladder, Point, estimated_error
 from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import FORCE
 from rodwell.problem import Problem
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -122,6 +126,12 @@ class Solution:
     def reactions(self) -> tuple[Reaction, ...]:
         """What the supports exert on rod and cylinder: see :func:`rodwell.analysis.balance.reactions`."""
         return reactions(self)
+
+    def dataset(self, places: int = GRID, *, length: float | None = None, stiffness: float | None = None) -> xr.Dataset:
+        """Everything as an xarray Dataset: see :func:`rodwell.analysis.dataset.solution_dataset`."""
+        from rodwell.analysis.dataset import solution_dataset  # noqa: PLC0415
+
+        return solution_dataset(self, places, length, stiffness)
 
     @property
     def accurate(self) -> bool:

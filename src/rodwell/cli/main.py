@@ -11,6 +11,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 import click
 
 from rodwell._version import __version__
+from rodwell.cli.check import verify
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, twist
 from rodwell.cli.run import run
@@ -29,7 +30,7 @@ def cli() -> None:
     """
 
 
-for command in (run, critical, liftoff, diagram, curve, twist):
+for command in (run, critical, liftoff, diagram, curve, twist, verify):
     cli.add_command(command)
 
 

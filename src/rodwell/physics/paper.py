@@ -153,10 +153,10 @@ def moments(x: Fifteen, mu_rate: Any, load: Load) -> dict[str, Terms]:
 
 
 class Condition(NamedTuple):
-    """An end condition: a residual that vanishes, and the variable whose largest size it is judged against."""
+    """An end condition: a residual that vanishes, and the variables whose largest size it is judged against."""
 
     residual: Any
-    against: str
+    against: tuple[str, ...]
 
 
 def end_conditions(first: Fifteen, last: Fifteen, load: Load) -> dict[str, Condition]:
@@ -170,19 +170,22 @@ def end_conditions(first: Fifteen, last: Fifteen, load: Load) -> dict[str, Condi
     """
     holds_angle = [end in ("clamped", "pinned") for end in load.ends]
     holds_slope = [end in ("clamped", "guided") for end in load.ends]
-    at = Condition
+
+    def at(residual: Any, *against: str) -> Condition:
+        return Condition(residual, against)
+
     return {
         "(B1)": at(first.xi1, "xi1"),
         "(B2)": at(first.xi2, "xi2") if holds_angle[0] else at(_rod_around(first, load), "F1"),
         "(B3)": at(first.z, "z"),
-        "(B4)": at(first.eta, "eta") if holds_slope[0] else at(first.omega2, "omega2"),
+        "(B4)": at(first.eta, "eta") if holds_slope[0] else at(first.omega2, "omega2", "omega3"),
         "(B5)": at(first.omega3 - np.sin(first.eta) ** 2 / load.clearance, "omega3"),
         "(B6)": at(first.M2 - first.omega2 - first.mu, "M2"),
         "(B7)": at(last.xi2 - load.turn, "xi2") if holds_angle[1] else at(_around(last), "F1"),
-        "(B8)": at(last.eta, "eta") if holds_slope[1] else at(last.omega2, "omega2"),
+        "(B8)": at(last.eta, "eta") if holds_slope[1] else at(last.omega2, "omega2", "omega3"),
         "(B9)": at(last.T2, "T2"),
         "(B10)": at(last.lam, "lam") if holds_slope[1] else at(last.lam + last.omega3, "lam"),
-        "(B11)": at(last.mu, "mu"),
+        "(B11)": at(last.mu, "M2"),
         "(B12)": at(last.F2, "F1"),
         "(B13)": at(last.M3 - last.omega3 if holds_slope[1] else last.M3, "M2"),
         "(B14)": at(last.M1 + load.twist, "M2"),

@@ -74,7 +74,8 @@ class Answer:
             state for branch in self.branches for state in (*branch, *(p.solution for p in branch.special_points))
         ]
         certificates = [state.certificate for state in states]
-        return max(certificates, key=lambda certificate: certificate.worst)
+        worst: Certificate = max(certificates, key=lambda certificate: certificate.worst)
+        return worst
 
     @cached_property
     def figures(self) -> dict[str, Figure]:

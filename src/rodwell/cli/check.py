@@ -1,0 +1,79 @@
+"""``rodwell verify``: a case once more, by another method and another program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rodwell.cli.options import json_option, print_json, progress_bar
+
+if TYPE_CHECKING:
+    from rodwell.analysis.verify import Verification
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option("--mode", default=1, show_default=True, help="Buckling mode whose branch is verified.")
+@click.option(
+    "--at",
+    "forces",
+    type=float,
+    multiple=True,
+    help="End force at s = 1 in B/L², tension positive, at which to compare; may be given several times.  "
+    "[default: half way from buckling to lift-off, and 1.3 times that way]",
+)
+@click.option(
+    "--rtol", default=1e-8, show_default=True, help="Relative tolerance of the other program and of agreement."
+)
+@json_option
+def verify(case: Path, mode: int, forces: tuple[float, ...], rtol: float, as_json: bool) -> None:
+    """Solve CASE, a TOML file, once more as the paper's fifteen equations with SciPy's solve_bvp, and compare.
+
+    Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
+    is 1 if the two do not agree.
+    """
+    from rodwell.analysis.verify import verify as solve_again  # noqa: PLC0415
+    from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.practice.check import branch_to_verify  # noqa: PLC0415
+
+    read = Case.read(case)
+    with progress_bar(not as_json, "the engine's branch") as tell:
+        branch = branch_to_verify(read, mode, forces)
+        count = [0]
+
+        def report(force: float) -> None:
+            tell(f"solve_bvp at F = {force:.6g} B/L²", min(count[0] / 3.0, 0.9))
+            count[0] += 1
+
+        result = solve_again(branch, forces or None, rtol=rtol, progress=report)
+    if as_json:
+        print_json({"case": read.title, "mode": mode, **result.as_dict()})
+    else:
+        _print(result, read.title, mode)
+    if not result.agrees:
+        raise click.exceptions.Exit(1)
+
+
+def _print(result: Verification, title: str, mode: int) -> None:
+    from rodwell.problem import ends_text  # noqa: PLC0415
+
+    click.echo(f"{title}: mode {mode}, {ends_text(result.branch.problem)}")
+    click.echo(
+        "Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15))."
+    )
+    click.echo("End force F at s = 1 in B/L², tension positive; differences relative to each field's largest value.")
+    for state in result.states:
+        verdict = "agree" if state.agrees else "DO NOT AGREE"
+        worst = state.worst
+        click.echo(
+            f"  F = {state.force:+.8g}: {verdict}; largest difference {state.differences[worst]:.1e}, in {worst}"
+        )
+        click.echo(f"      solve_bvp: {state.nodes} mesh points, residual {state.residual:.1e}. {state.message}")
+    if result.lift_off is not None:
+        ours, other = result.lift_off
+        click.echo(
+            f"  lift-off: engine {ours:+.12g}, solve_bvp {other:+.12g}, difference {result.lift_off_difference:.1e}"
+        )
+    click.echo("All agree." if result.agrees else f"They do not all agree to {result.rtol:g}.")
