@@ -132,8 +132,8 @@ def solution_dataset(
     """Everything about one state as an xarray Dataset.
 
     All fields along ``s``, with the largest error estimate of each as attribute ``error``; the frames R₁₁, R₀₁,
-    R₁₂, R₂₂ (s, axis, vector); contact loads, those that vanish without friction included; energies; reactions of the supports
-    (end, axis); measured numbers; the certificate (equation).
+    R₁₂, R₂₂ (s, axis, vector); contact loads, those that vanish without friction included; energies; reactions of the
+    supports (axis); measured numbers; the certificate (equation).
 
     Parameters
     ----------

@@ -19,6 +19,9 @@ GRID = 201
 ZOOMS = 5
 """Times that the search for the largest value of a field looks ten times closer: nine digits of the value."""
 
+ROUND_OFF = 1e-13
+"""Values that differ by less than this part count as equal: the largest value is then at the first of their places."""
+
 PLACES = 10
 """Gauss points in each element of :func:`element_fields`; polynomials through them give derivatives and integrals."""
 
@@ -86,12 +89,17 @@ def gauss_calculus() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
 
 
 def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
-    """Largest size of a field and its place, by looking ever closer between its neighbours on a grid."""
+    """Largest size of a field and its place."""
+    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s)[name]))
+
+
+def largest_of(size: Callable[[FloatArray], FloatArray]) -> tuple[float, float]:
+    """Largest value of a function along the rod and its (first) place: ever closer between neighbours on a grid."""
     s = np.linspace(0.0, 1.0, GRID)
     for _ in range(ZOOMS):
-        size = np.abs(fields_at(problem, family, state, s)[name])
-        i = int(np.argmax(size))
-        value, place = float(size[i]), float(s[i])
+        sizes = size(s)
+        i = int(np.argmax(sizes >= (1.0 - ROUND_OFF) * np.max(sizes)))
+        value, place = float(np.max(sizes)), float(s[i])
         s = np.linspace(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)], 21)
     return value, place
 

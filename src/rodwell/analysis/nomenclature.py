@@ -29,6 +29,7 @@ UNITS = {
     "force_per_length": "B/L^3",
     "moment": "B/L",
     "energy": "B/L",
+    "stress": "B/L^4",
 }
 """Units of the dimensionless problem by dimension."""
 
@@ -41,6 +42,7 @@ POWERS = {
     "force_per_length": (1, -3),
     "moment": (1, -1),
     "energy": (1, -1),
+    "stress": (1, -4),
 }
 """Powers of B and L in the unit of each dimension."""
 
@@ -53,6 +55,7 @@ SI_UNITS = {
     "force_per_length": "N/m",
     "moment": "N m",
     "energy": "J",
+    "stress": "Pa",
 }
 
 _FIELDS = (

@@ -12,6 +12,7 @@ from rodwell.analysis.balance import Reaction, energies, reactions
 from rodwell.analysis.certificate import Certificate, certify
 from rodwell.analysis.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.analysis.measures import Measured, pressure_maxima
+from rodwell.analysis.wall import WallLoads, wall_loads
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point, estimated_error
 from rodwell.numerics.spaces import FloatArray
@@ -121,6 +122,11 @@ class Solution:
     def energies(self) -> dict[str, tuple[float, float]]:
         """Strain energies, heights and work of the end loads: see :func:`rodwell.analysis.balance.energies`."""
         return energies(self)
+
+    @cached_property
+    def wall(self) -> WallLoads:
+        """What the wall and the supports of the cylinder must bear: see :class:`rodwell.analysis.wall.WallLoads`."""
+        return wall_loads(self)
 
     @cached_property
     def reactions(self) -> tuple[Reaction, ...]:

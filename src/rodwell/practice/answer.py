@@ -17,7 +17,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
-from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures
+from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures, stress_figure
 from rodwell.problem import ends_text
 
 
@@ -90,6 +90,8 @@ class Answer:
             out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", force_scale(lift.force), note))
         if self.at_lift_off is not None:
             out += state_figures(self.at_lift_off)
+            if self.case.cylinder is not None and self.case.scales is not None:
+                out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {figure.name: figure for figure in out}
 
     def as_dict(self) -> dict[str, Any]:

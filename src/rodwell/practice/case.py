@@ -15,6 +15,7 @@ from pydantic import BaseModel, ValidationError
 from rodwell.analysis.accuracy import checked_rtol
 from rodwell.errors import InputError
 from rodwell.practice import schema
+from rodwell.practice.capacity import Cylinder, cylinder_of
 from rodwell.practice.physical import physical_problem
 from rodwell.practice.scales import Scales
 from rodwell.problem import Problem, checked_ends
@@ -22,6 +23,7 @@ from rodwell.problem import Problem, checked_ends
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.Rod,
     "hole": schema.Hole,
+    "cylinder": schema.Cylinder,
     "dimensionless": schema.Dimensionless,
     "load": schema.Load,
     "analysis": schema.Analysis,
@@ -62,6 +64,8 @@ class Case:
         File name, or "case".
     text
         The file as it was read.
+    cylinder
+        Section and strength of the cylinder, if given.
     """
 
     title: str
@@ -73,6 +77,7 @@ class Case:
     given: Mapping[str, Any]
     source: str = "case"
     text: str = ""
+    cylinder: Cylinder | None = None
 
     @classmethod
     def read(cls, path: str | Path) -> Case:
@@ -210,7 +215,16 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         given={k: v for k, v in data.items() if k != "title"},
         source=source,
         text=text,
+        cylinder=_cylinder(parsed),
     )
+
+
+def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
+    if parsed.cylinder is None:
+        return None
+    if parsed.hole is None:
+        raise InputError("cylinder", None, "needs [rod] and [hole]: a dimensionless case has no stresses")
+    return cylinder_of(parsed.cylinder, parsed.hole)
 
 
 def _load(given: Mapping[str, Any], physical: bool, source: str) -> schema.Load | schema.DimensionlessLoad:

@@ -9,10 +9,10 @@ from rodwell.analysis.critical import EULER, Mode
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
+from rodwell.analysis.wall import Peak
+from rodwell.practice.capacity import Cylinder, cylinder_stress
 from rodwell.practice.case import Case
-
-STRAIGHT_AT = 1e-6
-"""A torque below this part of the largest torque in the cylinder counts as none."""
+from rodwell.practice.scales import Scales
 
 
 @dataclass(frozen=True)
@@ -63,21 +63,38 @@ def force_scale(force: float) -> float:
     return abs(force) + EULER
 
 
+def stress_figure(state: Solution, cylinder: Cylinder, scales: Scales) -> Figure:
+    """Largest equivalent stress in the cylinder in one state, as a multiple of the unit of stress B/L⁴."""
+    stress = cylinder_stress(state, cylinder, scales)
+    unit = scales.factor("stress")
+    note = f"{100.0 * stress.utilisation:.3g} % of the yield strength, at s/L = {stress.s:.4g}"
+    label = "Largest equivalent (von Mises) stress in the cylinder"
+    value, error = stress.value / unit, stress.error / unit
+    return Figure("cylinder_stress", label, value, error, "stress", value, note)
+
+
 def state_figures(state: Solution) -> list[Figure]:
     """Wall and support loads of one state."""
-    torque, torque_error = state.number(Measured.TORQUE_0)
+    wall = state.wall
     shortening, shortening_error = state.number(Measured.SHORTENING)
 
-    def largest(name: str, field: str, label: str) -> Figure:
-        value, error, place = state.largest(field)
-        return Figure(name, label, value, error, QUANTITIES[field].dimension, value, f"at s/L = {place:.4g}")
+    def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> Figure:
+        place = f"at s/L = {peak.s:.4g}"
+        return Figure(name, label, peak.value, peak.error, QUANTITIES[field].dimension, scale or peak.value, place)
 
-    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|")
-    largest_bending = largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|")
-    self_balanced = abs(torque) <= STRAIGHT_AT * largest_torque.value
-    wall_force = state.total_wall_force
+    in_rod = Peak(*state.largest("rod_M2"))
+    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", wall.twisting)
+    largest_bending = largest(
+        "largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod
+    )
+    wall_force = wall.total
     return [
-        largest("largest_wall_force", "contact_pressure", "Largest contact force on the wall per length, outward"),
+        largest(
+            "largest_wall_force",
+            "contact_pressure",
+            "Largest contact force on the wall per length, outward",
+            wall.contact,
+        ),
         Figure(
             "total_wall_force",
             "Total contact force on the wall, all directions added",
@@ -89,11 +106,22 @@ def state_figures(state: Solution) -> list[Figure]:
         Figure(
             "support_torque",
             "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
-            0.0 if self_balanced else torque,
-            torque_error,
+            wall.torque[0] if wall.needs_torque else 0.0,
+            wall.torque[1],
             "moment",
             largest_torque.value,
-            "none: the twisting moment balances itself" if self_balanced else "",
+            "" if wall.needs_torque else "none: the twisting moment balances itself",
+        ),
+        # μ and λ are differences of moments of the size of the rod's: they are judged against that
+        largest(
+            "largest_mu", "mu", "Largest bending moment in the cylinder about d₁, |μ|", wall.bending_mu, in_rod.value
+        ),
+        largest(
+            "largest_lambda",
+            "cylinder_M3",
+            "Largest bending moment in the cylinder about u₂, |λ cos η|",
+            wall.bending_lambda,
+            in_rod.value,
         ),
         largest_bending,
         Figure(

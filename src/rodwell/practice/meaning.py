@@ -158,8 +158,14 @@ def _wall(answer: Answer) -> str:
         if torque.value == 0.0
         else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')}"
     )
+    stress = ""
+    if "cylinder_stress" in figures:
+        figure = figures["cylinder_stress"]
+        physical = figure.physical(answer.case)
+        assert physical is not None
+        stress = f" Its equivalent stress is then {readable(physical[0], physical[2])}, {figure.note.split(',')[0]}."
     return (
         f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
         f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "
-        f"{text('largest_torque', 'B/L')}, and {support}."
+        f"{text('largest_torque', 'B/L')}, and {support}.{stress}"
     )

@@ -90,6 +90,14 @@ class Hole(Section):
     gravity: Acceleration = 9.80665
 
 
+class Cylinder(Section):
+    """[cylinder]: section and strength of the pipe around it, for the check of its capacity."""
+
+    outer_diameter: Length
+    inner_diameter: Length | None = None
+    yield_strength: Stress
+
+
 class Dimensionless(Section):
     """[dimensionless]: instead of [rod] and [hole]."""
 
@@ -127,6 +135,7 @@ class CaseFile(Section):
     title: str = "Untitled case"
     rod: Rod | None = None
     hole: Hole | None = None
+    cylinder: Cylinder | None = None
     dimensionless: Dimensionless | None = None
     load: dict[str, Any] = Field(default_factory=dict)
     analysis: Analysis = Analysis()

@@ -21,6 +21,9 @@ from rodwell.practice.units import readable
 TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
+PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴"}
+
+
 def number(value: float, error: float) -> str:
     """A value with the digits that its error estimate supports, ten at most; the last one is in doubt."""
     if value == 0.0:
@@ -49,7 +52,7 @@ def rows(answer: Answer) -> list[dict[str, str]]:
 
 
 def _unit(figure: Figure) -> str:
-    return {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L"}[figure.dimension]
+    return PLAIN_UNITS[figure.dimension]
 
 
 def inputs(case: Case) -> list[tuple[str, str]]:
@@ -100,6 +103,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         derived=derived(answer.case),
         special=_special(answer),
         pictures={name: _embed(*picture) for name, picture in pictures.items()},
+        wall=_sentence((answer.at_lift_off or answer.first[-1]).wall.meaning),
         certificate=_certificate(answer.worst_certificate),
         rtol=f"{answer.case.rtol:g}".replace("-", "−"),
         version=__version__,
@@ -125,6 +129,10 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
         "passed": certificate.passed,
         "groups": [(name, short(value)) for name, value in groups.items()],
     }
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 _GROUPS = {

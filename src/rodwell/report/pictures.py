@@ -14,6 +14,7 @@ from rodwell.analysis.diagram import Diagram
 from rodwell.analysis.measures import Measured
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
@@ -32,6 +33,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
+            "cylinder": plot_cylinder_moments(shown, scales),
             "rod-3d": plot_rod(shown, scales),
         }
         out = {}

@@ -1,0 +1,88 @@
+"""Whether the cylinder itself bears what the rod does to it: stress against strength."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.fields import fields_at, largest_of
+from rodwell.analysis.solution import Solution
+from rodwell.errors import InputError
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import estimated_error
+from rodwell.numerics.spaces import FloatArray
+from rodwell.practice import schema
+from rodwell.practice.scales import Scales
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Section and strength of the cylinder: diameters in m, yield strength in Pa."""
+
+    outer_diameter: float
+    inner_diameter: float
+    yield_strength: float
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of area in m⁴."""
+        return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
+
+
+@dataclass(frozen=True)
+class Stress:
+    """Largest equivalent stress in the cylinder: value and error in Pa, place s/L, and part of the yield strength."""
+
+    value: float
+    error: float
+    s: float
+    utilisation: float
+
+
+def cylinder_of(given: schema.Cylinder, hole: schema.Hole) -> Cylinder:
+    """Return the cylinder of a case.
+
+    Raises
+    ------
+    InputError
+        If diameters contradict each other or are missing.
+    """
+    inner = given.inner_diameter
+    if hole.diameter is not None:
+        if inner is not None and not math.isclose(inner, hole.diameter, rel_tol=1e-9):
+            raise InputError(
+                "cylinder.inner_diameter", inner, f"contradicts hole.diameter of {hole.diameter:g} m: leave it out"
+            )
+        inner = hole.diameter
+    if inner is None:
+        raise InputError("cylinder.inner_diameter", None, "is missing: give it, or hole.diameter")
+    if given.outer_diameter <= inner:
+        raise InputError(
+            "cylinder.outer_diameter", given.outer_diameter, f"must be above the inner diameter of {inner:g} m"
+        )
+    return Cylinder(given.outer_diameter, inner, given.yield_strength)
+
+
+def cylinder_stress(state: Solution, cylinder: Cylinder, scales: Scales) -> Stress:
+    """Largest von Mises stress √(σ² + 3τ²) at the outer surface of the cylinder in a state.
+
+    σ = M R/I with M = √(μ² + (λ cos η)²) and τ = T₂ R/2I from the moments in the cylinder, (59). The pressing of
+    the rod on the wall where it lies, and loads that do not come from the rod, are not in it.
+    """
+    per_moment = 0.5 * cylinder.outer_diameter / cylinder.inertia * scales.factor("moment")
+    values, places = zip(*(_largest(state, *level, per_moment) for level in state.levels), strict=True)
+    error = float(estimated_error(values[1], values[0]))
+    return Stress(values[1], error, places[1], values[1] / cylinder.yield_strength)
+
+
+def _largest(solution: Solution, family: Family, state: State, per_moment: float) -> tuple[float, float]:
+    """Largest stress and its place on one mesh."""
+
+    def stress(s: FloatArray) -> FloatArray:
+        f = fields_at(solution.problem, family, state, s)
+        bending = per_moment * np.hypot(f["mu"], f["cylinder_M3"])
+        return np.asarray(np.sqrt(bending**2 + 3.0 * (0.5 * per_moment * f["T2"]) ** 2))
+
+    return largest_of(stress)
