@@ -24,7 +24,9 @@ _HOME = {
     "Certificate": "rodwell.analysis.certificate",
     "Case": "rodwell.practice.case",
     "Answer": "rodwell.practice.answer",
+    "Audit": "rodwell.practice.audit",
     "answer": "rodwell.practice.answer",
+    "audit": "rodwell.practice.audit",
     "CriticalLoads": "rodwell.analysis.critical",
     "Curve": "rodwell.analysis.curves",
     "Diagram": "rodwell.analysis.diagram",
@@ -69,6 +71,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.verify import verify
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer
+    from rodwell.practice.audit import Audit, audit
     from rodwell.practice.case import Case
     from rodwell.problem import Problem
 

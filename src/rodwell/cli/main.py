@@ -11,6 +11,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 import click
 
 from rodwell._version import __version__
+from rodwell.cli.audit import audit
 from rodwell.cli.check import verify
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, twist
@@ -30,7 +31,7 @@ def cli() -> None:
     """
 
 
-for command in (run, critical, liftoff, diagram, curve, twist, verify):
+for command in (run, audit, verify, critical, liftoff, diagram, curve, twist):
     cli.add_command(command)
 
 

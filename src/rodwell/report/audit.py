@@ -1,0 +1,50 @@
+"""The results folder of an audit."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+from rodwell.plots.audit import plot_error_map
+from rodwell.practice.audit import Audit
+from rodwell.practice.audit_data import csv_rows
+from rodwell.practice.audit_map import ErrorMap
+from rodwell.report.pictures import PNG
+from rodwell.store.folder import whole_folder
+
+
+def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, ...]:
+    """Write the tables (JSON, CSV) and the chart (PNG, SVG, CSV of its loads) to ``out``: all files, or none.
+
+    Returns the names of the files.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written.
+    """
+    with whole_folder(out) as folder:
+        text = json.dumps(audit.as_dict(), indent=2, ensure_ascii=False, allow_nan=False)
+        (folder / "audit.json").write_text(text + "\n", encoding="utf-8")
+        _write_csv(folder / "audit.csv", csv_rows(audit))
+        if chart is not None:
+            _write_csv(folder / "audit-chart.csv", _chart_rows(chart))
+            figure = plot_error_map(chart)
+            figure.savefig(folder / "audit-chart.png", **PNG)
+            figure.set_layout_engine("none")
+            figure.savefig(folder / "audit-chart.svg", metadata={"Date": None})
+        return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def _chart_rows(chart: ErrorMap) -> list[tuple[object, ...]]:
+    lines: list[tuple[object, ...]] = [("weight", "alpha_degrees", "critical_force_s1_tension_positive", "error")]
+    for i, alpha in enumerate(chart.alphas):
+        for j, weight in enumerate(chart.weights):
+            lines.append((float(weight), float(alpha), float(chart.force[i, j]), float(chart.error[i, j])))
+    return lines
+
+
+def _write_csv(path: Path, rows: list[tuple[object, ...]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
