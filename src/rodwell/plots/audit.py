@@ -21,9 +21,12 @@ LEVELS = (-75.0, -50.0, -25.0, -10.0, 0.0, 10.0, 25.0, 50.0, 100.0)
 COLOURS = ("#08427a", "#2f79b5", "#6fa9d2", "#aacde5", "#dcebf4", "#fde8d8", "#f8bf98", "#ec8b5e", "#cf4a32", "#8f1014")
 """Blue where a formula is safe, red where it is not; one colour below, between and above the levels."""
 
+CLIP = 150.0
+"""Errors above are drawn as this, so that lines between grid points lie where they should."""
+
 PLACE = {"top": "top, s = 1", "middle": "middle", "bottom": "bottom, s = 0"}
-SHORT = {"dawson_paslay": "Dawson–Paslay", "dellinger": "Dellinger (89)", "lubinski": "Lubinski 1.94",
-         "chen_lin_cheatham": "Chen–Lin–Cheatham, helical"}  # fmt: skip
+SHORT = {"dawson_paslay": "Dawson–Paslay", "dellinger": "Dellinger (89)", "paslay_bogy": "Paslay–Bogy",
+         "chen_lin_cheatham": "Chen, helical"}  # fmt: skip
 
 
 def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS) -> Figure:
@@ -40,7 +43,7 @@ def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS
         norm = mpl.colors.BoundaryNorm(LEVELS, len(COLOURS) - 2)
         shown: Any = None
         for ax, (key, place) in zip(axes, panels, strict=False):
-            percent = np.minimum(chart.percent(key, place), 1e6)
+            percent = np.minimum(chart.percent(key, place), CLIP)
             shown = ax.contourf(chart.weights, chart.alphas, percent, LEVELS, cmap=colours, norm=norm, extend="both")
             if percent.min() < 0.0 < percent.max():
                 ax.contour(chart.weights, chart.alphas, percent, [0.0], colors=INK, linewidths=1.2)

@@ -42,7 +42,7 @@ class Comparison:
     """A formula's load beside an exact one at one place. Compression positive, in B/L².
 
     ``percent`` is 100 (formula/exact − 1), None where the exact compression is not positive; ``percent_error`` its
-    uncertainty from that of the exact load. ``safe``: the formula's load is not above the exact one.
+    uncertainty from that of the exact load. ``safe``: the formula's load is not above the exact one (and its error).
     """
 
     load: str
@@ -237,7 +237,7 @@ def compare(value: float, load: Load, place: Place) -> Comparison:
     if exact > load.error:
         percent = 100.0 * (value / exact - 1.0)
         error = 100.0 * abs(value) / exact * load.error / exact
-    return Comparison(load.name, place, exact, load.error, percent, error, value <= exact)
+    return Comparison(load.name, place, exact, load.error, percent, error, value <= exact + load.error)
 
 
 def _other(formula: Formula, rod: Rod, load: Load, problem: Problem) -> Other:

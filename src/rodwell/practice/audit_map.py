@@ -22,9 +22,12 @@ Progress = Callable[[float], None]
 
 PANELS: tuple[tuple[str, Place], ...] = (
     ("dawson_paslay", "bottom"), ("dawson_paslay", "middle"), ("dawson_paslay", "top"),
-    ("dellinger", "top"), ("lubinski", "bottom"), ("chen_lin_cheatham", "bottom"),
+    ("dellinger", "top"), ("paslay_bogy", "middle"), ("chen_lin_cheatham", "bottom"),
 )  # fmt: skip
 """Formulas that the chart shows, and where their force is measured."""
+
+ALPHAS = (0.0, 1.0, 2.5, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 38.0, 46.0, 55.0, 64.0, 73.0, 80.0, 85.0, 90.0)
+"""Inclinations of the chart: closer together near the vertical, where loads change fast."""
 
 REACH = 30.0
 """The chart goes from 1/30 to 30 times the weight of the case."""
@@ -107,7 +110,7 @@ def error_map(
     """
     heavy = problem.weight * REACH > HEAVY
     gammas = chart_weights(problem.weight, 13 if heavy else 23) if weights is None else np.asarray(weights, dtype=float)
-    angles = np.linspace(0.0, 90.0, 10 if heavy else 16) if alphas is None else np.asarray(alphas, dtype=float)
+    angles = np.array(ALPHAS[:: 1 + heavy] if alphas is None else alphas, dtype=float)
     if gammas.ndim != 1 or angles.ndim != 1 or gammas.size == 0 or angles.size == 0:
         raise InputError("weights, alphas", None, "must each be a list of at least one number")
     force, error = np.empty((2, angles.size, gammas.size))

@@ -21,7 +21,7 @@ PLACES: tuple[Place, ...] = ("top", "middle", "bottom")
 
 WHERE: dict[Place, float] = {"top": 1.0, "middle": 0.5, "bottom": 0.0}
 
-MOST_TURNS = 8
+MOST_TURNS = 6
 """Coils of more turns are not looked for."""
 
 
@@ -110,15 +110,13 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
             f"the coil has about {likely:.0f} turns, more than the {MOST_TURNS} that are looked for"
         )
     best: tuple[SpecialPoint, int, Branch] | None = None
-    for turns in range(max(1, math.floor(likely) - 1), math.ceil(likely) + 2):
-        scale = (2.0 * math.pi * turns) ** 2
-        try:
-            wound = problem.but(turns=turns, twist=0.0)
-            branch = coil(wound, start=-0.8 * scale, until=-6.0 * scale, rtol=rtol)
-        except NotConvergedError:
-            continue  # if no number of turns is left, the message below says so
-        point = _first(branch, "equal_energy")
-        if point is not None and (best is None or point.force > best[0].force):
+    first = max(1, round(0.8 * likely))  # ends that hold the angle favour fewer turns than the long limit
+    for turns in (*range(first, first + 3), *range(first - 1, 0, -1)):
+        if best is not None and best[1] not in (turns - 1, turns + 1):
+            continue  # past the most favourable number
+        branch = _wound(problem.but(turns=turns, twist=0.0), None if best is None else best[0].force, rtol)
+        point = None if branch is None else _first(branch, "equal_energy")
+        if branch is not None and point is not None and (best is None or point.force > best[0].force):
             best = point, turns, branch
     if best is None:
         raise NotConvergedError("no coil was found that has the energy of the straight rod")
@@ -129,6 +127,18 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
     if touch is not None:
         loads.append(Load("touch_down", f"{name} leaves the wall, unloaded", touch.force, touch.error, axial))
     return loads
+
+
+def _wound(problem: Problem, beyond: float | None, rtol: float) -> Branch | None:
+    """Branch of a coil to where its load of equal energy is expected, or to ``beyond``; None if there is no coil."""
+    scale = (2.0 * math.pi * problem.turns) ** 2
+    until = -5.0 * scale if beyond is None else max(-5.0 * scale, 1.001 * beyond)
+    if until >= -0.8 * scale:
+        return None
+    try:
+        return coil(problem, start=-0.8 * scale, until=until, rtol=rtol)
+    except NotConvergedError:
+        return None
 
 
 def _first(branch: Branch, kind: str) -> SpecialPoint | None:
