@@ -15,6 +15,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import make_formulas
 import make_howto
 from click.testing import CliRunner
 
@@ -35,6 +36,7 @@ COMMANDS = {
     "liftoff": "liftoff --weight 15 --alpha 90",
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
     **make_howto.COMMANDS,
+    **make_formulas.COMMANDS,
 }
 
 PRETTY = {
@@ -64,9 +66,13 @@ def build() -> dict[str, str]:
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
-    for name, text in make_howto.pages(OUT).items():
+    for name, text in (make_howto.pages(OUT) | make_formulas.pages(OUT)).items():
         _write(name, text)
-    return _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8"))) | make_howto.numbers()
+    return (
+        _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+        | make_howto.numbers()
+        | make_formulas.numbers()
+    )
 
 
 def _write(name: str, text: str) -> None:

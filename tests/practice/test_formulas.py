@@ -200,7 +200,9 @@ def test_sinusoidal_contact_force_is_the_exact_one_at_small_amplitude() -> None:
     theta, pressure = state.fields(s)["xi2"], -state.fields(s)["contact_pressure"]
     beta = float(np.dot(theta, np.sin(n * math.pi * s)) / np.dot(np.sin(n * math.pi * s), np.sin(n * math.pi * s)))
     assert 0.02 < abs(beta) < 0.6
-    formula = [helix.sinusoidal_contact(1.0, problem.weight, 90.0, clearance, -state.force, 2.0 / n, beta, x) for x in s]
+    formula = [
+        helix.sinusoidal_contact(1.0, problem.weight, 90.0, clearance, -state.force, 2.0 / n, beta, x) for x in s
+    ]
     deviation = float(np.max(np.abs(pressure - problem.weight)))
     assert np.max(np.abs(np.array(formula) - pressure)) < 0.02 * deviation
 

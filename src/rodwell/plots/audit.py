@@ -120,7 +120,7 @@ def plot_hanging(
         ax.annotate(label, (1.0, value), xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
                     va="center", fontsize=8.5, color=INK, annotation_clip=False)  # fmt: skip
     ax.set_xscale("log")
-    ax.set_xlabel("length of the string X = L/(B/w)^⅓")
-    ax.set_ylabel("compression at the bit / (B w²)^⅓")
+    ax.set_xlabel(r"length of the string $X = L/(B/w)^{1/3}$")
+    ax.set_ylabel(r"compression at the bit / $(B w^2)^{1/3}$")
     ax.legend(loc="upper right")
     return ax

@@ -34,7 +34,7 @@ LEFT_OUT: tuple[LeftOut, ...] = (
     LeftOut(
         "Wu–Juvkam-Wold 1992, vertical, top of the helix",
         "0.14 (B w²)^⅓",
-        "known from memory only. The derivation behind 2.55 and 5.55 gives 5.5526 − (16π²)^⅓ = 0.148",
+        "known from memory only. The derivation behind 2.55 and 5.55 gives 5.5539 − (16π²)^⅓ = 0.149",
     ),
     LeftOut(
         "Wu–Juvkam-Wold 1995, curved hole",

@@ -1,0 +1,243 @@
+"""The audit of formulas: places, errors, verdicts, charts, the command, and tables of known ratios."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import rodwell
+from rodwell.cli.main import cli
+from rodwell.errors import InputError
+from rodwell.practice.audit import audit, compare
+from rodwell.practice.audit_map import chart_weights, error_map, hanging_coefficients
+from rodwell.practice.exact_loads import PLACES, Load, critical, exact_loads
+from rodwell.practice.formulas import FORMULAS, LEFT_OUT
+
+# exact load over Dawson–Paslay's at top, middle, bottom: clamped, Δ/L = 0.01
+RATIOS = {
+    (90.0, 40.0): (1.258, 1.258, 1.258), (90.0, 140.0): (1.141, 1.141, 1.141), (90.0, 280.0): (1.107, 1.107, 1.107),
+    (90.0, 1000.0): (1.058, 1.058, 1.058), (90.0, 16000.0): (1.015, 1.015, 1.015),
+    (60.0, 140.0): (0.983, 1.142, 1.301), (60.0, 280.0): (0.868, 1.093, 1.317), (30.0, 140.0): (0.814, 1.177, 1.539),
+    (30.0, 280.0): (0.544, 1.056, 1.569), (10.0, 280.0): (0.050, 1.038, 2.027),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("alpha", "weight"), RATIOS)
+def test_exact_load_over_dawson_paslay(alpha: float, weight: float) -> None:
+    load = critical(rodwell.Problem(weight, alpha=alpha))
+    formula = FORMULAS["dawson_paslay"].function(1.0, weight, alpha, 0.01)
+    assert [round(load.at(place) / formula, 3) for place in PLACES] == list(RATIOS[alpha, weight])
+
+
+def test_places_are_the_axial_resultant() -> None:
+    """N(s) = F + γ cos α (s − 1): the bottom, s = 0, is the most compressed; vertical clamped rod of (87)."""
+    load = critical(rodwell.Problem(74.628569, alpha=0))
+    assert load.at("top") == pytest.approx(0.0, abs=1e-6)
+    assert load.at("middle") == pytest.approx(0.5 * 74.628569, abs=1e-6)
+    assert load.at("bottom") == pytest.approx(74.628569, abs=1e-6)
+
+
+def test_dellinger_beside_the_exact_load() -> None:
+    """F3: 149.1, 286.4, 411.0 beside 159.2, 270.1, 370.5; at 30°, 303.8 beside 128.7."""
+    for weight, alpha, fit, exact in ((40, 90, 149.1, 159.2), (140, 90, 286.4, 270.1), (280, 90, 411.0, 370.5),
+                                      (280, 30, 303.8, 128.7)):  # fmt: skip
+        row = audit(rodwell.Problem(weight, alpha=alpha)).row("dellinger")
+        main = row.main
+        assert main is not None
+        assert (main.load, main.place) == ("critical", "top")
+        assert round(row.value, 1) == fit
+        assert round(main.exact, 1) == exact
+        assert main.percent == pytest.approx(100.0 * (fit / exact - 1.0), abs=0.15)
+        assert main.safe == (weight == 40)
+
+
+def test_verdicts_and_errors() -> None:
+    load = Load("critical", "", -90.0, 0.9, 20.0)
+    found = compare(99.0, load, "top")
+    assert found.percent == pytest.approx(10.0)
+    assert found.percent_error == pytest.approx(1.1)
+    assert not found.safe
+    assert compare(99.0, load, "middle").safe
+    assert compare(99.0, load, "bottom").percent == pytest.approx(-10.0)
+    assert compare(90.5, load, "top").safe  # within the error of the exact load
+    tension = compare(5.0, Load("critical", "", 30.0, 1e-9, 20.0), "bottom")
+    assert tension.exact == -10.0
+    assert tension.percent is None
+    assert not tension.safe
+
+
+def test_which_exact_load_is_meant() -> None:
+    found = audit(rodwell.Problem(15))
+    loads = {load.name: load for load in found.loads}
+    assert loads["lift_off"].force == pytest.approx(-123.1730743, abs=1e-6)
+    assert -125.0 < loads["equal_energy"].force < -119.0  # one turn has less energy from about −121 down
+    assert found.row("dawson_paslay").against == "critical"
+    assert found.row("chen_lin_cheatham").against == "equal_energy"
+    assert found.row("wu_juvkam_wold").against == "lift_off"
+    assert found.row("mitchell_unloading").against == "touch_down"
+    inclined = audit(rodwell.Problem(15, alpha=60))
+    assert inclined.row("chen_lin_cheatham").against == "lift_off"
+    assert any("equal energy" in note for note in inclined.not_found)
+    free = audit(rodwell.Problem(15, alpha=0))
+    assert free.row("chen_lin_cheatham").against == "critical"
+    assert free.row("dawson_paslay").value == 0.0
+
+
+def test_most_favourable_number_of_turns() -> None:
+    """No other number of turns has the energy of the straight rod under less compression."""
+    loads, _ = exact_loads(rodwell.Problem(280))
+    best = next(load for load in loads if load.name == "equal_energy")
+    assert best.label.startswith("coil of 2 turns")
+    for turns in (1, 3):
+        scale = (2.0 * math.pi * turns) ** 2
+        branch = rodwell.coil(rodwell.Problem(280, turns=turns), start=-0.9 * scale, until=1.1 * best.force - scale)
+        other = [p.force for p in branch.special_points if p.kind == "equal_energy"]
+        assert all(force < best.force for force in other)
+
+
+def test_every_formula_has_its_place_in_the_audit() -> None:
+    found = audit(rodwell.Problem(280, alpha=60), extra={"mu": 0.2, "build": 0.1})
+    keys = [row.formula.key for row in found.rows] + [other.formula.key for other in found.others]
+    assert sorted(keys) == sorted(FORMULAS)
+    curved = found.row("he_kyllingstad")
+    assert curved.comparisons == ()
+    assert "straight hole" in curved.reasons[-1]
+    assert found.row("gao_miska").value is not None
+    contact = next(other for other in found.others if other.formula.key == "helical_contact")
+    force = found.critical.at("bottom")
+    assert contact.value == pytest.approx(0.01 * force**2 / 4.0)
+    assert contact.relative_error is not None
+    assert -0.1 < contact.relative_error < 0.0
+    needs = next(other for other in found.others if other.formula.key == "helical_push")
+    assert needs.value is None
+    assert needs.missing == ("x",)
+
+
+def test_no_value_is_none_and_not_nan() -> None:
+    for problem in (rodwell.Problem(0), rodwell.Problem(0, alpha=0), rodwell.Problem(50, alpha=0, ends="free-pinned"),
+                    rodwell.Problem(100, on_top=True), rodwell.Problem(15, twist=1.0)):  # fmt: skip
+        data = audit(problem, extra={"mu": 0.7}).as_dict()
+        json.dumps(data, allow_nan=False)
+        assert data["exact"][0]["name"] == "critical"
+        assert data["left_out"][0]["reason"]
+
+
+def test_numbers_of_lubinski_from_the_engine() -> None:
+    first = {6: 2.041, 8: 1.937, 10: 1.870, 14: 1.785, 20: 1.711, 30: 1.642}
+    second = {6: 4.201, 8: 4.100, 10: 4.032, 14: 3.950, 20: 3.881, 30: 3.816}
+    values, errors = hanging_coefficients([float(x) for x in first])
+    assert [round(v, 3) for v in values[:, 0]] == pytest.approx(list(first.values()), abs=1.01e-3)
+    assert [round(v, 3) for v in values[:, 1]] == pytest.approx(list(second.values()), abs=1.01e-3)
+    assert errors.max() < 1e-8
+    from scipy.special import ai_zeros, airy, itairy
+
+    values, _ = hanging_coefficients((20.0,), ("pinned", "free"), 2)
+    assert values[0] == pytest.approx(-ai_zeros(2)[1], rel=1e-8)
+    values, _ = hanging_coefficients((20.0,), ("clamped", "free"), 1)
+    assert values[0] == pytest.approx(-ai_zeros(1)[0], rel=1e-8)
+    assert airy(-values[0][0])[0] == pytest.approx(0.0, abs=1e-7)
+    assert itairy(0.0)[0] == 0.0
+
+
+def test_map_is_made_of_the_same_loads() -> None:
+    problem = rodwell.Problem(280, alpha=30, clearance=0.02, ends="pinned-clamped")
+    chart = error_map(problem, (40.0, 280.0), (0.0, 30.0, 90.0))
+    assert chart.force.shape == (3, 2)
+    single = critical(problem)
+    assert chart.force[1, 1] == single.force
+    for place in PLACES:
+        assert chart.exact(place)[1, 1] == pytest.approx(single.at(place), rel=1e-14)
+    row = audit(problem).row("dawson_paslay").beside("critical", "middle")
+    assert row is not None
+    assert chart.percent("dawson_paslay", "middle")[1, 1] == pytest.approx(row.percent, rel=1e-12)
+    assert chart.percent("dawson_paslay", "top")[0, 1] == math.inf  # tension is needed at the top
+    assert chart.percent("dawson_paslay", "bottom")[0, 0] == -100.0
+
+
+def test_weights_of_the_chart() -> None:
+    for weight in (0.0, 1.0, 300.0, 5e5, 1e8, 1e9):
+        found = chart_weights(weight, 9)
+        assert np.all(np.diff(found) > 0.0)
+        assert found[0] >= 1.0 - 1e-12
+        assert found[-1] <= 1e9 * (1.0 + 1e-12)
+        if weight >= 1.0:
+            assert found[0] <= weight * (1.0 + 1e-12)
+            assert found[-1] >= weight * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("extra", "match"), [({"mu": -0.1}, "mu"), ({"nu": 0.3}, "nu"), ({"build": math.nan}, "build")]
+)
+def test_bad_extra(extra: dict[str, float], match: str) -> None:
+    with pytest.raises(InputError, match=match):
+        audit(rodwell.Problem(15), extra=extra)
+
+
+def test_bad_case() -> None:
+    with pytest.raises(InputError, match="Problem"):
+        audit("case.toml")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="turns"):
+        audit(rodwell.Problem(15, turns=1))
+    with pytest.raises(InputError, match="at least one"):
+        error_map(rodwell.Problem(15), (), (30.0,))
+
+
+# -- command
+
+DIMENSIONLESS = "[dimensionless]\nweight = 280\nalpha = 30\n"
+PIPE = Path(__file__).parents[2] / "examples" / "inclined-pipe.toml"
+
+
+def run(*arguments: str) -> Any:
+    return CliRunner().invoke(cli, arguments, env={"COLUMNS": "200"})
+
+
+def test_command_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("steep.toml").write_text(DIMENSIONLESS, encoding="utf-8")
+    done = run("audit", "steep.toml", "--friction", "0.2")
+    assert done.exit_code == 0, done.output
+    assert "+136.1 %" in done.output  # Dellinger's fit, 303.8 beside 128.7
+    assert "Compression positive" in done.output
+    assert "unsafe" in done.output
+    assert all(item.name in done.output for item in LEFT_OUT)
+    assert sorted(p.name for p in Path("results/steep-audit").iterdir()) == [
+        "audit-chart.csv", "audit-chart.png", "audit-chart.svg", "audit.csv", "audit.json",
+    ]  # fmt: skip
+    with Path("results/steep-audit/audit.csv").open(encoding="utf-8") as file:
+        lines = [line for line in csv.DictReader(file) if line["key"] == "dellinger"]
+    top = next(line for line in lines if (line["load"], line["place"]) == ("critical", "top"))
+    assert float(top["percent"]) == pytest.approx(136.05, abs=0.01)
+    assert top["safe"] == "False"
+
+
+def test_command_as_json_in_si(tmp_path: Path) -> None:
+    done = run("audit", str(PIPE), "--no-chart", "--json", "--out", str(tmp_path / "here"))
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.output)
+    row = next(item for item in data["formulas"] if item["key"] == "dawson_paslay")
+    lbf = 4.4482216152605
+    expected = 36_704.84 * lbf * math.sqrt(math.sin(math.pi / 4.0))  # the field example, at 45°
+    assert row["si"]["value"] == pytest.approx(expected, rel=2e-5)
+    stress = next(item for item in data["other_formulas"] if item["key"] == "helix_bending_stress")
+    bottom = data["exact"][0]["si"]["force"] * -1.0 + 16.523 * lbf / 0.3048 * 300.0 * math.cos(math.pi / 4.0)
+    inertia = 14.269158404 * 0.0254**4
+    assert stress["si"]["value"] == pytest.approx(5 * 0.0254 * 1.75 * 0.0254 * bottom / (4.0 * inertia), rel=1e-6)
+    assert sorted(p.name for p in (tmp_path / "here").iterdir()) == ["audit.csv", "audit.json"]
+
+
+def test_command_refuses_bad_input(tmp_path: Path) -> None:
+    assert run("audit", str(tmp_path / "none.toml")).exit_code != 0
+    case = tmp_path / "steep.toml"
+    case.write_text(DIMENSIONLESS, encoding="utf-8")
+    done = run("audit", str(case), "--friction", "-1", "--out", str(tmp_path / "out"))
+    assert isinstance(done.exception, InputError)
+    assert "mu" in str(done.exception)
+    assert not (tmp_path / "out").exists()
