@@ -48,14 +48,14 @@ def test_dellinger_beside_the_exact_load() -> None:
     """F3: 149.1, 286.4, 411.0 beside 159.2, 270.1, 370.5; at 30°, 303.8 beside 128.7."""
     for weight, alpha, fit, exact in ((40, 90, 149.1, 159.2), (140, 90, 286.4, 270.1), (280, 90, 411.0, 370.5),
                                       (280, 30, 303.8, 128.7)):  # fmt: skip
-        row = audit(rodwell.Problem(weight, alpha=alpha)).row("dellinger")
-        main = row.main
-        assert main is not None
-        assert (main.load, main.place) == ("critical", "top")
-        assert round(row.value, 1) == fit
+        value = FORMULAS["dellinger"].function(1.0, weight, alpha, 0.01)
+        main = compare(value, critical(rodwell.Problem(weight, alpha=alpha)), "top")
+        assert round(value, 1) == fit
         assert round(main.exact, 1) == exact
         assert main.percent == pytest.approx(100.0 * (fit / exact - 1.0), abs=0.15)
         assert main.safe == (weight == 40)
+    row = audit(rodwell.Problem(280, alpha=30)).row("dellinger")
+    assert row.main == main
 
 
 def test_verdicts_and_errors() -> None:
@@ -90,16 +90,20 @@ def test_which_exact_load_is_meant() -> None:
     assert free.row("dawson_paslay").value == 0.0
 
 
-def test_most_favourable_number_of_turns() -> None:
-    """No other number of turns has the energy of the straight rod under less compression."""
-    loads, _ = exact_loads(rodwell.Problem(280))
-    best = next(load for load in loads if load.name == "equal_energy")
-    assert best.label.startswith("coil of 2 turns")
-    for turns in (1, 3):
-        scale = (2.0 * math.pi * turns) ** 2
-        branch = rodwell.coil(rodwell.Problem(280, turns=turns), start=-0.9 * scale, until=1.1 * best.force - scale)
-        other = [p.force for p in branch.special_points if p.kind == "equal_energy"]
-        assert all(force < best.force for force in other)
+def test_coil_of_equal_energy_is_in_contact_and_needs_the_least() -> None:
+    """A coil of one turn off the wall does not count at γ = 280; at 1000 it does, and two turns need more."""
+    for weight, turns, start in ((280, 2, -350.0), (1000, 1, -760.0)):
+        loads, notes = exact_loads(rodwell.Problem(weight))
+        assert notes == ()
+        found = {load.name: load for load in loads}["equal_energy"]
+        assert found.label.startswith(f"coil of {turns} turn")
+        one = rodwell.coil(rodwell.Problem(weight, turns=1), start=start, until=1.4 * start)
+        point = next(p for p in one.special_points if p.kind == "equal_energy")
+        assert (point.solution.highest_pressure[0] < 0.0) == (turns == 1)
+        if turns == 1:
+            assert found.force == pytest.approx(point.force, rel=1e-8)
+    two = rodwell.coil(rodwell.Problem(1000, turns=2), start=-680.0, until=-950.0)
+    assert next(p.force for p in two.special_points if p.kind == "equal_energy") < found.force
 
 
 def test_every_formula_has_its_place_in_the_audit() -> None:

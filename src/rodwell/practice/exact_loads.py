@@ -24,6 +24,9 @@ WHERE: dict[Place, float] = {"top": 1.0, "middle": 0.5, "bottom": 0.0}
 MOST_TURNS = 6
 """Coils of more turns are not looked for."""
 
+STARTS = (0.75, 0.85, 0.95)
+"""Where coils are looked for, as parts of the load of Chen, Lin and Cheatham."""
+
 
 @dataclass(frozen=True)
 class Load:
@@ -62,7 +65,7 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[Load, ...],
     """Return the exact loads of a problem, and what could not be had with the reason.
 
     The first critical load; lift-off of the branch that starts there; for a horizontal rod whose ends hold the angle,
-    the load at which the coil of most favourable whole turns has the energy of the straight rod, and that at which
+    the least load at which a coil of whole turns has the energy of the straight rod, and that at which
     this coil leaves the wall when it is unloaded.
 
     Raises
@@ -100,26 +103,22 @@ def _lift_off(problem: Problem, rtol: float) -> Load:
 
 
 def _coil(problem: Problem, rtol: float) -> list[Load]:
-    """Least compression at which a coil of whole turns has the energy of the straight rod, over the turns.
+    """Least compression at which a coil of whole turns, in contact throughout, has the energy of the straight rod.
 
-    And that at which this coil leaves the wall as it is unloaded, if it was met.
+    And that at which this coil leaves the wall as it is unloaded, if it was met. Few turns need the least: the rod
+    winds where it likes and lies at the bottom elsewhere. So turns are counted up until one more needs more.
     """
-    likely = (problem.lateral_weight / (8.0 * math.pi**4 * problem.clearance)) ** 0.25
-    if likely > MOST_TURNS:
-        raise NotConvergedError(
-            f"the coil has about {likely:.0f} turns, more than the {MOST_TURNS} that are looked for"
-        )
     best: tuple[SpecialPoint, int, Branch] | None = None
-    first = max(1, round(0.8 * likely))  # ends that hold the angle favour fewer turns than the long limit
-    for turns in (*range(first, first + 3), *range(first - 1, 0, -1)):
-        if best is not None and best[1] not in (turns - 1, turns + 1):
-            continue  # past the most favourable number
-        branch = _wound(problem.but(turns=turns, twist=0.0), None if best is None else best[0].force, rtol)
+    for turns in range(1, MOST_TURNS + 1):
+        branch = _wound(problem.but(turns=turns, twist=0.0), rtol)
         point = None if branch is None else _first(branch, "equal_energy")
-        if branch is not None and point is not None and (best is None or point.force > best[0].force):
-            best = point, turns, branch
+        if branch is None or point is None or point.solution.highest_pressure[0] >= 0.0:
+            continue
+        if best is not None and point.force <= best[0].force:
+            break
+        best = point, turns, branch
     if best is None:
-        raise NotConvergedError("no coil was found that has the energy of the straight rod")
+        raise NotConvergedError("no coil in contact throughout was found that has the energy of the straight rod")
     point, turns, branch = best
     name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.axial_weight
     loads = [Load("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
@@ -129,16 +128,16 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
     return loads
 
 
-def _wound(problem: Problem, beyond: float | None, rtol: float) -> Branch | None:
-    """Branch of a coil to where its load of equal energy is expected, or to ``beyond``; None if there is no coil."""
+def _wound(problem: Problem, rtol: float) -> Branch | None:
+    """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found."""
     scale = (2.0 * math.pi * problem.turns) ** 2
-    until = -5.0 * scale if beyond is None else max(-5.0 * scale, 1.001 * beyond)
-    if until >= -0.8 * scale:
-        return None
-    try:
-        return coil(problem, start=-0.8 * scale, until=until, rtol=rtol)
-    except NotConvergedError:
-        return None
+    chen = 2.0 * math.sqrt(2.0 * problem.lateral_weight / problem.clearance)
+    for start in STARTS:
+        try:
+            return coil(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale), rtol=rtol)
+        except (InputError, NotConvergedError):
+            continue
+    return None
 
 
 def _first(branch: Branch, kind: str) -> SpecialPoint | None:
