@@ -98,9 +98,7 @@ def _print(audit: Audit) -> None:
     for note in audit.not_found:
         console.print(f"not compared: {_safe(note)}", style="dim")
     console.print(_loads_table(audit))
-    console.print(
-        "error = formula/exact − 1; verdict and exact load at the place where the formula's force is measured."
-    )
+    console.print("error = formula/exact − 1; exact and verdict: at the place where the formula's force is measured.")
     _print_reasons(console, audit)
     _print_others(console, audit)
     console.print("[bold]Left out[/bold]")
@@ -121,7 +119,7 @@ def _table(*columns: str) -> Any:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for column in columns:
         name = column.removeprefix(">")
-        table.add_column(name, justify="right" if column != name else "left")
+        table.add_column(name, justify="right" if column != name else "left", overflow="fold")
     return table
 
 
@@ -131,7 +129,7 @@ def _loads_table(audit: Audit) -> Any:
 
     inclined = audit.problem.axial_weight > 0.0
     errors = [f">{place}" for place in PLACES] if inclined else [">error"]
-    table = _table("formula", ">load", "at", ">exact", *errors, "verdict", "valid", "exact load meant")
+    table = _table("formula", ">load", "at", ">exact", *errors, "verdict", "valid", "against")
     for row in audit.rows:
         main = row.main
         value = "–" if row.value is None else _force(audit, row.value)

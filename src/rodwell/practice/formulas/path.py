@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from rodwell.practice.formulas.inclined import dawson_paslay
-from rodwell.practice.formulas.record import Rod, Value, formula, horizontal, inclined, long, pressed, sine
+from rodwell.practice.formulas.record import Rod, Value, formula, horizontal, inclined, light, long, pressed, sine
 
 STEEL_WEIGHT = 65.5
 """Density of steel in lb/gal (ppg), the field's buoyancy number."""
@@ -95,7 +95,7 @@ HE_EVIDENCE = (
     evidence=HE_EVIDENCE,
     holds="long pipe in a hole of constant curvature, r small against the radius of curvature",
     assumes="local force and local inclination; no axial weight, no friction",
-    checks=(pressed, long),
+    checks=(pressed, long, light),
 )
 def he_kyllingstad(B: Value, w: Value, alpha: Value, r: Value, build: Value, turn: Value) -> Value:
     """He–Kyllingstad, sinusoidal, curved hole."""
@@ -110,7 +110,7 @@ def he_kyllingstad(B: Value, w: Value, alpha: Value, r: Value, build: Value, tur
     evidence=HE_EVIDENCE,
     holds="long pipe in a hole of constant curvature, r small against the radius of curvature",
     assumes="local force and local inclination; no axial weight, no friction",
-    checks=(pressed, long),
+    checks=(pressed, long, light),
 )
 def he_kyllingstad_helical(B: Value, w: Value, alpha: Value, r: Value, build: Value, turn: Value) -> Value:
     """He–Kyllingstad, helical, curved hole."""
