@@ -46,6 +46,7 @@ _HOME = {
     "equilibrium": "rodwell.analysis.equilibrium",
     "follow": "rodwell.analysis.follow",
     "lift_off_curve": "rodwell.analysis.state_curves",
+    "sensitivities": "rodwell.analysis.sensitivity",
     "secondary_curve": "rodwell.analysis.state_curves",
     "torsion": "rodwell.analysis.torsion",
     "twist_curve": "rodwell.analysis.state_curves",
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.diagram import Diagram, diagram
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
+    from rodwell.analysis.sensitivity import sensitivities
     from rodwell.analysis.solution import Solution
     from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve

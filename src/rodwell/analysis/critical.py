@@ -38,6 +38,8 @@ class Mode:
         1 if y(1−s) = y(s), −1 if y(1−s) = −y(s), 0 if the mode has no symmetry (inclined cylinder).
     wavenumber
         √(∫y''²/∫y'²), in rad/L.
+    coarse
+        Space and coefficients on the coarser of the two meshes, for error estimates of what is derived from the mode.
     space, coefficients
         The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch. At an end that can turn, where
         y''(1) = 0: y'(1) < 0 if it is pinned, y(1) < 0 if it is free.
@@ -51,6 +53,7 @@ class Mode:
     wavenumber: float
     space: SplineSpace
     coefficients: FloatArray
+    coarse: tuple[SplineSpace, FloatArray]
 
     def shape(self, s: FloatArray) -> FloatArray:
         """Mode y(s) at ``s`` (m,), scaled to a largest deflection of 1."""
@@ -121,7 +124,10 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
             )
         space, values, vectors = finer, better, shapes
     better, shapes = _with_symmetry(problem, finer, better[:count], shapes)
-    return CriticalLoads(_mode(problem, finer, i + 1, -better[i], error[i], shapes[i]) for i in range(int(count)))
+    _, vectors = _with_symmetry(problem, space, values[:count], vectors)
+    return CriticalLoads(
+        _mode(problem, finer, i + 1, -better[i], error[i], shapes[i], (space, vectors[i])) for i in range(int(count))
+    )
 
 
 def _starting_space(problem: Problem, count: int) -> SplineSpace:
@@ -195,11 +201,19 @@ def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
     return float({"pinned": -slope, "free": -y}.get(problem.ends[1], bend))
 
 
-def _mode(problem: Problem, space: SplineSpace, number: int, force: float, error: float, vector: FloatArray) -> Mode:
+def _mode(
+    problem: Problem,
+    space: SplineSpace,
+    number: int,
+    force: float,
+    error: float,
+    vector: FloatArray,
+    coarse: tuple[SplineSpace, FloatArray],
+) -> Mode:
     parity = 0
     if problem.symmetric:
         parity = 1 if vector @ vector[::-1] > 0.0 else -1
         vector = 0.5 * (vector + parity * vector[::-1])
     if _sense(problem, space, vector) < 0.0:
         vector = -vector
-    return Mode(problem, number, float(force), float(error), parity, space.wavenumber(vector), space, vector)
+    return Mode(problem, number, float(force), float(error), parity, space.wavenumber(vector), space, vector, coarse)

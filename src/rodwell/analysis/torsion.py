@@ -11,13 +11,9 @@ from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.follow import follow
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.pressure import pressure_rates
 from rodwell.analysis.special import SpecialPoint
-from rodwell.analysis.starts import at_state
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import estimated_error
-from rodwell.physics.strand import towards_lift_off
 from rodwell.problem import Problem, ends_text
 
 LARGEST_TWIST = 200.0
@@ -141,7 +137,7 @@ def torsion(
     lift = follow(problem, mode, mirror=mirror, rtol=rtol).lift_off
     if lift is None:
         raise NotConvergedError("the rod has no lift-off within reach, at which it could be prepared")
-    rates, errors = pressure_rates(lift.solution, lift.s)
+    rates, errors = pressure_rates(lift.solution, lift.s, "twist")
     size = NO_RATE * problem.lateral_weight * max(1.0, 1.0 / problem.clearance)
     senses = {0 if abs(rate) < size else int(-np.sign(rate)) for rate in rates}
     sense = senses.pop() if len(senses) == 1 else 0
@@ -149,27 +145,3 @@ def torsion(
         return Torsion(problem, lift, rates, errors, 0, None, None)
     branch = follow(problem, start=lift.solution, parameter="twist", until=sense * until, rtol=rtol)
     return Torsion(problem, lift, rates, errors, sense, branch, branch.lift_off)
-
-
-def pressure_rates(solution: Solution, places: tuple[float, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """dp/dT₁ along equilibria at constant force, at given places (p with the sign that makes contact negative).
-
-    Returns the rates and the estimates of their errors: from the two meshes and from twice the step.
-    """
-    ladder, point = at_state(solution.problem, solution, "twist", solution.problem.twist + 1.0, solution.ladder.rtol)
-    at = np.array(places)
-
-    def rate(family: Family, state: State, step: float) -> np.ndarray:
-        direction = state.tangent / state.tangent_lam
-        up, down = (_pressure(family, state, state.c + h * direction, state.lam + h, at) for h in (step, -step))
-        return np.asarray((up - down) / (2.0 * step))
-
-    fine = rate(ladder.fine, point.fine, STEP)
-    errors = estimated_error(fine, rate(ladder.coarse, point.coarse, STEP))
-    errors = errors + np.abs(rate(ladder.fine, point.fine, 2.0 * STEP) - fine)
-    return tuple(map(float, fine)), tuple(map(float, errors))
-
-
-def _pressure(family: Family, state: State, c: np.ndarray, twist: float, places: np.ndarray) -> np.ndarray:
-    u = state.space.evaluate(c, places, 4)
-    return np.asarray(towards_lift_off(places, u[0], u[1], u[2], u[3], family.parameters(twist)))
