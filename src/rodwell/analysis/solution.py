@@ -22,6 +22,8 @@ from rodwell.problem import Problem
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rodwell.analysis.geometry import Geometry
+
 
 @dataclass(frozen=True)
 class Solution:
@@ -86,6 +88,30 @@ class Solution:
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
         coarse, fine = (fields_at(self.problem, f, state, places) for f, state in self.levels)
         return fine, {k: float(np.max(estimated_error(fine[k], coarse[k]))) for k in fine}
+
+    def geometry(
+        self, places: int | None = None, *, rod_radius: float | None = None, radial_scale: float | None = 1.0
+    ) -> Geometry:
+        """The rod in space: centreline, braid and material frames, curvatures at evenly spaced places.
+
+        Parameters
+        ----------
+        places
+            How many; None: 401 or more, by the mesh of the solution.
+        rod_radius
+            Radius of the rod in L. The dimensionless problem has none: None stands for 0.2 Δ, a radius to be looked at.
+        radial_scale
+            How many times everything across the axis is enlarged; 1 is true scale, None a scale that can be read.
+
+        Raises
+        ------
+        InputError
+            For a radius that does not fit (outside a cylinder it must be below Δ; anywhere below the smallest radius
+            of curvature), a scale below 1, fewer than two places.
+        """
+        from rodwell.analysis.geometry import geometry  # noqa: PLC0415 - most who solve do not draw
+
+        return geometry(self, places, rod_radius=rod_radius, radial_scale=radial_scale)
 
     def largest(self, name: str) -> tuple[float, float, float]:
         """Largest size of a field over s, its error estimate, and where (the first place, if there are more)."""

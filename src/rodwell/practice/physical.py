@@ -31,7 +31,8 @@ def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: fl
             hole.clearance or hole.diameter,
             f"leaves a clearance of {clearance:g} m, which must be below the rod's length of {rod.length:g} m",
         )
-    scales = Scales(rod.length, stiffness)
+    radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
+    scales = Scales(rod.length, stiffness, radius)
     try:
         problem = Problem(
             weight=weight / scales.factor("force_per_length"),

@@ -9,10 +9,14 @@ from rodwell.analysis.nomenclature import POWERS, QUANTITIES, SI_UNITS
 
 @dataclass(frozen=True)
 class Scales:
-    """Length L in m and bending stiffness B in N m² of the rod: they carry every unit."""
+    """Length L in m and bending stiffness B in N m² of the rod: they carry every unit.
+
+    ``radius`` is the rod's outer radius in m where it is known. The theory does not need it, pictures do.
+    """
 
     length: float
     stiffness: float
+    radius: float | None = None
 
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of ``dimension`` (see ``nomenclature.UNITS``)."""
