@@ -16,7 +16,7 @@ IntArray = NDArray[np.int64]
 SIDES = 24
 """Sides of the rod's cross-section; a multiple of four puts vertices on the wall and on all material lines."""
 
-RAISED = 1.02
+RAISED = 1.05
 """Radius of a material line against the rod's, so that it stays visible on a rod with flat sides."""
 
 LINE_WIDTH = 0.13

@@ -7,88 +7,140 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import LinearSegmentedColormap, Normalize, TwoSlopeNorm
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.solution import Solution
-from rodwell.plots.style import RC, minus
+from rodwell.analysis.surfaces import straight_contact
+from rodwell.numerics.spaces import FloatArray
+from rodwell.plots.style import GREY, RC, minus
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
+from rodwell.practice.scene import LINE, MARK, NO_PULL, WALL, drawn, limits, palette, rgb, scene
+from rodwell.practice.units import readable
 
-ASPECT = 4.0
-"""Length of the picture against its width; the lateral exaggeration that follows is written into it."""
+ELEVATION, AZIMUTH = 20.0, -66.0
+LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])
+PLACES, SIDES, LINES = 321, 20, 4
+"""Places along the rod and around it; more would only cost time."""
 
 
-def plot_rod(solution: Solution, scales: Scales | None = None, ax: Any = None) -> Any:
-    """Draw the rod's centreline on the cylinder of radius Δ, coloured by contact pressure; return the axes.
+def plot_rod(
+    solution: Solution,
+    scales: Scales | None = None,
+    ax: Any = None,
+    *,
+    rod_radius: float | None = None,
+    radial_scale: float | None = None,
+) -> Any:
+    """Draw the rod as a tube in its translucent cylinder, coloured by contact pressure; return the axes.
 
-    The lateral scale is exaggerated: the factor stands in the picture. Gravity's lateral part points down.
+    Two material lines, one dark and one light, show how the rod turns; red rings mark places of lift-off. Everything
+    across the axis is enlarged: by how much stands in the picture, as does the radius drawn. Gravity's lateral part
+    points down. Arguments as in :meth:`rodwell.Solution.geometry`; with ``scales`` of a case that gives the rod's
+    diameter, that is drawn, otherwise a radius of 0.2 Δ.
     """
-    s = np.linspace(0.0, 1.0, 801)
-    fields = solution.fields(s)
-    fs, us = axis("z", scales, 1.0)
-    fp, up = axis("contact_pressure", scales, float(np.max(np.abs(fields["contact_pressure"]))))
-    clearance = solution.problem.clearance
+    places = min(max(PLACES, 2 * solution.ladder.fine.space.breaks.size), 4 * PLACES)
+    rod = drawn(solution, scales, places, rod_radius, radial_scale)
     with mpl.rc_context(RC):
         if ax is None:
             ax = _wide_axes()
-        _cylinder(ax, fs)
-        x, y = np.sin(fields["xi2"]), -np.cos(fields["xi2"])  # sideways, up; in units of the clearance
-        line = np.stack([fields["z"] * fs, x, y], axis=1)
-        pressure = fields["contact_pressure"] * fp
-        low, high = float(pressure.min()), float(pressure.max())
-        cmap, norm = _colors(low, high)
-        rod = Line3DCollection(np.stack([line[:-1], line[1:]], axis=1), cmap=cmap, norm=norm, lw=3.4)
-        rod.set_array(0.5 * (pressure[1:] + pressure[:-1]))
-        rod.set_capstyle("round")
-        ax.add_collection3d(rod)
-        ff, uf = axis("force", scales, solution.force)
-        bar = ax.figure.colorbar(rod, cax=ax.figure.add_axes((0.88, 0.2, 0.02, 0.6)))
-        bar.ax.set_yscale("linear")
-        bar.ax.grid(visible=False)
-        bar.set_label(f"contact pressure p  [{up}]")
-        ax.set_box_aspect((ASPECT, 1.0, 1.0), zoom=0.88)
-        ax.view_init(elev=18, azim=-68)
-        ax.set_xlim(0.0, fs)
-        ax.set_ylim(-1.0, 1.0)
-        ax.set_zlim(-1.0, 1.0)
+        length, width = float(rod.centreline[-1, 2]), _reach(rod)
+        ax.set_proj_type("persp", focal_length=2.0)
+        ax.view_init(elev=ELEVATION, azim=AZIMUTH)
+        ax.set_box_aspect((length, 2.0 * width, 2.0 * width), zoom=0.8)
+        ax.set_xlim(0.0, length)
+        ax.set_ylim(-width, width)
+        ax.set_zlim(-width, width)
         ax.set_axis_off()
+        _bodies(ax, rod)
+        _wall(ax, rod)
         for place in (0.0, 1.0):
-            ax.text(place * fs, 0.0, -1.6, f"s = {place:g}", ha="center", fontsize=9)
-        exaggeration = 1.0 / (2.0 * clearance * ASPECT)
-        length = f", length {fs:g} {us}" if scales is not None else ""
-        ax.figure.text(
-            0.02, 0.03,
-            minus(f"F = {solution.force * ff:.4g} {uf} at s = 1 (tension positive){length}; "
-                  f"across the axis {exaggeration:.3g} times enlarged"),
-            fontsize=8.5,
-        )  # fmt: skip
+            ax.text(place * length, 0.0, -1.55 * width, f"s = {place:g}", ha="center", fontsize=9)
+        _colour_bar(ax, rod, scales)
+        ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax
+
+
+def _axes_of(points: FloatArray) -> FloatArray:
+    """From i, j, k to the axes of the picture: along the cylinder, sideways, up."""
+    return points[..., [2, 1, 0]] * np.array([1.0, -1.0, 1.0])
+
+
+def _reach(rod: Geometry) -> float:
+    return max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
+
+
+def _bodies(ax: Any, rod: Geometry) -> None:
+    """Rod, material lines and rings as one collection, so that they hide each other; what faces away is left out."""
+    faces, colours = [], []
+    e, a = np.radians(ELEVATION), np.radians(AZIMUTH)
+    eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    for part in scene(rod, SIDES, LINES):
+        if part.opacity < 1.0:
+            continue
+        corners = _axes_of(part.mesh.vertices)[part.mesh.triangles]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+        seen = normal @ eye > -0.15  # perspective shows a little more than a view from afar
+        colour = np.broadcast_to(part.colour, part.mesh.vertices.shape)[part.mesh.triangles].mean(axis=1)
+        faces.append(corners[seen])
+        colours.append(np.clip(colour * (0.62 + 0.42 * np.maximum(normal @ LIGHT, 0.0))[:, None], 0.0, 1.0)[seen])
+    shown = np.concatenate(colours)
+    ax.add_collection3d(Poly3DCollection(np.concatenate(faces), facecolors=shown, edgecolors=shown, linewidths=0.25))
+
+
+def _wall(ax: Any, rod: Geometry) -> None:
+    """The cylinder that the rod's surface touches, translucent, with the line where the straight rod lies."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 61)
+    circle = rod.wall_radius * np.cos(angle), rod.wall_radius * np.sin(angle)
+    ends = rod.centreline[[0, -1], 2]
+    z, x = np.meshgrid(ends, circle[0])
+    y = np.broadcast_to(circle[1][:, None], z.shape)
+    ax.plot_surface(z, y, x, color=WALL, alpha=0.16, lw=0, shade=False)
+    for end in ends:
+        ax.plot(np.full_like(angle, end), circle[1], circle[0], color="#627d98", lw=0.9)
+    line = _axes_of(straight_contact(rod))
+    ax.plot(*line.T, color="#627d98", lw=0.8, ls=":")
+
+
+def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
+    """The scale of colours, in the reader's units; p > 0 is contact where the rod lies outside."""
+    low, high = limits(rod.pull)
+    factor, unit = axis("contact_pressure", scales, max(-low, high))
+    sign = -1.0 if rod.outside else 1.0
+    p = np.linspace(low, high, 256)
+    below, above = np.minimum(p, 0.0) / (-low or 1.0), np.maximum(p, 0.0) / (high or 1.0)
+    colours = palette(below + above)
+    ends = sorted((sign * low * factor, sign * high * factor))
+    if ends[0] == ends[1]:
+        ends[1] = NO_PULL
+    mappable = ScalarMappable(Normalize(*ends), ListedColormap(colours if sign > 0.0 else colours[::-1]))
+    bar = ax.figure.colorbar(mappable, cax=ax.figure.add_axes((0.885, 0.24, 0.018, 0.6)))
+    bar.ax.grid(visible=False)
+    bar.outline.set_visible(False)
+    bar.set_label(f"contact pressure p  [{unit}]")
+
+
+def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+    factor, unit = axis("force", scales, solution.force)
+    length = "" if scales is None else f", length {readable(scales.length, 'm')}"
+    scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
+    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ"
+    if scales is not None:
+        radius = readable(rod.rod_radius * scales.length, "m")
+    marks = "; red rings: lift-off" if rod.lift_off else ""
+    load = minus(f"F = {solution.force * factor:.4g} {unit}")
+    return f"{load} at s = 1 (tension positive){length}; {scale}\nrod radius drawn {radius}; thin lines: material lines{marks}"
 
 
 def _wide_axes() -> Any:
     """Axes for a long object: the scene is square, so a square larger than the figure is laid behind it."""
-    width, height, side = 7.6, 2.9, 6.7
+    width, height, side = 7.6, 3.0, 7.6
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
-    box = (-0.02, 0.5 * (1.0 - side / height) + 0.03, side / width, side / height)
+    box = (-0.06, 0.5 * (1.0 - side / height) + 0.06, side / width, side / height)
     return figure.add_axes(box, projection="3d")
-
-
-def _colors(low: float, high: float) -> tuple[Any, Any]:
-    """Blue where pressed on the wall, white at none, red where the wall would have to pull."""
-    if high <= 1e-3 * abs(low):
-        return LinearSegmentedColormap.from_list("pressed", ["#08306b", "#2171b5", "#9ecae1"]), Normalize(low, 0.0)
-    return mpl.colormaps["coolwarm"], TwoSlopeNorm(0.0, min(low, -1e-3 * high), high)
-
-
-def _cylinder(ax: Any, length: float) -> None:
-    """The cylinder on which the rod's centreline lies, translucent, with its lowest generator."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 61)
-    ends = np.array([0.0, length])
-    z, a = np.meshgrid(ends, angle)
-    ax.plot_surface(z, np.sin(a), -np.cos(a), color="#9fb3c8", alpha=0.16, lw=0, shade=False)
-    for end in ends:
-        ax.plot(np.full_like(angle, end), np.sin(angle), -np.cos(angle), color="#627d98", lw=0.9)
-    ax.plot(ends, [0.0, 0.0], [-1.0, -1.0], color="#627d98", lw=0.8, ls=":")

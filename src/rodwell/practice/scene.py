@@ -59,7 +59,7 @@ def drawn(
     return solution.geometry(places, rod_radius=rod_radius, radial_scale=radial_scale)
 
 
-def scene(geometry: Geometry, sides: int = SIDES, lines: int = 2) -> list[Part]:
+def scene(geometry: Geometry, sides: int = SIDES, lines: int = 4) -> list[Part]:
     """The parts of the picture, the translucent cylinder last."""
     body = tube(geometry, sides)
     parts = [Part("rod", body, pressure_colours(geometry.pull)[body.place])]
