@@ -44,6 +44,7 @@ _HOME = {
     "critical_loads": "rodwell.analysis.critical",
     "diagram": "rodwell.analysis.diagram",
     "equilibrium": "rodwell.analysis.equilibrium",
+    "export": "rodwell.report.export",
     "follow": "rodwell.analysis.follow",
     "lift_off_curve": "rodwell.analysis.state_curves",
     "sensitivities": "rodwell.analysis.sensitivity",
@@ -76,6 +77,7 @@ if TYPE_CHECKING:
     from rodwell.practice.audit import Audit, audit
     from rodwell.practice.case import Case
     from rodwell.problem import Problem
+    from rodwell.report.export import export
 
 
 def __getattr__(name: str) -> Any:

@@ -13,6 +13,7 @@ import click
 from rodwell._version import __version__
 from rodwell.cli.audit import audit
 from rodwell.cli.check import verify
+from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, twist
 from rodwell.cli.run import run
@@ -31,7 +32,7 @@ def cli() -> None:
     """
 
 
-for command in (run, audit, verify, critical, liftoff, diagram, curve, twist):
+for command in (run, audit, verify, critical, liftoff, diagram, curve, twist, export):
     cli.add_command(command)
 
 

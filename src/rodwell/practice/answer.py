@@ -60,6 +60,11 @@ class Answer:
         return self.lift_off.solution
 
     @property
+    def shown(self) -> Solution:
+        """The state that pictures show: the first mode at lift-off, or else at the end of its branch."""
+        return self.at_lift_off or self.first[-1]
+
+    @property
     def converged(self) -> bool:
         """Whether every reported number meets the tolerance: branches, special points and key figures."""
         rtol = self.case.rtol

@@ -17,6 +17,7 @@ from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
 from rodwell.practice.units import readable
+from rodwell.report.viewer import viewer
 
 TEMPLATE = Path(__file__).with_name("report.html.j2")
 
@@ -87,8 +88,12 @@ def derived(case: Case) -> list[tuple[str, str]]:
 def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
     """Return the page.
 
-    ``pictures`` maps a name to its type ("svg" or "png") and content.
+    ``pictures`` maps a name to its type ("svg" or "png") and content. The picture of the rod can be turned; the still
+    one among them prints, and stands in where the browser cannot draw in three dimensions.
     """
+    scales = answer.case.scales
+    embedded = {name: _embed(*picture) for name, picture in pictures.items()}
+    rod = viewer(answer.shown, scales, still=embedded["rod-3d"])
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     text = sentences(answer)
@@ -102,8 +107,9 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         inputs=inputs(answer.case),
         derived=derived(answer.case),
         special=_special(answer),
-        pictures={name: _embed(*picture) for name, picture in pictures.items()},
-        wall=_sentence((answer.at_lift_off or answer.first[-1]).wall.meaning),
+        pictures=embedded,
+        rod=rod,
+        wall=_sentence(answer.shown.wall.meaning),
         certificate=_certificate(answer.worst_certificate),
         rtol=f"{answer.case.rtol:g}".replace("-", "−"),
         version=__version__,

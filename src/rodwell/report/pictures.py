@@ -27,14 +27,13 @@ PNG: Any = {"dpi": 140, "pil_kwargs": {"compress_level": 2}}
 def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
     """Write each picture to ``folder`` as PNG; return them for the report (SVG, the 3-D picture as PNG)."""
     scales = answer.case.scales
-    shown = answer.at_lift_off or answer.first[-1]
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
-            "cylinder": plot_cylinder_moments(shown, scales),
-            "rod-3d": plot_rod(shown, scales),
+            "cylinder": plot_cylinder_moments(answer.shown, scales),
+            "rod-3d": plot_rod(answer.shown, scales),
         }
         out = {}
         for name, ax in axes.items():

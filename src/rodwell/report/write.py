@@ -12,12 +12,14 @@ from rodwell.analysis.diagram import Diagram
 from rodwell.practice.answer import Answer
 from rodwell.report.html import render
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
+from rodwell.report.viewer import write_viewer
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
 
 FILES = {
     "report.html": "the report, self-contained",
+    "rod-3d.html": "the rod in its cylinder, to turn and zoom",
     "answer.json": "key figures and special points",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
@@ -35,6 +37,7 @@ def write_results(answer: Answer, out: Path) -> None:
     with whole_folder(out) as folder:
         pictures = draw(answer, folder)
         (folder / "report.html").write_text(render(answer, pictures), encoding="utf-8")
+        write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
         text = json.dumps(answer.as_dict(), indent=2, ensure_ascii=False)
         (folder / "answer.json").write_text(text + "\n", encoding="utf-8")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")

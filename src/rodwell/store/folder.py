@@ -14,18 +14,18 @@ from pathlib import Path
 from rodwell.errors import InputError
 
 
-def check_writable(out: Path) -> None:
-    """Raise before any work is done if results could not be written to ``out``."""
+def check_writable(out: Path, option: str = "--out") -> None:
+    """Raise before any work is done if results could not be written to ``out``, which ``option`` named."""
     try:
-        home = _nearest_folder(out)
+        home = _nearest_folder(out, option)
         with tempfile.TemporaryDirectory(dir=home):
             pass
     except OSError as problem:
-        raise _unwritable(out, problem) from None
+        raise _unwritable(out, problem, option) from None
 
 
 @contextmanager
-def whole_folder(out: Path) -> Iterator[Path]:
+def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
     """Yield a temporary folder whose files move to ``out`` when the block ends well.
 
     If the block raises, or is interrupted, ``out`` stays as it was (and is not made). Other files in ``out``
@@ -38,36 +38,36 @@ def whole_folder(out: Path) -> Iterator[Path]:
     """
     out = out.absolute()
     try:
-        temporary = Path(tempfile.mkdtemp(prefix=f".{out.name[:40]}-", dir=_nearest_folder(out)))
+        temporary = Path(tempfile.mkdtemp(prefix=f".{out.name[:40]}-", dir=_nearest_folder(out, option)))
     except OSError as problem:
-        raise _unwritable(out, problem) from None
+        raise _unwritable(out, problem, option) from None
     try:
         yield temporary
         with _undisturbed():
-            _move(temporary, out)
+            _move(temporary, out, option)
     except OSError as problem:
-        raise _unwritable(out, problem) from None
+        raise _unwritable(out, problem, option) from None
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
-def _nearest_folder(out: Path) -> Path:
+def _nearest_folder(out: Path, option: str) -> Path:
     """``out`` itself if it exists, else the nearest folder above it that does."""
     place = out.absolute()
     while not place.exists():
         place = place.parent
     if not place.is_dir():
         what = "is a file; name a folder" if place == out.absolute() else f"cannot be made: {str(place)!r} is a file"
-        raise InputError("--out", str(out), what)
+        raise InputError(option, str(out), what)
     return place
 
 
-def _move(temporary: Path, out: Path) -> None:
+def _move(temporary: Path, out: Path, option: str) -> None:
     """Move all files; nothing is touched if something stands in the way of one."""
     files = list(temporary.iterdir())
     for file in files:
         if (out / file.name).is_dir():
-            raise InputError("--out", str(out), f"holds a folder {file.name!r}, which stands in the way of a result")
+            raise InputError(option, str(out), f"holds a folder {file.name!r}, which stands in the way of a result")
     out.mkdir(parents=True, exist_ok=True)
     for file in files:
         file.replace(out / file.name)
@@ -95,5 +95,5 @@ def _undisturbed() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-def _unwritable(out: Path, problem: OSError) -> InputError:
-    return InputError("--out", str(out), f"cannot be written ({problem.strerror}); name another folder, or make room")
+def _unwritable(out: Path, problem: OSError, option: str) -> InputError:
+    return InputError(option, str(out), f"cannot be written ({problem.strerror}); name another folder, or make room")

@@ -1,0 +1,118 @@
+"""``rodwell export``: one state of a case in space, for other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rodwell.cli.options import progress_bar
+
+if TYPE_CHECKING:
+    from rodwell.analysis.solution import Solution
+    from rodwell.practice.case import Case
+
+LIFT_OFF = "lift-off"
+
+
+@click.command()
+@click.argument("case", type=click.Path(path_type=Path))
+@click.option(
+    "--at",
+    default=LIFT_OFF,
+    show_default=True,
+    help='End force at s = 1, tension positive, with its unit ("-130 kN", a plain number in B/L² without dimensions).',
+)
+@click.option(
+    "--to", "files", type=click.Path(path_type=Path), multiple=True, required=True,
+    help="File; the suffix says the format: .glb, .stl, .vtu, .csv, .html, .png. May be given several times.",
+)  # fmt: skip
+@click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
+@click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")
+@click.option("--rod-radius", help='Radius of the rod, "5 cm" or a number in L.  [default: the case\'s, or 0.2 Δ]')
+@click.option(
+    "--radial-scale", type=float,
+    help="Enlargement across the axis.  [default: 1 in .stl, .vtu, .csv; readable in the others]",
+)  # fmt: skip
+@click.option("--places", type=int, help="Places along the rod.  [default: 401 or more]")
+@click.option("--sides", type=int, default=24, show_default=True, help="Sides of the rod's cross-section.")
+def export(
+    case: Path,
+    at: str,
+    files: tuple[Path, ...],
+    mode: int,
+    mirror: bool,
+    rod_radius: str | None,
+    radial_scale: float | None,
+    places: int | None,
+    sides: int,
+) -> None:
+    """Write one state of CASE, a TOML file, in space: scene, surface, fields or centreline.
+
+    Lengths are in metres and forces in newtons where the case has dimensions, otherwise in units B = L = 1.
+    """
+    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.report.export import checked_files, checked_rod_radius  # noqa: PLC0415
+    from rodwell.report.export import export as write  # noqa: PLC0415
+    from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+    read = Case.read(case)
+    force = None if at == LIFT_OFF else _force(at, read)
+    checked_files(files, "--to")
+    for file in files:
+        check_writable(file.parent, "--to")
+    try:
+        radius = checked_rod_radius(rod_radius, read.scales)
+        with progress_bar(True, "the branch") as tell:
+            state = _state(read, force, mode, mirror)
+            tell("files", 0.9)
+            written = write(
+                state, files, scales=read.scales, rod_radius=radius, radial_scale=radial_scale, places=places, sides=sides
+            )
+    except InputError as problem:
+        names = {name: f"--{name.replace('_', '-')}" for name in ("rod_radius", "radial_scale", "places", "sides", "mode")}
+        names |= {"path": "--to", "until": "--at", "force": "--at"}
+        given = {"rod_radius": rod_radius, "until": at, "force": at}
+        value = given.get(problem.field, problem.value)
+        raise InputError(names.get(problem.field, problem.field), value, problem.problem) from None
+    click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(str(file) for file in written))
+
+
+def _force(at: str, case: Case) -> float:
+    """End force in B/L²: as in load.until of the case file, text with a unit or a plain number."""
+    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.practice.units import to_si  # noqa: PLC0415
+
+    if case.scales is None:
+        try:
+            return float(at)
+        except ValueError:
+            raise InputError("--at", at, f'must be "{LIFT_OFF}" or an end force in B/L², a plain number') from None
+    try:
+        return to_si(at, "force") / case.scales.factor("force")
+    except ValueError as problem:
+        raise InputError("--at", at, f'must be "{LIFT_OFF}" or an end force: it {problem}') from None
+
+
+def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution:
+    """The state asked for, on the branch of the mode."""
+    from rodwell.analysis.follow import follow  # noqa: PLC0415
+    from rodwell.errors import NotConvergedError  # noqa: PLC0415
+
+    branch = follow(case.problem, mode, until=force, mirror=mirror, rtol=case.rtol)
+    if force is not None:
+        return branch.at(force)
+    if branch.lift_off is None or branch.lift_off_at_buckling:
+        why = "lifts off as soon as it buckles" if branch.lift_off_at_buckling else branch.ended_because
+        raise NotConvergedError(f"mode {mode} has no buckled state at lift-off ({why}); give an end force with --at")
+    return branch.lift_off.solution
+
+
+def _text(state: Solution, case: Case) -> str:
+    from rodwell.practice.units import readable  # noqa: PLC0415
+
+    physical = "" if case.scales is None else f" ({readable(state.force * case.scales.factor('force'), 'N', 6)})"
+    index = "stable" if state.stable else f"stability index {state.stability_index}"
+    return f"End force at s = 1: {state.force:.10g} B/L²{physical}, tension positive; {index}".replace(" -", " −")

@@ -1,0 +1,151 @@
+// The rod in its cylinder, to be turned and zoomed. Needs THREE (three.min.js) and nothing from the network.
+// rodwellViewer(element, data): data as made by rodwell.report.viewer; returns false where the browser has no WebGL.
+"use strict";
+
+function rodwellViewer(element, data) {
+  const stage = element.querySelector(".stage");
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+  } catch (problem) {
+    return false; // the still picture stays
+  }
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  stage.appendChild(renderer.domElement);
+  element.classList.add("live");
+
+  const scene = new THREE.Scene();
+  const groups = { wall: new THREE.Group(), lines: new THREE.Group(), rest: new THREE.Group() };
+  Object.values(groups).forEach((group) => scene.add(group));
+  data.parts.forEach((part) => groups[groupOf(part)].add(mesh(part)));
+  data.lines.forEach((line) => groups[line.group].add(curve(line)));
+  light(scene);
+  const down = new THREE.Vector3(...data.gravity);
+  if (data.weight > 0) scene.add(new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018));
+
+  const camera = new THREE.PerspectiveCamera(28, 1, 0.001, 50);
+  const controls = new THREE.OrbitControls(camera, renderer.domElement);
+  controls.minDistance = 0.01;
+  controls.maxDistance = 12;
+  const labels = data.labels.map((label) => tag(stage, label));
+
+  function home() {
+    controls.target.set(0, 0, 0);
+    const towards = new THREE.Vector3(-0.32, 0.36, 0.95).normalize();
+    const across = 2 * Math.tan((camera.fov * Math.PI) / 360);
+    const distance = Math.max(1.36 / (across * camera.aspect), (data.height * 2.6) / across, 0.2);
+    camera.position.copy(towards.multiplyScalar(distance));
+    controls.update();
+    draw();
+  }
+  function draw() {
+    renderer.render(scene, camera);
+    labels.forEach(({ box, at }) => {
+      const p = at.clone().project(camera);
+      box.style.left = `${(p.x * 0.5 + 0.5) * stage.clientWidth}px`;
+      box.style.top = `${(-p.y * 0.5 + 0.5) * stage.clientHeight}px`;
+    });
+  }
+  function fit() {
+    const width = stage.clientWidth, height = stage.clientHeight;
+    if (!width || !height) return;
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  }
+  const zoom = (factor) => {
+    camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+    controls.update();
+    draw();
+  };
+  controls.addEventListener("change", draw);
+  new ResizeObserver(fit).observe(stage);
+  if (data.embedded) wheelAfterClick(controls, renderer.domElement); // a page that scrolls must go on scrolling
+
+  element.querySelector("[data-do=home]").onclick = home;
+  element.querySelector("[data-do=in]").onclick = () => zoom(0.8);
+  element.querySelector("[data-do=out]").onclick = () => zoom(1.25);
+  for (const name of ["wall", "lines"]) {
+    const box = element.querySelector(`[data-show=${name}]`);
+    box.onchange = () => { groups[name].visible = box.checked; draw(); };
+  }
+  fit();
+  home();
+  return true;
+
+  function groupOf(part) {
+    return part.name === "cylinder" ? "wall" : part.name.startsWith("material") ? "lines" : "rest";
+  }
+}
+
+function wheelAfterClick(controls, canvas) {
+  controls.enableZoom = false;
+  canvas.addEventListener("pointerdown", () => { controls.enableZoom = true; });
+  canvas.addEventListener("pointerleave", () => { controls.enableZoom = false; });
+}
+
+function bytes(text) {
+  const raw = atob(text), out = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) out[i] = raw.charCodeAt(i);
+  return out.buffer;
+}
+
+// Positions come as 16-bit numbers between the corners of the part's box.
+function positions(part) {
+  const q = new Uint16Array(bytes(part.positions)), out = new Float32Array(q.length);
+  for (let i = 0; i < q.length; i++) {
+    const k = i % 3;
+    out[i] = part.low[k] + (q[i] / 65535) * (part.high[k] - part.low[k]);
+  }
+  return out;
+}
+
+function mesh(part) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions(part), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(part.triangles)), 1));
+  geometry.computeVertexNormals();
+  const clear = part.opacity < 1;
+  const material = new THREE.MeshStandardMaterial({
+    metalness: 0, roughness: 0.55, transparent: clear, opacity: part.opacity, depthWrite: !clear,
+    side: clear ? THREE.DoubleSide : THREE.FrontSide, vertexColors: typeof part.colours === "string",
+  });
+  if (material.vertexColors) {
+    const rgb = new Uint8Array(bytes(part.colours)), out = new Float32Array(rgb.length), c = new THREE.Color();
+    for (let i = 0; i < rgb.length; i += 3) {
+      c.setRGB(rgb[i] / 255, rgb[i + 1] / 255, rgb[i + 2] / 255, "srgb").toArray(out, i);
+    }
+    geometry.setAttribute("color", new THREE.BufferAttribute(out, 3));
+  } else {
+    material.color.setRGB(...part.colours, "srgb");
+  }
+  const out = new THREE.Mesh(geometry, material);
+  out.renderOrder = clear ? 1 : 0;
+  return out;
+}
+
+function curve(line) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(line.points.flat()), 3));
+  return new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: 0x627d98 }));
+}
+
+function light(scene) {
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xc3ccd6, 2.2));
+  const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+  sun.position.set(-0.6, 1.4, 1.0);
+  scene.add(sun);
+}
+
+function tag(stage, label) {
+  const box = document.createElement("span");
+  box.className = label.above ? "tag above" : "tag";
+  box.textContent = label.text;
+  stage.appendChild(box);
+  return { box, at: new THREE.Vector3(...label.at) };
+}
+
+document.querySelectorAll(".rod-viewer").forEach((element) => {
+  rodwellViewer(element, JSON.parse(element.querySelector("script[type='application/json']").textContent));
+});

@@ -1,0 +1,144 @@
+"""One state in space, as a file of another program: the format follows from the suffix."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rodwell.analysis.surfaces import SIDES
+from rodwell.errors import InputError, checked_whole
+from rodwell.practice.scales import Scales
+from rodwell.practice.scene import drawn
+from rodwell.practice.units import to_si
+from rodwell.store.folder import whole_folder
+from rodwell.store.shapes import ENLARGED, WRITERS
+
+if TYPE_CHECKING:
+    from rodwell.analysis.geometry import Geometry
+    from rodwell.analysis.solution import Solution
+
+Write = Callable[[Path, "Solution", "Geometry", "Scales | None", int], list[Path]]
+
+FORMATS = {
+    ".glb": "glTF scene, for viewers and presentations",
+    ".stl": "surface of the rod, closed, for printing and CAD",
+    ".vtu": "ParaView: surface with every field, centreline, cylinder",
+    ".csv": "centreline with frames and curvatures",
+    ".html": "page to turn and zoom, works offline",
+    ".png": "picture",
+}
+"""Formats by suffix."""
+
+FOR_THE_EYE = (*ENLARGED, ".html", ".png")
+"""Formats that are enlarged across the axis unless told otherwise; the others are in true scale."""
+
+
+def export(
+    solution: Solution,
+    path: str | Path | Sequence[str | Path],
+    *,
+    scales: Scales | None = None,
+    rod_radius: float | str | None = None,
+    radial_scale: float | None = None,
+    places: int | None = None,
+    sides: int = SIDES,
+) -> list[Path]:
+    """Write a state in space to one or more files: all of them, or none.
+
+    Parameters
+    ----------
+    solution
+        The state.
+    path
+        File, or files: .glb (glTF), .stl, .vtu (ParaView; two more files ``NAME-centreline.vtu`` and
+        ``NAME-cylinder.vtu`` beside it), .csv, .html, .png. Folders are made.
+    scales
+        Of a case in physical units (``answer.case.scales``): files are in metres and newtons, and the rod has its own
+        radius where the case gives its diameter. Without, in units B = L = 1.
+    rod_radius
+        Radius of the rod: a number in L, or text with a unit, "5 cm", where there are scales. None: that of the case,
+        or 0.2 Δ, a radius to be looked at; the theory needs none.
+    radial_scale
+        How many times everything across the axis is enlarged; 1 is true scale. None: 1 in .stl, .vtu and .csv, a scale
+        that can be read in the others; files and pictures say which.
+    places, sides
+        How many places along the rod, and sides around it; None: by the mesh of the solution.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        For a suffix that is not known, and for what :meth:`rodwell.Solution.geometry` refuses; if a file cannot be
+        written.
+    """
+    files = checked_files(path)
+    radius = checked_rod_radius(rod_radius, scales)
+    checked_whole("sides", sides, 3, 720)
+    out = []
+    with ExitStack() as stack:
+        folders = {parent: stack.enter_context(whole_folder(parent, "path")) for parent in {f.parent for f in files}}
+        for file in files:
+            suffix = file.suffix.lower()
+            scale = 1.0 if radial_scale is None and suffix not in FOR_THE_EYE else radial_scale
+            rod = drawn(solution, scales, places, radius, scale)
+            written = writer(suffix)(folders[file.parent] / file.name, solution, rod, scales, sides)
+            out += [file.parent / item.name for item in written]
+    return out
+
+
+def checked_files(path: str | Path | Sequence[str | Path], field: str = "path") -> list[Path]:
+    """Return the files to be written, or raise if one has a suffix that is not known, or comes twice."""
+    given = [path] if isinstance(path, str | Path) else list(path)
+    files = [Path(item) for item in given]
+    for file in files:
+        if file.suffix.lower() not in FORMATS:
+            known = ", ".join(f"{suffix} ({what})" for suffix, what in FORMATS.items())
+            raise InputError(field, str(file), f"must end in one of {known}")
+    if len(set(files)) < len(files):
+        raise InputError(field, [str(file) for file in files], "names a file twice")
+    return files
+
+
+def checked_rod_radius(given: float | str | None, scales: Scales | None) -> float | None:
+    """Return the radius in L from a number in L, or from text with a unit where there are scales."""
+    if not isinstance(given, str):
+        return given
+    try:
+        return float(given)
+    except ValueError:
+        pass
+    if scales is None:
+        raise InputError("rod_radius", given, "must be a number in L: without scales there is no physical length")
+    try:
+        return to_si(given, "length") / scales.length
+    except ValueError as problem:
+        raise InputError("rod_radius", given, str(problem)) from None
+
+
+def writer(suffix: str) -> Write:
+    """What writes files of a suffix."""
+    if suffix in WRITERS:
+        return WRITERS[suffix]
+    return _write_page if suffix == ".html" else _write_picture
+
+
+def _write_page(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
+    from rodwell.report.viewer import write_viewer  # noqa: PLC0415
+
+    write_viewer(path, solution, rod, scales)
+    return [path]
+
+
+def _write_picture(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
+    from rodwell.plots.rod3d import plot_rod  # noqa: PLC0415 - slow to import
+    from rodwell.report.pictures import PNG  # noqa: PLC0415
+
+    ax = plot_rod(solution, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
+    ax.figure.savefig(path, **PNG)
+    return [path]

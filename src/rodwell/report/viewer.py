@@ -1,0 +1,182 @@
+"""The rod in three dimensions for a browser: turn and zoom, in one file, without a network.
+
+The page carries three.js, the viewer (``assets/viewer.js``) and the scene. Where a browser has no WebGL, and on paper,
+the still picture is shown instead.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.geometry import Geometry
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.surfaces import straight_contact
+from rodwell.numerics.spaces import FloatArray
+from rodwell.plots.units import axis
+from rodwell.practice.scales import Scales
+from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
+from rodwell.practice.units import readable
+
+HERE = Path(__file__).parent
+PLACES, SIDES = (321, 801), 16
+"""Fewest and most places along the rod, sides around it: what a page can carry and an eye can tell apart."""
+
+
+@dataclass(frozen=True)
+class Viewer:
+    """What a page needs to show the rod: markup with the scene in it, style sheet, scripts, caption."""
+
+    markup: str
+    css: str
+    scripts: tuple[str, str]
+    caption: str
+
+
+def viewer(
+    solution: Solution,
+    scales: Scales | None = None,
+    *,
+    rod: Geometry | None = None,
+    still: str = "",
+    full: bool = False,
+) -> Viewer:
+    """Return the viewer of a solution.
+
+    Parameters
+    ----------
+    solution, scales
+        The state, and the units in which it is described.
+    rod
+        Its geometry; None: the radius of the case, a scale that can be read.
+    still
+        Address of the picture that stands in where nothing can be turned, and prints.
+    full
+        The viewer fills a page of its own; else it is part of a page that scrolls.
+    """
+    if rod is None:
+        elements = solution.ladder.fine.space.breaks.size - 1
+        rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
+    data = _data(solution, rod, embedded=not full)
+    markup = _template("viewer.html.j2").render(
+        data=json.dumps(data, separators=(",", ":")), bar=_bar(rod, scales), still=still, full=full
+    )
+    three = f"/*\n{_asset('LICENSE-three.txt')}\n*/\n{_asset('three.min.js')}"
+    return Viewer(markup, _asset("viewer.css"), (three, _asset("viewer.js")), caption(solution, rod, scales))
+
+
+def write_viewer(path: Path, solution: Solution, rod: Geometry | None, scales: Scales | None, title: str = "") -> None:
+    """Write the viewer as a page of its own."""
+    shown = viewer(solution, scales, rod=rod, full=True)
+    page = _template("rod3d.html.j2").render(
+        title=title or "Rod in its cylinder", viewer=shown.markup, css=shown.css, scripts=shown.scripts,
+        caption=shown.caption,
+    )  # fmt: skip
+    path.write_text(page, encoding="utf-8")
+
+
+def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+    """What is shown, in which scale."""
+    factor, unit = axis("force", scales, solution.force)
+    load = f"F = {solution.force * factor:.4g} {unit}".replace("-", "−")
+    scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
+    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else readable(rod.rod_radius * scales.length, "m")
+    marks = " Red rings: places of lift-off." if rod.lift_off else ""
+    return (
+        f"{load} at s = 1 (tension positive); {scale}; rod radius drawn {radius}. Thin lines are material lines of the rod; "
+        f"the cylinder is the wall that its surface touches.{marks}"
+    )
+
+
+def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any]:
+    """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
+    middle = 0.5 * float(rod.centreline[-1, 2])
+    shift = lambda points: _view(points) - np.array([middle, 0.0, 0.0])  # noqa: E731
+    angle = np.radians(solution.problem.alpha)
+    reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
+    ends = _view(rod.centreline[[0, -1]])[:, 0] - middle
+    return {
+        "parts": [_part(part, shift(part.mesh.vertices)) for part in scene(rod, SIDES)],
+        "lines": [
+            *({"group": "wall", "points": _rounded(shift(circle))} for circle in _rims(rod)),
+            {"group": "wall", "points": _rounded(shift(straight_contact(rod)))},
+        ],
+        "labels": [
+            {"text": f"s = {s}", "at": [float(x), -1.1 * reach, 0.0]} for s, x in zip((0, 1), ends, strict=True)
+        ]
+        + ([{"text": "gravity", "at": [0.0, 1.7 * reach, 0.0], "above": True}] if solution.problem.weight > 0.0 else []),
+        "gravity": _rounded(_view(np.array([-np.sin(angle), 0.0, -np.cos(angle)]))),
+        "arrow": [0.0, 1.7 * reach, 0.0],
+        "weight": solution.problem.weight,
+        "height": 2.0 * reach,
+        "embedded": embedded,
+    }
+
+
+def _view(points: FloatArray) -> FloatArray:
+    """From i, j, k to x, y, z of the view: k, i, j."""
+    return points[..., [2, 0, 1]]
+
+
+def _rims(rod: Geometry) -> list[FloatArray]:
+    """Circles at both ends of the wall."""
+    phi = np.linspace(0.0, 2.0 * np.pi, 97)
+    circle = np.stack([rod.wall_radius * np.cos(phi), rod.wall_radius * np.sin(phi), np.zeros_like(phi)], axis=-1)
+    return [circle + np.array([0.0, 0.0, z]) for z in rod.centreline[[0, -1], 2]]
+
+
+def _part(part: Part, points: FloatArray) -> dict[str, Any]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    span = np.where(high > low, high - low, 1.0)
+    each = part.colour.ndim == 2
+    colours = _base64(np.round(255.0 * part.colour).astype(np.uint8)) if each else _rounded(part.colour)
+    return {
+        "name": part.name,
+        "low": [float(x) for x in low],
+        "high": [float(x) for x in high],
+        "positions": _base64(np.round(65535.0 * (points - low) / span).astype("<u2")),
+        "triangles": _base64(part.mesh.triangles.astype("<u4")),
+        "colours": colours,
+        "opacity": part.opacity,
+    }
+
+
+def _base64(values: Any) -> str:
+    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode()
+
+
+def _rounded(points: FloatArray) -> Any:
+    return np.round(points, 6).tolist()
+
+
+def _bar(rod: Geometry, scales: Scales | None) -> dict[str, str]:
+    """The scale of colours: from the most pressed to no pressure, or to where the wall would have to pull most."""
+    low, high = limits(rod.pull)
+    factor, unit = axis("contact_pressure", scales, max(-low, high))
+    sign = -1.0 if rod.outside else 1.0
+    stops = [(place, colour) for place, colour in STOPS if place <= 0.0 or high > 0.0]
+    start, width = (low, high - low) if high > low else (-1.0, 1.0)
+    where = [(-place * low if place <= 0.0 else high, colour) for place, colour in stops]
+    text = ", ".join(f"{colour} {100.0 * (value - start) / width:.1f}%" for value, colour in where)
+    first, last = (f"{sign * x * factor:.4g}".replace("-", "−") for x in (low, high))
+    return {"first": first, "last": last.replace("−0", "0") if high == 0.0 else last, "unit": unit,
+            "gradient": f"linear-gradient(90deg, {text})"}  # fmt: skip
+
+
+@cache
+def _asset(name: str) -> str:
+    return (HERE / "assets" / name).read_text(encoding="utf-8")
+
+
+@cache
+def _template(name: str) -> Any:
+    import jinja2  # noqa: PLC0415
+
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.from_string((HERE / name).read_text(encoding="utf-8"))
