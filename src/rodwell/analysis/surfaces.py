@@ -93,17 +93,13 @@ def ring(geometry: Geometry, s: float, sides: int = 32, around: int = 10) -> Mes
     centre = np.array([np.interp(s, geometry.s, geometry.centreline[:, i]) for i in range(3)])
     t1, d1, u1 = (getattr(geometry, name)[nearest] for name in ("t1", "d1", "u1"))
     large, small = (geometry.drawn_radius * part for part in RING)
-    a, b = np.meshgrid(
-        2.0 * np.pi * np.arange(sides) / sides, 2.0 * np.pi * np.arange(around) / around, indexing="ij"
-    )
+    a, b = np.meshgrid(2.0 * np.pi * np.arange(sides) / sides, 2.0 * np.pi * np.arange(around) / around, indexing="ij")
     out = (large + small * np.cos(b))[..., None] * (np.cos(a)[..., None] * d1 + np.sin(a)[..., None] * u1)
     vertices = centre + out + small * np.sin(b)[..., None] * t1
     index = np.arange(sides * around).reshape(sides, around)
     i, j = np.roll(index, -1, axis=0), np.roll(index, -1, axis=1)
     triangles = _split(index, i, np.roll(i, -1, axis=1), j)
-    return Mesh(
-        vertices.reshape(-1, 3), triangles, np.full(sides * around, nearest), np.zeros(sides * around)
-    )
+    return Mesh(vertices.reshape(-1, 3), triangles, np.full(sides * around, nearest), np.zeros(sides * around))
 
 
 def cylinder(geometry: Geometry, sides: int = 96) -> Mesh:

@@ -69,10 +69,18 @@ def export(
             state = _state(read, force, mode, mirror)
             tell("files", 0.9)
             written = write(
-                state, files, scales=read.scales, rod_radius=radius, radial_scale=radial_scale, places=places, sides=sides
+                state,
+                files,
+                scales=read.scales,
+                rod_radius=radius,
+                radial_scale=radial_scale,
+                places=places,
+                sides=sides,
             )
     except InputError as problem:
-        names = {name: f"--{name.replace('_', '-')}" for name in ("rod_radius", "radial_scale", "places", "sides", "mode")}
+        names = {
+            name: f"--{name.replace('_', '-')}" for name in ("rod_radius", "radial_scale", "places", "sides", "mode")
+        }
         names |= {"path": "--to", "until": "--at", "force": "--at"}
         given = {"rod_radius": rod_radius, "until": at, "force": at}
         value = given.get(problem.field, problem.value)

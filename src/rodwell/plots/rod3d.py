@@ -16,10 +16,10 @@ from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.surfaces import straight_contact
 from rodwell.numerics.spaces import FloatArray
-from rodwell.plots.style import GREY, RC, minus
+from rodwell.plots.style import RC, minus
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
-from rodwell.practice.scene import LINE, MARK, NO_PULL, WALL, drawn, limits, palette, rgb, scene
+from rodwell.practice.scene import NO_PULL, WALL, drawn, limits, palette, scene
 from rodwell.practice.units import readable
 
 ELEVATION, AZIMUTH = 20.0, -66.0
@@ -67,7 +67,7 @@ def plot_rod(
 
 def _axes_of(points: FloatArray) -> FloatArray:
     """From i, j, k to the axes of the picture: along the cylinder, sideways, up."""
-    return points[..., [2, 1, 0]] * np.array([1.0, -1.0, 1.0])
+    return np.asarray(points[..., [2, 1, 0]] * np.array([1.0, -1.0, 1.0]))
 
 
 def _reach(rod: Geometry) -> float:
@@ -118,7 +118,7 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     ends = sorted((sign * low * factor, sign * high * factor))
     if ends[0] == ends[1]:
         ends[1] = NO_PULL
-    mappable = ScalarMappable(Normalize(*ends), ListedColormap(colours if sign > 0.0 else colours[::-1]))
+    mappable = ScalarMappable(Normalize(ends[0], ends[1]), ListedColormap(colours if sign > 0.0 else colours[::-1]))
     bar = ax.figure.colorbar(mappable, cax=ax.figure.add_axes((0.885, 0.24, 0.018, 0.6)))
     bar.ax.grid(visible=False)
     bar.outline.set_visible(False)
@@ -134,7 +134,8 @@ def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
         radius = readable(rod.rod_radius * scales.length, "m")
     marks = "; red rings: lift-off" if rod.lift_off else ""
     load = minus(f"F = {solution.force * factor:.4g} {unit}")
-    return f"{load} at s = 1 (tension positive){length}; {scale}\nrod radius drawn {radius}; thin lines: material lines{marks}"
+    drawn_as = f"rod radius drawn {radius}; thin lines: material lines{marks}"
+    return f"{load} at s = 1 (tension positive){length}; {scale}\n{drawn_as}"
 
 
 def _wide_axes() -> Any:

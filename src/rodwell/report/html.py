@@ -93,7 +93,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
     """
     scales = answer.case.scales
     embedded = {name: _embed(*picture) for name, picture in pictures.items()}
-    rod = viewer(answer.shown, scales, still=embedded["rod-3d"])
+    rod = viewer(answer.shown, scales, still=embedded.get("rod-3d", ""))
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     text = sentences(answer)

@@ -86,18 +86,23 @@ def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     factor, unit = axis("force", scales, solution.force)
     load = f"F = {solution.force * factor:.4g} {unit}".replace("-", "−")
     scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
-    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else readable(rod.rod_radius * scales.length, "m")
+    radius = (
+        f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else readable(rod.rod_radius * scales.length, "m")
+    )
     marks = " Red rings: places of lift-off." if rod.lift_off else ""
     return (
-        f"{load} at s = 1 (tension positive); {scale}; rod radius drawn {radius}. Thin lines are material lines of the rod; "
-        f"the cylinder is the wall that its surface touches.{marks}"
+        f"{load} at s = 1 (tension positive); {scale}; rod radius drawn {radius}. Thin lines are material "
+        f"lines of the rod; the cylinder is the wall that its surface touches.{marks}"
     )
 
 
 def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
     middle = 0.5 * float(rod.centreline[-1, 2])
-    shift = lambda points: _view(points) - np.array([middle, 0.0, 0.0])  # noqa: E731
+
+    def shift(points: FloatArray) -> FloatArray:
+        return _view(points) - np.array([middle, 0.0, 0.0])
+
     angle = np.radians(solution.problem.alpha)
     reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
     ends = _view(rod.centreline[[0, -1]])[:, 0] - middle
@@ -107,10 +112,10 @@ def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any
             *({"group": "wall", "points": _rounded(shift(circle))} for circle in _rims(rod)),
             {"group": "wall", "points": _rounded(shift(straight_contact(rod)))},
         ],
-        "labels": [
-            {"text": f"s = {s}", "at": [float(x), -1.1 * reach, 0.0]} for s, x in zip((0, 1), ends, strict=True)
-        ]
-        + ([{"text": "gravity", "at": [0.0, 1.7 * reach, 0.0], "above": True}] if solution.problem.weight > 0.0 else []),
+        "labels": [{"text": f"s = {s}", "at": [float(x), -1.1 * reach, 0.0]} for s, x in zip((0, 1), ends, strict=True)]
+        + (
+            [{"text": "gravity", "at": [0.0, 1.7 * reach, 0.0], "above": True}] if solution.problem.weight > 0.0 else []
+        ),
         "gravity": _rounded(_view(np.array([-np.sin(angle), 0.0, -np.cos(angle)]))),
         "arrow": [0.0, 1.7 * reach, 0.0],
         "weight": solution.problem.weight,
@@ -121,7 +126,7 @@ def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any
 
 def _view(points: FloatArray) -> FloatArray:
     """From i, j, k to x, y, z of the view: k, i, j."""
-    return points[..., [2, 0, 1]]
+    return np.asarray(points[..., [2, 0, 1]])
 
 
 def _rims(rod: Geometry) -> list[FloatArray]:

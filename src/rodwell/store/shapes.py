@@ -51,7 +51,8 @@ def write_stl(path: Path, _solution: Solution, rod: Geometry, scales: Scales | N
 def write_vtu(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
     """Write surface, centreline and cylinder as three VTK files, with every field of rod and cylinder as point data.
 
-    ``NAME.vtu`` is the rod's surface, ``NAME-centreline.vtu`` the centreline with frames, ``NAME-cylinder.vtu`` the wall.
+    ``NAME.vtu`` is the rod's surface, ``NAME-centreline.vtu`` the centreline with frames, ``NAME-cylinder.vtu`` the
+    wall that its surface touches.
     """
     import meshio  # noqa: PLC0415
 
@@ -103,13 +104,15 @@ def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]
     p = solution.problem
     length, force = ("m", "N") if scales is not None else ("L", "B/L^2")
     end_force = solution.force * (1.0 if scales is None else scales.factor("force"))
-    scale = "true scale" if rod.radial_scale == 1.0 else f"x, y and the rod's radius {rod.radial_scale:.10g} times enlarged"
+    scale = (
+        "true scale" if rod.radial_scale == 1.0 else f"x, y and the rod's radius {rod.radial_scale:.10g} times enlarged"
+    )
     if rod.radial_scale != 1.0:
         scale += "; frames are those of the enlarged curve, curvatures those of the rod"
     unit = 1.0 if scales is None else scales.length
     return [
-        f"rodwell {__version__}: heavy rod on a cylinder, equilibrium at end force F = {end_force:.10g} {force} at s = 1 "
-        "(tension positive)",
+        f"rodwell {__version__}: heavy rod on a cylinder, equilibrium at end force F = {end_force:.10g} {force} at "
+        "s = 1 (tension positive)",
         f"weight mg L^3/B = {p.weight:.10g}, alpha = {p.alpha:.10g} degrees from the vertical, clearance Delta/L = "
         f"{p.clearance:.10g}, Poisson's ratio {p.poisson:.10g}, T1 = {p.twist:.10g} B/L, turns {p.turns}, "
         f"ends {'-'.join(p.ends)}, on top {p.on_top}, outside {p.outside}",
