@@ -94,6 +94,11 @@ def palette(t: FloatArray) -> FloatArray:
     return np.stack([np.interp(t, places, colours[:, i]) for i in range(3)], axis=-1)
 
 
+def linear_colours(colours: FloatArray) -> FloatArray:
+    """From sRGB to linear light, as glTF has its colours (IEC 61966-2-1)."""
+    return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+
+
 def rgb(text: str) -> FloatArray:
     """A colour written as #rrggbb, from 0 to 1."""
     return np.array([int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)])

@@ -19,7 +19,7 @@ from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.surfaces import SIDES, Mesh, cylinder, tube
 from rodwell.practice.scales import Scales
-from rodwell.practice.scene import Part, scene
+from rodwell.practice.scene import Part, linear_colours, scene
 
 VECTORS = ("t1", "d1", "u1", "d0", "v1")
 """Frames as vectors: braid frame {t₁, d₁, u₁}, material frame {t₁, d₀, v₁}."""
@@ -139,7 +139,7 @@ def _gltf_mesh(part: Part, length: float) -> Any:
 
     mesh: Mesh = part.mesh
     each = part.colour.ndim == 2
-    base = np.array([1.0, 1.0, 1.0]) if each else linear(part.colour)
+    base = np.array([1.0, 1.0, 1.0]) if each else linear_colours(part.colour)
     material = PBRMaterial(
         name=part.name,
         baseColorFactor=np.round(255.0 * np.append(base, part.opacity)).astype(np.uint8),
@@ -150,15 +150,10 @@ def _gltf_mesh(part: Part, length: float) -> Any:
     )
     visual = trimesh.visual.TextureVisuals(material=material)
     if each:
-        rgba = np.column_stack([linear(part.colour), np.ones(len(part.colour))])
+        rgba = np.column_stack([linear_colours(part.colour), np.ones(len(part.colour))])
         visual.vertex_attributes["color"] = np.round(255.0 * rgba).astype(np.uint8)
     points = mesh.vertices[:, [2, 0, 1]] * length
     return trimesh.Trimesh(points, mesh.triangles, visual=visual, process=False, validate=False)
-
-
-def linear(colour: Any) -> Any:
-    """From sRGB to linear light."""
-    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
 
 
 def _unit(dimension: str, scales: Scales | None) -> tuple[float, str]:
