@@ -59,7 +59,7 @@ def plot_rod(
         _bodies(ax, rod)
         _wall(ax, rod)
         for place in (0.0, 1.0):
-            ax.text(place * length, 0.0, -1.55 * width, f"s = {place:g}", ha="center", fontsize=9)
+            ax.text(place * length, 0.0, -max(1.55 * width, width + 0.05 * length), f"s = {place:g}", ha="center", fontsize=9)
         _colour_bar(ax, rod, scales)
         ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax
@@ -79,7 +79,8 @@ def _bodies(ax: Any, rod: Geometry) -> None:
     faces, colours = [], []
     e, a = np.radians(ELEVATION), np.radians(AZIMUTH)
     eye = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
-    for part in scene(rod, SIDES, LINES):
+    sides = max(8, SIDES * PLACES // rod.s.size)  # thin as a long rod looks, fewer will do
+    for part in scene(rod, sides, LINES):
         if part.opacity < 1.0:
             continue
         corners = _axes_of(part.mesh.vertices)[part.mesh.triangles]
@@ -122,6 +123,8 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     bar = ax.figure.colorbar(mappable, cax=ax.figure.add_axes((0.885, 0.24, 0.018, 0.6)))
     bar.ax.grid(visible=False)
     bar.outline.set_visible(False)
+    bar.formatter.set_powerlimits((-3, 4))
+    bar.formatter.set_useMathText(True)
     bar.set_label(f"contact pressure p  [{unit}]")
 
 

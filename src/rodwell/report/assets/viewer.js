@@ -33,7 +33,7 @@ function rodwellViewer(element, data) {
     controls.target.set(0, 0, 0);
     const towards = new THREE.Vector3(-0.32, 0.36, 0.95).normalize();
     const across = 2 * Math.tan((camera.fov * Math.PI) / 360);
-    const distance = Math.max(1.36 / (across * camera.aspect), (data.height * 2.6) / across, 0.2);
+    const distance = Math.max(1.52 / (across * camera.aspect), (data.height * 2.6) / across, 0.2);
     camera.position.copy(towards.multiplyScalar(distance));
     controls.update();
     draw();
