@@ -5,18 +5,22 @@ Called by ``make_pages``: everything is computed while the documentation is buil
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import matplotlib.image
+import numpy as np
 
 import rodwell
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.special import SpecialPoint
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
 from rodwell.problem import ENDS
 
@@ -35,6 +39,7 @@ COMMANDS = {
     "critical-ends": "critical --weight 15 --alpha 60 --ends clamped-pinned --modes 3",
     "critical-on-top": "critical --weight 65 --alpha 90 --on-top --modes 3",
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
+    "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }
 """Output shown on the pages, by name of the file; run in the order given."""
 
@@ -46,6 +51,7 @@ def pages(out: Path) -> dict[str, str]:
         pair(out / "pair.png")
         veering(out)
         on_top(out / "on-top.png")
+    twisted_coil(out / "coil-3d.png")
     return {
         "switching.md": switching_table(),
         "coils.md": coil_table(),
@@ -106,6 +112,18 @@ def on_top(path: Path) -> None:
     ax = plot_curves(rodwell.critical_curves(rod, "weight", (0.0, 160.0), modes=3))
     ax.axhline(0.0, color="#1f2933", lw=0.8)
     _save(ax, path)
+
+
+def twisted_coil(path: Path) -> None:
+    """A coil without and with end twist, below each other."""
+    pictures = []
+    for twist in (0.0, 6.0):
+        state = rodwell.equilibrium(rodwell.Problem(15, turns=1, twist=twist), -140.0)
+        file = io.BytesIO()
+        plot_rod(state).figure.savefig(file, dpi=DPI)
+        file.seek(0)
+        pictures.append(mpl.image.imread(file))
+    mpl.image.imsave(path, np.concatenate(pictures))
 
 
 def switching_table() -> str:

@@ -173,8 +173,17 @@ def test_straight_rod_and_default_scale() -> None:
     assert rod.rod_radius == pytest.approx(0.2 * 0.01)
     assert rod.radial_scale == pytest.approx(1.0 / (5.0 * 2.0 * 0.012), rel=0.02)
     assert straight.geometry().s.size >= 401
+    loose = rodwell.follow(rodwell.Problem(0), until=-60.0)  # nothing presses it, so nothing lifts off
+    assert loose[0].geometry().lift_off == ()
+    assert len(loose[-1].geometry().lift_off) == 2
     wide = rodwell.follow(rodwell.Problem(15, clearance=0.5))[0]
     assert wide.geometry(radial_scale=None).radial_scale == 1.0
+
+
+def test_a_readable_picture_is_not_too_steep() -> None:
+    rod = rodwell.follow(rodwell.Problem(5000, clearance=1e-3), rtol=1e-6).lift_off.solution.geometry(radial_scale=None)
+    assert np.abs(rod.t1[:, 2]).min() == pytest.approx(1.0 / np.sqrt(5.0), rel=0.02)  # slope 2
+    assert rod.radial_scale < 1.0 / (5.0 * 2.0 * 0.0012)
 
 
 @pytest.mark.parametrize(

@@ -100,7 +100,8 @@ def test_colour_bar(state: rodwell.Solution) -> None:
     outside = rodwell.follow(rodwell.Problem(15, on_top=True, outside=True), 2).lift_off.solution
     rod = drawn(outside, None)
     markup = viewer(outside, rod=rod).markup
-    assert f"{rod.fields['contact_pressure'].max():.4g} <i" in markup  # pressed most: p > 0 outside
+    most = rod.fields["contact_pressure"].max()
+    assert f'class="bar">{most:.4g} <i' in markup  # pressed most: p > 0 outside
     scales = rodwell.Case.from_dict(
         {
             "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},

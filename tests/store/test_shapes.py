@@ -101,6 +101,7 @@ def test_csv_is_the_centreline_with_frames(twisted: rodwell.Solution, tmp_path: 
     comments = [line for line in lines if line.startswith("#")]
     assert "tension positive" in comments[0]
     assert any("true scale" in line for line in comments)
+    assert f"contact_pressure {twisted.field_errors(201)['contact_pressure']:.1e} B/L^3" in comments[-1]
     header, *rows = csv.reader(lines[len(comments) :])
     table = dict(zip(header, np.array(rows, dtype=float).T, strict=True))
     rod = twisted.geometry(201)

@@ -81,7 +81,7 @@ def write_csv(path: Path, solution: Solution, rod: Geometry, scales: Scales | No
     """
     columns = _columns(rod, scales)
     with path.open("w", encoding="utf-8", newline="") as file:
-        for line in about(solution, rod, scales):
+        for line in [*about(solution, rod, scales), _errors(solution, rod, scales)]:
             file.write(f"# {line}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
@@ -126,6 +126,16 @@ def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]
         "contact pressure p: the wall pushes the rod along d1 with -p per length; p < 0 is contact inside a cylinder, "
         "p > 0 outside",
     ]  # fmt: skip
+
+
+def _errors(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+    """Error estimates of what a CSV file holds, the largest over s."""
+    found = solution.field_errors(rod.s)
+    parts = []
+    for name in ("y", "z", "xi1", "xi2", "eta", "omega1", "omega2", "omega3", "contact_pressure"):
+        factor, unit = _unit(QUANTITIES[name].dimension, scales)
+        parts.append(f"{name} {found[name] * factor:.1e} {unit}")
+    return "error estimates, largest over s (y is the arclength around the cylinder): " + ", ".join(parts)
 
 
 def _length(scales: Scales | None) -> float:
