@@ -117,7 +117,7 @@ def on_top(path: Path) -> None:
 def twisted_coil(path: Path) -> None:
     """A coil without and with end twist, below each other."""
     pictures = []
-    for twist in (0.0, 6.0):
+    for twist in (0.0, 3.0):
         state = rodwell.equilibrium(rodwell.Problem(15, turns=1, twist=twist), -140.0)
         file = io.BytesIO()
         plot_rod(state).figure.savefig(file, dpi=DPI)

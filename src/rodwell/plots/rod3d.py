@@ -59,7 +59,14 @@ def plot_rod(
         _bodies(ax, rod)
         _wall(ax, rod)
         for place in (0.0, 1.0):
-            ax.text(place * length, 0.0, -max(1.55 * width, width + 0.05 * length), f"s = {place:g}", ha="center", fontsize=9)
+            ax.text(
+                place * length,
+                0.0,
+                -max(1.55 * width, width + 0.05 * length),
+                f"s = {place:g}",
+                ha="center",
+                fontsize=9,
+            )
         _colour_bar(ax, rod, scales)
         ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax

@@ -101,7 +101,7 @@ def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any
     middle = 0.5 * float(rod.centreline[-1, 2])
 
     def shift(points: FloatArray) -> FloatArray:
-        return _view(points) - np.array([middle, 0.0, 0.0])
+        return np.asarray(_view(points) - np.array([middle, 0.0, 0.0]))
 
     angle = np.radians(solution.problem.alpha)
     reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
