@@ -131,7 +131,6 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     bar.ax.grid(visible=False)
     bar.outline.set_visible(False)
     bar.formatter.set_powerlimits((-3, 4))
-    bar.formatter.set_useMathText(True)
     bar.set_label(f"contact pressure p  [{unit}]")
 
 

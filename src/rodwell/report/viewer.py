@@ -114,10 +114,12 @@ def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any
         ],
         "labels": [{"text": f"s = {s}", "at": [float(x), -1.1 * reach, 0.0]} for s, x in zip((0, 1), ends, strict=True)]
         + (
-            [{"text": "gravity", "at": [0.0, reach + 0.1, 0.0], "above": True}] if solution.problem.weight > 0.0 else []
+            [{"text": "gravity", "at": [float(ends[1]), reach + 0.1, 0.0], "above": True}]
+            if solution.problem.weight > 0.0
+            else []
         ),
         "gravity": _rounded(_view(np.array([-np.sin(angle), 0.0, -np.cos(angle)]))),
-        "arrow": [0.0, reach + 0.1, 0.0],
+        "arrow": [float(ends[1]), reach + 0.1, 0.0],
         "weight": solution.problem.weight,
         "height": 2.0 * reach,
         "embedded": embedded,

@@ -21,7 +21,7 @@ function rodwellViewer(element, data) {
   data.lines.forEach((line) => groups[line.group].add(curve(line)));
   light(scene);
   const down = new THREE.Vector3(...data.gravity);
-  if (data.weight > 0) scene.add(new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018));
+  if (data.weight > 0) groups.wall.add(new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018));
 
   const camera = new THREE.PerspectiveCamera(28, 1, 0.001, 50);
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
