@@ -36,6 +36,7 @@ _HOME = {
     "Problem": "rodwell.problem",
     "RodwellError": "rodwell.errors",
     "Solution": "rodwell.analysis.solution",
+    "Sensitivity": "rodwell.analysis.sensitivity",
     "SpecialPoint": "rodwell.analysis.special",
     "Torsion": "rodwell.analysis.torsion",
     "branch_off": "rodwell.analysis.follow",
@@ -66,7 +67,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.diagram import Diagram, diagram
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
-    from rodwell.analysis.sensitivity import sensitivities
+    from rodwell.analysis.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.solution import Solution
     from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve

@@ -47,7 +47,8 @@ class Sensitivity:
     force
         The load: end force at s = 1 in B/L², tension positive.
     derivatives
-        By name of the parameter (:data:`PARAMETERS`): ∂f/∂γ, ∂f/∂α per degree, ∂f/∂(Δ/L), each with its error estimate.
+        By name of the parameter (:data:`PARAMETERS`): ∂f/∂γ, ∂f/∂α per degree, ∂f/∂(Δ/L), each with its error estimate;
+        for the lift-off load of a twisted rod also ∂f/∂T₁. Critical loads do not depend on T₁.
     note
         What to know about them, or nothing.
     """
@@ -162,7 +163,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
     solution = lift.solution
     by_force, force_error = (np.array(part) for part in pressure_rates(solution, lift.s, "force"))
     out, note = {}, ""
-    for name in PARAMETERS:
+    for name in PARAMETERS if solution.problem.twist == 0.0 else (*PARAMETERS, "twist"):
         rates, errors = (np.array(part) for part in pressure_rates(solution, lift.s, name))
         each = -rates / by_force
         spread = np.abs(errors / by_force) + np.abs(each * force_error / by_force)

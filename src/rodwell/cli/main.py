@@ -15,7 +15,7 @@ from rodwell.cli.audit import audit
 from rodwell.cli.check import verify
 from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
-from rodwell.cli.quick import critical, liftoff, twist
+from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.errors import InputError, RodwellError
 
@@ -32,7 +32,7 @@ def cli() -> None:
     """
 
 
-for command in (run, audit, verify, critical, liftoff, diagram, curve, twist, export):
+for command in (run, audit, verify, critical, liftoff, sensitivity, diagram, curve, twist, export):
     cli.add_command(command)
 
 

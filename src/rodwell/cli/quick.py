@@ -97,6 +97,47 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
 @click.command()
 @problem_options()
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
+@rtol_option
+@json_option
+def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
+    """How critical and lift-off load change with weight, inclination, clearance, stiffness and length.
+
+    Exact derivatives, and elasticities: the change of the end force at s = 1 in percent for one percent more of an
+    input, the others constant.
+    """
+    from rodwell.analysis.sensitivity import sensitivities  # noqa: PLC0415
+    from rodwell.problem import ends_text  # noqa: PLC0415
+
+    problem = make_problem(given)
+    loads = sensitivities(problem, mode, rtol=rtol)
+    if as_json:
+        convention = "end force F at s = 1 in B/L^2, tension positive; alpha in degrees; " + ends_text(problem)
+        print_json({"loads": [load.as_dict() for load in loads], "convention": convention})
+        return
+    for load in loads:
+        click.echo(f"{load.name}: F = {load.force:+.10g} {UNIT} at s = 1 (tension positive), {ends_text(problem)}")
+        for name, (value, error) in load.derivatives.items():
+            click.echo(f"  dF per {_PER[name]:<13} {value:+.10g}  ± {error:.0e}")
+        if load.force != 0.0:
+            for name, (value, _) in load.elasticities().items():
+                click.echo(f"  {_MORE[name]:<26} {value:+.6g} %")
+        if load.note:
+            click.echo(f"  {load.note}")
+
+
+_PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁"}
+_MORE = {
+    "weight_per_length": "1 % more weight per length",
+    "clearance": "1 % more clearance Δ",
+    "stiffness": "1 % more stiffness B",
+    "length": "1 % more length L",
+    "alpha": "1° more from the vertical",
+}
+
+
+@click.command()
+@problem_options()
+@click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")
 @click.option("--until", default=200.0, show_default=True, help="Largest |T₁| looked at, in B/L.")
 @rtol_option

@@ -13,11 +13,13 @@ from rodwell.analysis.certificate import Certificate
 from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.exploring import Progress
 from rodwell.analysis.follow import extended, follow
+from rodwell.analysis.sensitivity import Sensitivity, of_critical_load, of_lift_off
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures, stress_figure
+from rodwell.practice.uncertainty import Spread, spread_of_load
 from rodwell.problem import ends_text
 
 
@@ -83,6 +85,19 @@ class Answer:
         return worst
 
     @cached_property
+    def sensitivities(self) -> tuple[Sensitivity, ...]:
+        """How the first critical load and the lift-off load change with the inputs."""
+        out = [of_critical_load(self.critical[0])]
+        if self.at_lift_off is not None and self.lift_off is not None:
+            out.append(of_lift_off(self.lift_off))
+        return tuple(out)
+
+    @cached_property
+    def spreads(self) -> tuple[Spread | None, ...]:
+        """Uncertainty of each of these loads from those of the inputs, None where no input was given with "±"."""
+        return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
+
+    @cached_property
     def figures(self) -> dict[str, Figure]:
         """The key figures by name."""
         out = [critical_figure(mode) for mode in self.critical]
@@ -98,6 +113,10 @@ class Answer:
             if self.case.cylinder is not None and self.case.scales is not None:
                 out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {figure.name: figure for figure in out}
+
+    @property
+    def _loads(self) -> list[tuple[Sensitivity, Spread | None]]:
+        return list(zip(self.sensitivities, self.spreads, strict=True))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the answer as plain data, for JSON."""
@@ -127,10 +146,18 @@ class Answer:
             },
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
+            "sensitivities": [load.as_dict() | _spread(spread) for load, spread in self._loads],
             "converged": self.converged,
             "certificate": self.worst_certificate.as_dict(),
             "rtol": case.rtol,
         }
+
+
+def _spread(spread: Spread | None) -> dict[str, Any]:
+    """Uncertainty from the inputs, for JSON: in B/L², or in N for a case with dimensions."""
+    if spread is None:
+        return {"from_inputs": None}
+    return {"from_inputs": {"total": spread.total, "parts": spread.parts}}
 
 
 def _branch_dict(branch: Branch) -> dict[str, Any]:

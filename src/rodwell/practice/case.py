@@ -6,7 +6,7 @@ import difflib
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from rodwell.practice import schema
 from rodwell.practice.capacity import Cylinder, cylinder_of
 from rodwell.practice.physical import physical_problem
 from rodwell.practice.scales import Scales
+from rodwell.practice.uncertainty import Moved, UncertainInput, split
 from rodwell.problem import Problem, checked_ends
 
 SECTIONS: dict[str, type[BaseModel]] = {
@@ -66,6 +67,8 @@ class Case:
         The file as it was read.
     cylinder
         Section and strength of the cylinder, if given.
+    uncertain
+        Inputs that were given with "±", and what becomes of the problem if they move.
     """
 
     title: str
@@ -78,6 +81,7 @@ class Case:
     source: str = "case"
     text: str = ""
     cylinder: Cylinder | None = None
+    uncertain: tuple[UncertainInput, ...] = ()
 
     @classmethod
     def read(cls, path: str | Path) -> Case:
@@ -119,16 +123,40 @@ class Case:
         if not isinstance(data, Mapping):
             raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
         try:
-            parsed = schema.CaseFile.model_validate(dict(data))
-        except ValidationError as problem:
-            raise CaseError(source, _explain(problem)) from None
-        try:
-            return _assemble(parsed, data, source, text)
+            clean, moved = split(data)
+            case = cls._certain(clean, source, text)
         except CaseError:
             raise
         except InputError as problem:
             value = _as_written(data, problem.field, problem.value)
             raise CaseError(source, [(problem.field, value, problem.problem)]) from None
+        inputs = tuple(_uncertain(data, clean, *key, pair) for key, pair in moved.items())
+        return replace(case, uncertain=inputs, given={k: v for k, v in data.items() if k != "title"})
+
+    @classmethod
+    def _certain(cls, data: Mapping[str, Any], source: str, text: str) -> Case:
+        """A case from data without uncertainties."""
+        try:
+            parsed = schema.CaseFile.model_validate(dict(data))
+        except ValidationError as problem:
+            raise CaseError(source, _explain(problem)) from None
+        return _assemble(parsed, data, source, text)
+
+
+def _uncertain(
+    data: Mapping[str, Any], clean: Mapping[str, Any], section: str, key: str, pair: tuple[Any, Any]
+) -> UncertainInput:
+    """What becomes of the case as one input moves by its uncertainty down and up."""
+    sides: list[Moved | None] = []
+    for value in pair:
+        try:
+            case = Case._certain({**clean, section: {**clean[section], key: value}}, "case", "")
+            sides.append((case.problem, case.scales))
+        except InputError:
+            sides.append(None)
+    if sides == [None, None]:
+        raise CaseError("case", [(f"{section}.{key}", data[section][key], "moves out of what is allowed either way")])
+    return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
 
 
 def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:

@@ -17,6 +17,9 @@ ASSUMPTIONS = (
 )
 
 
+SMALL_LOAD = 1.0
+"""A load below this, in B/L², is near zero: percentages of it say nothing."""
+
 ENDS_HOLD = {
     "clamped": "clamped (y and y′ held)",
     "pinned": "pinned (y held, free to turn)",
@@ -51,7 +54,7 @@ def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
     out = [_verdict(answer), _mode(answer)]
     out += _applied(answer)
-    out += [_lift_off(answer), _stability(answer), _wall(answer)]
+    out += [_lift_off(answer), _stability(answer), _wall(answer), _inputs(answer)]
     return [sentence for sentence in out if sentence]
 
 
@@ -137,6 +140,24 @@ def _stability(answer: Answer) -> str:
         f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
         "there the rod takes another shape."
     )
+
+
+def _inputs(answer: Answer) -> str:
+    """What a change of the inputs does to the load that matters, and what their uncertainty does."""
+    load, spread = answer.sensitivities[-1], answer.spreads[-1]
+    if abs(load.force) < SMALL_LOAD:
+        return ""
+    e = {name: value for name, (value, _) in load.elasticities().items()}
+    names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
+    parts = ", ".join(f"{names[name]} {e[name]:+.2f} %" for name in names)
+    text = f"One percent more of an input changes the {load.name} by: {parts}; one degree more from the vertical by "
+    text += f"{e['alpha']:+.2f} %."
+    text = text.replace(" -", " −")
+    if spread is not None:
+        unit = "B/L²" if answer.case.scales is None else "N"
+        size = f"{spread.total:.2g} {unit}" if unit != "N" else readable(spread.total, unit, 3)
+        text += f" The uncertainties given make it uncertain by ±{size}, most of it from {spread.largest}."
+    return text
 
 
 def _wall(answer: Answer) -> str:

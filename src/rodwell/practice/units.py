@@ -84,6 +84,20 @@ def to_si(text: object, kind: str) -> float:
     return value
 
 
+def in_unit_of(number: float, unit: str, other: str) -> float:
+    """Return ``number`` in ``unit`` as a number in the unit ``other``.
+
+    Raises
+    ------
+    ValueError
+        If one of them is no unit, or they do not go together.
+    """
+    try:
+        return float(_registry().Quantity(number, unit).to(other).magnitude)
+    except Exception:  # pint raises many kinds for text that is no unit
+        raise ValueError(f"has units {unit!r} and {other!r}, which do not go together") from None
+
+
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
     found = _QUANTITY.fullmatch(text) if len(text) <= LONGEST_TEXT else None

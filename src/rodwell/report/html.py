@@ -110,6 +110,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         pictures=embedded,
         rod=rod,
         wall=_sentence(answer.shown.wall.meaning),
+        sensitivities=_sensitivities(answer),
         certificate=_certificate(answer.worst_certificate),
         rtol=f"{answer.case.rtol:g}".replace("-", "−"),
         version=__version__,
@@ -135,6 +136,21 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
         "passed": certificate.passed,
         "groups": [(name, short(value)) for name, value in groups.items()],
     }
+
+
+def _sensitivities(answer: Answer) -> list[dict[str, Any]]:
+    """Elasticities of the loads, and their uncertainty from the inputs."""
+    out = []
+    for load, spread in zip(answer.sensitivities, answer.spreads, strict=True):
+        e = load.elasticities() if load.force != 0.0 else {}
+        names = ("clearance", "weight_per_length", "stiffness", "length", "alpha")
+        cells = [f"{e[name][0]:+.3f} %".replace("-", "−") if e else "" for name in names]
+        size = ""
+        if spread is not None:
+            plain = answer.case.scales is None
+            size = f"±{spread.total:.2g} B/L²" if plain else f"±{readable(spread.total, 'N', 3)}"
+        out.append({"name": load.name, "cells": cells, "spread": size})
+    return out
 
 
 def _sentence(text: str) -> str:
