@@ -20,6 +20,7 @@ from rodwell.analysis.measures import Measured
 from rodwell.analysis.special import SpecialPoint
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.cylinder import plot_cylinder_moments, plot_shapes
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
 from rodwell.problem import ENDS
@@ -39,6 +40,8 @@ COMMANDS = {
     "critical-ends": "critical --weight 15 --alpha 60 --ends clamped-pinned --modes 3",
     "critical-on-top": "critical --weight 65 --alpha 90 --on-top --modes 3",
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
+    "verify": "verify examples/drill-string.toml --at -140 --rtol 1e-6",
+    "sensitivity": "sensitivity --weight 15 --alpha 90",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }
 """Output shown on the pages, by name of the file; run in the order given."""
@@ -51,8 +54,9 @@ def pages(out: Path) -> dict[str, str]:
         pair(out / "pair.png")
         veering(out)
         on_top(out / "on-top.png")
+        wall_tables = wall(out)
     twisted_coil(out / "coil-3d.png")
-    return {
+    return wall_tables | {
         "switching.md": switching_table(),
         "coils.md": coil_table(),
         "torsion.md": torsion_table(),
@@ -83,6 +87,33 @@ def coils(path: Path) -> None:
     coil = rodwell.coil(rodwell.Problem(15, turns=1), until=-260.0)
     ax = plot_bifurcation([*flat, coil], flat.critical, ordinate=Measured.ENERGY)
     _save(ax, path)
+
+
+def wall(out: Path) -> dict[str, str]:
+    """Torque of the first modes, certificate of a state; shapes of the branch without symmetry; moments at lift-off."""
+    rows = []
+    problem = rodwell.Problem(15)
+    for mode, force in ((1, -130.0), (2, -130.0), (3, -240.0), (4, -260.0)):
+        state = rodwell.follow(problem, mode, until=force)[-1]
+        shape = {1: "even", -1: "odd"}[state.point.fine.symmetry]
+        load = state.wall
+        support = number(load.torque[0], 5) if load.needs_torque else "0"
+        rows.append((str(mode), f"{force:g}".replace("-", "−"), shape, f"{load.twisting.value:.5f}", support))
+    head = ("Mode", "F", "Shape", "Largest |T₂|", "T₂(0), at the support")
+    diagram = rodwell.diagram(problem, modes=2, until=-400.0)
+    branch = diagram["secondary 1"]
+    step = max(1, len(branch) // 8)
+    _save(plot_shapes([*list(branch)[:-1:step], branch[-1]]), out / "fig4.png")
+    lift = diagram.branches[0].lift_off
+    assert lift is not None
+    _save(plot_cylinder_moments(lift.solution), out / "cylinder.png")
+    certificate = lift.solution.certificate
+    worst = sorted(certificate.residuals.items(), key=lambda item: -item[1])[:6]
+    shown = [(name, f"{value:.1e}".replace("-", "−")) for name, value in worst]
+    return {
+        "torque_table.md": table(head, rows),
+        "certificate_table.md": table(("Equation of the paper", "What is left, at most"), shown),
+    }
 
 
 def pair(path: Path) -> None:

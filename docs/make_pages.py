@@ -47,6 +47,7 @@ PRETTY = {
     "B/L": "B/L",
     "B/L^2": "B/L²",
     "B/L^3": "B/L³",
+    "B/L^4": "B/L⁴",
     "N m": "N·m",
 }
 
@@ -93,6 +94,7 @@ def nomenclature_tables() -> str:
     """The fields along the rod and the numbers of one state, as two tables."""
     parts = []
     titles = {"Fields along the rod": nomenclature.FIELDS, "Numbers of one state": nomenclature.SCALARS}
+    titles["Contact loads that vanish without friction"] = nomenclature.VANISHING
     for title, names in titles.items():
         rows = []
         for name in names:
@@ -156,6 +158,11 @@ MEANINGS: dict[str, dict[str, str]] = {
         "until": "end force at s = 1 to which branches are followed, **tension positive** (compression negative); "
         "chosen from the loads found if not given",
         "twist": "end twisting moment T₁, a dead load",
+    },
+    "cylinder": {
+        "outer_diameter": "outer diameter of the cylinder; the section is for the check of its strength, and may be left out",
+        "inner_diameter": "inner diameter; that of the hole, if hole.diameter is given",
+        "yield_strength": "strength against which the largest equivalent stress is set",
     },
     "analysis": {
         "modes": "how many buckling modes, 1 to 12",

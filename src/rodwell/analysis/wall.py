@@ -37,11 +37,11 @@ class WallLoads:
     Attributes
     ----------
     contact
-        Largest contact force per length |p|.
+        Largest contact force per length, the size of p.
     total
-        ∫|p| ds, contact forces of all directions added, and its error estimate.
+        Integral of the size of p over s, contact forces of all directions added, and its error estimate.
     twisting, bending_mu, bending_lambda
-        Largest |T₂|, |μ| and |λ cos η|, (59), in the cylinder.
+        Largest sizes of T₂, μ and λ cos η, (59), in the cylinder.
     torque
         T₂(0): the cylinder's support at s = 0 exerts −T₂(0) on it, about k; with its error estimate. At s = 1 the
         cylinder is free of load, (B9).
