@@ -8,6 +8,7 @@ import pytest
 import rodwell
 from rodwell import Problem
 from rodwell.analysis import certificate
+from rodwell.analysis.measures import Measured
 from rodwell.physics import braid, paper
 from rodwell.physics.paper import NAMES, Fifteen, Load
 from rodwell.physics.parameters import SIDE
@@ -183,3 +184,15 @@ def test_paper_system_has_fifteen_of_everything() -> None:
     assert paper.rates(np.array(x), load).shape == (15, 4)
     ends = paper.end_conditions(Fifteen(*np.array(x)[:, 0]), Fifteen(*np.array(x)[:, -1]), load)
     assert list(ends) == [f"(B{i})" for i in range(1, 16)]
+
+
+def test_where_the_odd_coil_is_unstable_another_shape_of_less_energy_is_found() -> None:
+    """One turn, w = 15, F = −140: the odd coil loses stability near T₁ = 4.87, where an unsymmetric one takes over."""
+    odd = rodwell.equilibrium(Problem(15.0, turns=1, twist=4.0), -140.0)
+    further = rodwell.follow(odd.problem, start=odd, parameter="twist", until=6.0)[-1]
+    assert further.stability_index == 1
+    found = rodwell.equilibrium(Problem(15.0, turns=1, twist=6.0), -140.0)
+    assert found.stable
+    assert found.certificate.passed
+    assert found.point.fine.symmetry == 0
+    assert found.number(Measured.ENERGY)[0] < further.number(Measured.ENERGY)[0] - 1e-4

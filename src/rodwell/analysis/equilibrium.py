@@ -10,10 +10,14 @@ from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family, Outcome
+from rodwell.numerics.families import Family, Outcome, State
 from rodwell.numerics.minimise import minimise
 from rodwell.numerics.spaces import FloatArray
 from rodwell.problem import Problem
+
+
+LOPSIDED = 0.3
+"""How far, in radians around the cylinder, the search for an unsymmetric coil starts from the symmetric one."""
 
 
 def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
@@ -43,24 +47,32 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     force = checked_force("force", force)
     if problem.turns == 0:
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
-    space = first_space(problem, min(force, 0.0), max(force, 0.0))
-    wavenumber = 2.0 * np.pi * abs(problem.turns)
-    family = equilibria(
-        problem,
-        space,
-        parity=-1 if problem.symmetric else 0,
-        wavenumber=wavenumber,
-        scale=max(abs(force), wavenumber**2),
-    )
-    outcome, c = minimise(family, _winding(problem, family), force)
-    if outcome is Outcome.CONVERGED:
-        outcome, coarse, _ = family.at(c, force)
-    if outcome is not Outcome.CONVERGED or coarse is None:
-        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
+    family, outcome, coarse = _odd_or_any(problem, force)
+    if coarse is None:
+        raise NotConvergedError(f"no stable coiled state found at F = {force:g} B/L²: {outcome.value}")
     outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
     return Solution(problem, ladder.at(point, force) or point, ladder)
+
+
+def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State | None]:
+    """A minimum of the energy: odd about mid-length if the problem allows that and it is stable, else of any shape."""
+    space = first_space(problem, min(force, 0.0), max(force, 0.0))
+    wavenumber = 2.0 * np.pi * abs(problem.turns)
+    for parity in (-1, 0) if problem.symmetric else (0,):
+        scale = max(abs(force), wavenumber**2)
+        family = equilibria(problem, space, parity=parity, wavenumber=wavenumber, scale=scale)
+        start = _winding(problem, family)
+        if parity == 0 and problem.symmetric:  # the odd one is no minimum: leave its symmetry
+            bump = problem.clearance * np.sin(np.pi * space.points) ** 2
+            start = start + LOPSIDED * space.project(bump, family.ends)
+        outcome, c = minimise(family, start, force)
+        if outcome is Outcome.CONVERGED:
+            outcome, state, _ = family.at(c, force)
+            if state is not None:
+                return family, outcome, state
+    return family, outcome, None
 
 
 def _winding(problem: Problem, family: Family) -> FloatArray:
