@@ -6,7 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.accuracy import ELEMENTS_PER_RADIAN, MOST_ELEMENTS, RTOL, checked_rtol, first_space
+from rodwell.analysis.accuracy import (
+    ELEMENTS_PER_RADIAN,
+    LINEAR_ELEMENTS_PER_RADIAN,
+    MOST_ELEMENTS,
+    RTOL,
+    checked_rtol,
+    first_space,
+)
 from rodwell.analysis.families import parameters, spline_ends
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics import eigen
@@ -112,9 +119,9 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         finer = space.refined()
         up = Prolongation(space, finer)
         start = np.array([up(v) for v in vectors])
-        better, shapes = _solve(problem, finer, count, start)
+        better, shapes = _solve(problem, finer, count, (values, start))
         size = np.abs(better[:count]) + problem.axial_weight + EULER
-        error = np.abs(better - values)[:count] + 8.0 * np.finfo(float).eps * size
+        error = np.abs(better[:count] - values[:count]) + 8.0 * np.finfo(float).eps * size
         if np.all(error <= rtol * size):
             break
         if 2 * finer.elements > MOST_ELEMENTS:
@@ -135,34 +142,36 @@ def _starting_space(problem: Problem, count: int) -> SplineSpace:
     foundation = max(problem.foundation, 0.0) / problem.clearance
     waves = np.pi * (count + 1)
     buckling = 2.0 * np.sqrt(foundation) + waves**2 + problem.axial_weight
-    space = first_space(problem, -buckling)
+    space = first_space(problem, -buckling, density=LINEAR_ELEMENTS_PER_RADIAN)
     if space.elements * space.degree < 4 * count / ELEMENTS_PER_RADIAN:
         space = space.refined()
     return space
 
 
-def _solve(problem: Problem, space: SplineSpace, count: int, start: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+def _solve(
+    problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
+) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
     factors = second_variation(space.points, parameters(problem))
     ends = spline_ends(problem)
     stiffness, gram = ends.restrict(space.form(factors)), ends.restrict(space.slope_gram)
+    weighted = factors * space.weights
 
     def full(block: FloatArray) -> FloatArray:
         return np.array([ends.spread(free) for free in block])
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        fields = np.array([space.at_points(v) for v in full(block)])
-        weighted = factors * space.weights
-        k = np.einsum("idq,dq,jdq->ij", fields, weighted, fields, optimize=True)
-        g = np.einsum("iq,q,jq->ij", fields[:, 1], space.weights, fields[:, 1], optimize=True)
+        fields = space.at_points(full(block))
+        size = len(block)
+        k = (fields * weighted).reshape(size, -1) @ fields.reshape(size, -1).T
+        g = (fields[:, 1] * space.weights) @ fields[:, 1].T
         return k, g
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
     below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    guess = None if start is None else (start[0], start[1][:, ends.free(space.size)])
     try:
-        values, vectors = eigen.lowest(
-            stiffness, gram, quadrature, count, below, None if start is None else start[:, ends.free(space.size)]
-        )
+        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess)
     except eigen.EigenError as problem_found:
         raise NotConvergedError(f"critical loads: {problem_found}") from None
     return values, full(vectors)

@@ -27,6 +27,12 @@ RESHIFT, SLOW = 6, 0.1
 """After so many iterations, if the last one gained less than this, the shift moves to just below the first value that
 still changes: where a few lie far below the others, no shift below all makes the others converge fast."""
 
+BELOW = 0.05
+"""How far below the first eigenvalue a shift lies, as part of the distance to the last one of the block."""
+
+GAP = 1e-2
+"""Part of the block's spread from which a distance between neighbours counts as a gap."""
+
 SMALL, ROUND_OFF = 1e-13, 1e-11
 """Relative changes of the eigenvalues from one iteration to the next that count as none."""
 
@@ -54,7 +60,7 @@ def lowest(
     quadrature: Gram,
     count: int,
     below: float,
-    start: FloatArray | None,
+    start: tuple[FloatArray, FloatArray] | None,
 ) -> tuple[FloatArray, FloatArray]:
     """The ``count`` lowest eigenvalues, rising, and their vectors.
 
@@ -69,7 +75,7 @@ def lowest(
     below
         A number below all eigenvalues.
     start
-        Vectors (k, n) to start from, or None.
+        Values (k,) and vectors (k, n) of a coarser mesh to start from, or None.
 
     Returns
     -------
@@ -84,11 +90,11 @@ def lowest(
     size = min(n, count + max(BLOCK_SPARE, count // 2))
     if count > n:
         raise EigenError(f"only {n} modes on this mesh, {count} were asked for")
-    shift = _shift(stiffness, gram, below, size)
+    shift = _shift(stiffness, gram, below, size) if start is None else _shift_near(stiffness, gram, below, start[0])
     factors = _factors(stiffness, gram, shift)
     block = np.random.default_rng(0).standard_normal((size, n))
     if start is not None:
-        block[: min(size, len(start))] = start[:size]
+        block[: min(size, len(start[1]))] = start[1][:size]
     previous, history, kept = np.full(count, np.inf), [np.inf], 0
     for iteration in range(1, MOST_ITERATIONS + 1):
         moved = _inverse_step(factors, gram, block[kept:])
@@ -99,11 +105,19 @@ def lowest(
         if _settled(history) and _confirmed(stiffness, gram, values, count):
             return values, block
         if iteration % RESHIFT == 0 and history[-1] > max(ROUND_OFF, SLOW * history[-2]):
-            kept = int(np.argmax(changes > SMALL))
+            kept = _before_gap(values, int(np.argmax(changes > SMALL)))
             shift = _shift_above(stiffness, gram, values, kept) if kept > 0 else shift
             factors = _factors(stiffness, gram, shift)
             history.append(np.inf)
     raise EigenError("inverse iteration did not settle, or the count of eigenvalues does not agree")
+
+
+def _before_gap(values: FloatArray, kept: int) -> int:
+    """The largest number up to ``kept`` of first values that a gap parts from the rest: no pair is cut in two."""
+    spread = values[-1] - values[0]
+    while kept > 0 and values[kept] - values[kept - 1] < GAP * spread:
+        kept -= 1
+    return kept
 
 
 def _factors(stiffness: FloatArray, gram: FloatArray, shift: float) -> FloatArray:
@@ -119,13 +133,17 @@ def _settled(history: list[float]) -> bool:
 
 
 def _shift_above(stiffness: FloatArray, gram: FloatArray, values: FloatArray, kept: int) -> float:
-    """A shift above the first ``kept`` eigenvalues and just below the next one, which counting brackets."""
-    low, high = float(values[kept - 1]), float(values[kept])
-    low += 1e-6 * (high - low)
+    """A shift above the first ``kept`` eigenvalues and a little below the next one, which counting brackets.
+
+    Not nearer than a fiftieth of the block's spread, if there is room: next to an eigenvalue every vector would turn
+    into that of its mode, and the block would lose its rank.
+    """
+    known, high = float(values[kept - 1]), float(values[kept])
+    low = known + 1e-6 * (high - known)
     width = 0.02 * float(values[-1] - values[kept])
     while high - low > width and low < 0.5 * (low + high) < high:
         low, high = _halve(stiffness, gram, low, high, kept + 1)
-    return low
+    return max(low - width, 0.5 * (known + low))
 
 
 def _shift(stiffness: FloatArray, gram: FloatArray, below: float, size: int) -> float:
@@ -140,7 +158,13 @@ def _shift(stiffness: FloatArray, gram: FloatArray, below: float, size: int) -> 
         spread = top[0] - first[1]
         width = max(first[1] - first[0], top[1] - top[0])
         if width < 0.1 * spread or width < 1e-12 * (abs(first[1]) + abs(below)):
-            return first[0] - 0.05 * (top[1] - first[0])
+            return first[0] - BELOW * (top[1] - first[0])
+
+
+def _shift_near(stiffness: FloatArray, gram: FloatArray, below: float, values: FloatArray) -> float:
+    """The shift that belongs to values from a coarser mesh, if counting finds none below it."""
+    shift = float(values[0] - BELOW * (values[-1] - values[0]))
+    return shift if count_below(stiffness, gram, shift) == 0 else _shift(stiffness, gram, below, len(values))
 
 
 def _halve(stiffness: FloatArray, gram: FloatArray, low: float, high: float, which: int) -> tuple[float, float]:

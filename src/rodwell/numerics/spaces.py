@@ -80,9 +80,13 @@ class SplineSpace:
         return np.asarray(bsplines.evaluate(self.knots, self.degree, coefficients, points, orders))
 
     def at_points(self, coefficients: FloatArray) -> FloatArray:
-        """Values and two derivatives at the quadrature points, shape (3, m)."""
-        local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1)
-        return np.asarray(np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1))
+        """Values and two derivatives at the quadrature points, shape (3, m); (k, 3, m) of a block (k, size)."""
+        local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1, axis=-1)
+        if coefficients.ndim == 1:
+            return np.asarray(np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1))
+        rows = self._element_table.reshape(self.elements, -1, self.degree + 1)  # (e, 3 m/e, p + 1)
+        values = np.matmul(rows, local.transpose(1, 2, 0)).reshape(self.elements, -1, 3, len(coefficients))
+        return np.ascontiguousarray(values.transpose(3, 2, 0, 1)).reshape(len(coefficients), 3, -1)
 
     def wavenumber(self, coefficients: FloatArray) -> float:
         """√(∫y''²/∫y'²) of a function, in rad per unit length."""
