@@ -22,6 +22,7 @@ contains one critical load, the (n + 1)-th, and no other.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import ceil, sqrt
 from typing import Any, NamedTuple
 
@@ -49,15 +50,32 @@ class Inertia(NamedTuple):
     determinant: Ball
 
 
-def inertia(force: Ball, axial: Ball, foundation: Ball, ends: tuple[str, str]) -> Inertia:
-    """Negative directions of Q at an end force: the critical loads above it, each as often as it is multiple.
+class Rod(NamedTuple):
+    """A straight rod under load, in balls.
+
+    Attributes
+    ----------
+    force, axial, foundation
+        F, wₐ and β = wₗ/Δ (negative for a rod on top).
+    ends
+        End conditions at s = 0 and s = 1, of which "clamped", "pinned", "guided" and "free" are known.
+    """
+
+    force: Ball
+    axial: Ball
+    foundation: Ball
+    ends: tuple[str, str]
+
+
+def inertia(rod: Rod, least: int = 0) -> Inertia:
+    """Negative directions of Q: the critical loads above the rod's end force, each as often as it is multiple.
 
     Parameters
     ----------
-    force, axial, foundation
-        F, wₐ and β = wₗ/Δ (negative for a rod on top), balls.
-    ends
-        End conditions at s = 0 and s = 1, of which "clamped", "pinned", "guided" and "free" are known.
+    rod
+        The rod under its load.
+    least
+        On at least so many elements. Determinants compare between loads only on as many elements.
 
     Raises
     ------
@@ -66,7 +84,9 @@ def inertia(force: Ball, axial: Ball, foundation: Ball, ends: tuple[str, str]) -
     NotConvergedError
         If the problem takes more than 3000 elements.
     """
-    count = _elements(force, axial, foundation)
+    force, axial, foundation, ends = rod
+    count = max(elements(rod), least)
+    _check_interiors(rod, count)
     whole = [(i, j, _part(i, j)) for i in range(4) for j in range(i, 4)]
     matrix = None
     above: list[list[Ball]] = []  # what the elements so far leave at the last node
@@ -93,20 +113,25 @@ def _part(i: int, j: int) -> int:
     return i // 2 + j // 2
 
 
-def _elements(force: Ball, axial: Ball, foundation: Ball) -> int:
-    """Number of elements, such that Q is proved positive inside each."""
-    low = (force - axial).min(force)
+def elements(rod: Rod) -> int:
+    """Number of elements that resolve the rod, and inside which Q should be positive."""
+    force, axial, foundation, _ = rod
     size = max(float(abs(force)), float(abs(force - axial)), sqrt(float(abs(foundation))), 1.0)
-    count = ceil(sqrt(size) * (1.0 + 1e-9) / WAVES_PER_ELEMENT)
+    count = ceil(sqrt(size) / WAVES_PER_ELEMENT)
     if count > MOST_ELEMENTS:
         raise NotConvergedError(
             f"certified counts: {count} elements would be needed, and {MOST_ELEMENTS} are allowed: "
             "the rod is too long or too heavy for this method"
         )
-    slack = 4 * force.pi() ** 2 * count**2 + low  # interiors: 4π²/h² + N
-    if not (slack > 0 and slack * force.pi() ** 2 * count**2 + foundation > 0):
-        raise Undecided("interiors of elements")
     return count
+
+
+def _check_interiors(rod: Rod, count: int) -> None:
+    """Prove that Q is positive inside each of ``count`` elements."""
+    wave = (rod.force.pi() * count) ** 2  # π²/h²
+    slack = 4 * wave + rod.force.min(rod.force - rod.axial)
+    if not (slack > 0 and slack * wave + rod.foundation > 0):
+        raise Undecided("whether elements are short enough")
 
 
 def _element(force: Ball, axial: Ball, foundation: Ball, index: int, count: int) -> Ball:
@@ -131,44 +156,48 @@ def _element(force: Ball, axial: Ball, foundation: Ball, index: int, count: int)
 
 
 def _solution(which: int, n: Ball, w: Ball, b: Ball) -> tuple[list[Ball], list[Ball]]:
-    """Value and three derivatives in ξ at ξ = −1 and 1 of the solution of (64) in one element that starts as ξ^which.
+    """Value and three derivatives in ξ at ξ = −1 and 1 of the solution of (64) in one element that starts as ξ^i/i!.
 
-    With s = s_m + ξh/2 equation (64) is y⁗ = n y'' + w (ξy')' − b y, so y = Σ eₖξᵏ with
+    With s = s_m + ξh/2 equation (64) is y⁗ = n y'' + w (ξy')' − b y; i is ``which``. So y = Σ uₖξᵏ/k! with
 
-        (k+4)(k+3)(k+2)(k+1) eₖ₊₄ = n (k+2)(k+1) eₖ₊₂ + w (k+1)² eₖ₊₁ − b eₖ.
+        uₖ₊₄ = n uₖ₊₂ + (k+1) w uₖ₊₁ − b uₖ.
 
-    Tail. Let q = (|n| + |w|)/((k+4)(k+3)) + |b|/((k+4)(k+3)(k+2)(k+1)), which falls with k, and m the largest of
-    |eₖ| … |eₖ₊₃|. While q ≤ 1/4, each later coefficient is at most q times the largest of the four before it and so,
-    by induction, the j-th block of four after these is at most qʲm. For k ≥ 15 and i in that block,
+    Tail. For eₖ = uₖ/k!, let q = (|n| + |w|)/((k+4)(k+3)) + |b|/((k+4)(k+3)(k+2)(k+1)), which falls with k, and m the
+    largest of |eₖ| … |eₖ₊₃|. While q ≤ 1/4, each later coefficient is at most q times the largest of the four before it
+    and so, by induction, the j-th block of four after these is at most qʲm. For k ≥ 15 and i in that block,
     i³ ≤ (k+3)³ exp(12j/(k+3)) ≤ (k+3)³ 2ʲ; so Σ i³|eᵢ| over all blocks is at most 4 m (k+3)³ · 2q/(1 − 2q), which also
-    bounds what is cut off from y and its first two derivatives.
+    bounds what is cut off from y and its first two derivatives. (Instead of m the sum of the four is used.)
     """
-    from flint import arb, arb_poly, ctx  # noqa: PLC0415
+    from flint import arb, arb_mat, ctx  # noqa: PLC0415
 
-    coefficients = [arb(int(k == which)) for k in range(4)]
+    zero = arb(0)
+    u = [arb(1) if k == which else zero for k in range(4)]
     small = arb(2) ** (-ctx.prec)
     reach, stiff = n.abs_upper() + w.abs_upper(), b.abs_upper()
     k = 0
     while True:
-        if k >= 16 and k % 4 == 0:
+        if k >= 16 and k % 8 == 0:
             q = reach / ((k + 4) * (k + 3)) + stiff / ((k + 4) * (k + 3) * (k + 2) * (k + 1))
-            largest = max((abs(e).upper() for e in coefficients[-4:]), key=float)
-            tail = 8 * sum((abs(e).upper() for e in coefficients[-4:]), arb(0)) * (k + 3) ** 3 * q / (1 - 2 * q)
+            last = sum((abs(u[i]).upper() / arb.fac_ui(i) for i in range(k, k + 4)), zero)
+            tail = (8 * last * (k + 3) ** 3 * q / (1 - 2 * q)).upper()
             if q < 0.25 and tail < small:
                 break
-            del largest
-        new = (n * ((k + 2) * (k + 1)) * coefficients[k + 2] + w * (k + 1) ** 2 * coefficients[k + 1]
-               - b * coefficients[k])  # fmt: skip
-        coefficients.append(new / ((k + 4) * (k + 3) * (k + 2) * (k + 1)))
+        u.append(n * u[k + 2] + (k + 1) * w * u[k + 1] - b * u[k])
         k += 1
-    rest = arb(0, tail.upper())
-    polynomial = arb_poly(coefficients)
-    ends: tuple[list[Ball], list[Ball]] = ([], [])
-    for _ in range(4):
-        for side, out in zip((-1, 1), ends, strict=True):
-            out.append(polynomial(arb(side)) + rest)
-        polynomial = polynomial.derivative()
-    return ends
+    table = arb_mat([u, u[1:] + [zero], u[2:] + [zero] * 2, u[3:] + [zero] * 3])
+    sums = table * _factorials(len(u), ctx.prec)
+    rest = arb(0, tail)
+    return [sums[j, 0] + rest for j in range(4)], [sums[j, 1] + rest for j in range(4)]
+
+
+@lru_cache(maxsize=64)
+def _factorials(count: int, precision: int) -> Ball:
+    """Columns (−1)ᵏ/k! and 1/k!, (count, 2), at the ``precision`` in bits that is set."""
+    from flint import arb, arb_mat  # noqa: PLC0415
+
+    del precision  # part of the key only
+    inverse = [1 / arb.fac_ui(k) for k in range(count)]
+    return arb_mat([[-x if k % 2 else x, x] for k, x in enumerate(inverse)])
 
 
 def _eliminate(

@@ -50,9 +50,10 @@ def weightless_helix(eta: float, radius: float) -> Helix:
 def coil_energy(rate: float, force: float, lateral_weight: float, radius: float) -> float:
     """Energy per length of a rod wound uniformly at ``rate`` (rad per length), relative to the straight rod.
 
-    e = ½Δ²q⁴ + ... exactly: ½ sin⁴η/Δ² + Δwₗ + F(1 − cos η), sin η = Δq. The rod's weight is lifted by Δ on the mean
-    over whole turns. The wound rod adjusts to its weight and to its ends: the former lowers the energy, clamping
-    raises it; both become small against the total with many turns.
+    e = ½ sin⁴η/Δ² + Δwₗ + F(1 − cos η), sin η = Δq; for small slope ½Δ²q⁴ + Δwₗ + ½FΔ²q². On the mean over whole turns
+    the rod is lifted by Δ. It is an upper bound of the least energy of a coil with pinned ends and whole turns,
+    since the uniform helix is one of the shapes that such a rod can take; without lateral weight it is the
+    equilibrium. Clamped ends cost more, by an amount that is small against the total for a long coil.
     """
     sine = radius * rate
     return 0.5 * sine**4 / radius**2 + radius * lateral_weight + force * _one_minus_cosine(sine)

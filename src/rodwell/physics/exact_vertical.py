@@ -8,7 +8,8 @@ solutions serve here, in hypergeometric functions of z = t³/9,
 and their primitives t ₁F₂(1/3; 2/3, 4/3; z), (t²/2) ₁F₂(2/3; 4/3, 5/3; z) and (t³/6) ₂F₃(1, 1; 4/3, 5/3, 2; z). So
 Scorer functions have hypergeometric primitives after all: Gi = αAi + βBi − h/π, and no quadrature is needed. Functions
 take balls of python-flint (flint.arb) where they say so; those for floats raise the precision until the digits are
-there. Misprint in the paper: t₁ below (86) must be (F/γ − 1)γ^⅓.
+there. Misprints in the paper: t₁ below (86) must be (F/γ − 1)γ^⅓, and
+Γ(⅔) on the right of (88) has no square.
 
 Units B = L = 1; F is the end force at s = 1 in B/L², tension positive; γ = mg L³/B.
 """
@@ -18,6 +19,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from typing import Any
+
+from rodwell.errors import NotConvergedError
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""
@@ -67,10 +70,14 @@ def sway_determinant(force: Ball, weight: Ball) -> Ball:
 
 
 def sway_bessel(weight: Ball) -> Ball:
-    """Right side of (88), F = 0: 2γ^⅙/(3^{7/6} Γ(⅔)²) J_⅓(⅔√γ); balls."""
+    """Right side of (88), F = 0: 2γ^⅙/(3^{7/6} Γ(⅔)) J_⅓(⅔√γ); balls.
+
+    The paper prints Γ(⅔)², which contradicts its own middle part: √3 Ai(−x) − Bi(−x) = 2√(x/3) J_⅓(⅔x^{3/2}). The roots
+    are the same.
+    """
     from flint import arb, fmpq  # noqa: PLC0415
 
-    factor = 2 * weight.root(6) / (arb(3).root(6) ** 7 * arb.gamma_fmpq(fmpq(2, 3)) ** 2)
+    factor = 2 * weight.root(6) / (arb(3).root(6) ** 7 * arb.gamma_fmpq(fmpq(2, 3)))
     return factor * (2 * weight.sqrt() / 3).bessel_j(arb(fmpq(1, 3)))
 
 
@@ -79,7 +86,7 @@ def as_float(function: Callable[..., Ball], *arguments: float) -> float:
 
     Raises
     ------
-    OverflowError
+    NotConvergedError
         If 20 000 bits do not suffice: far beyond γ^⅓ or |F|^½ of some hundreds.
     """
     from flint import arb, ctx  # noqa: PLC0415
@@ -91,7 +98,7 @@ def as_float(function: Callable[..., Ball], *arguments: float) -> float:
             if value.is_finite() and (value.rel_accuracy_bits() >= 53 or value.is_zero()):
                 return float(value)
         bits *= 2
-    raise OverflowError(f"{function.__name__}{arguments}: more than {MOST_BITS} bits are needed")
+    raise NotConvergedError(f"{function.__name__}{arguments}: more than {MOST_BITS} bits are needed")
 
 
 def sway_weights(count: int) -> list[float]:

@@ -1,0 +1,221 @@
+"""Critical loads with proof: enclosed to any number of digits, numbered, none skipped.
+
+What is proved, and how: see :mod:`rodwell.analysis.inertia` for the counts and :mod:`rodwell.analysis.roots` for the
+enclosures. In short, each load lies in an interval at whose ends the certified number of critical loads above differs
+by one. That proves that it exists, that no other load lies in the interval, and which number it has. It holds for every
+inclination and every pair of ends. Where a closed form exists, its change of sign over the same interval is proved too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from rodwell.analysis.enclosures import Enclosure, bits, checked_digits, exact
+from rodwell.analysis.inertia import Rod
+from rodwell.analysis.roots import Counter, Critical, critical_values
+from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.physics import exact_horizontal as horizontal
+from rodwell.physics import exact_vertical as vertical
+from rodwell.problem import Problem, ends_text
+
+Ball = Any
+"""A real number with a bound of its error: flint.arb."""
+
+DIGITS = 30
+MOST_MODES = 50
+LARGEST_AIRY = 1000.0
+"""|t| up to which (86) and (88) are evaluated for comparison: their series cancel as exp(2|t|^{3/2}/3)."""
+
+
+@dataclass(frozen=True)
+class CertifiedLoad:
+    """A critical load of the straight rod, with proof.
+
+    Attributes
+    ----------
+    problem
+        The problem that it belongs to.
+    number
+        1 for the load met first as compression grows: exactly ``number − 1`` loads lie above the interval.
+    force
+        Enclosure of the critical end force F at s = 1 in B/L², tension positive.
+    multiplicity
+        How many loads the interval holds. 1, unless two agree to all digits asked for.
+    closed_form
+        Equation of the paper whose change of sign over the interval was proved as well, or an empty text.
+    """
+
+    problem: Problem
+    number: int
+    force: Enclosure
+    multiplicity: int
+    closed_form: str
+
+    @property
+    def digits(self) -> int:
+        """Proved digits of the force, relative to |F| or to 1 if that is larger."""
+        return self.force.digits
+
+
+class CertifiedLoads(tuple[CertifiedLoad, ...]):
+    """Certified loads in the order in which they are met as compression grows."""
+
+    __slots__ = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for JSON: decimals are texts, so that no digit is lost."""
+        problem = self[0].problem
+        return {
+            "problem": {
+                "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
+                "ends": "-".join(problem.ends), "on_top": problem.on_top,
+            },
+            "loads": [
+                {
+                    "mode": load.number,
+                    "force": (text := load.force.text(load.digits))[0].replace("−", "-"),
+                    "radius": text[1],
+                    "digits": load.digits,
+                    "loads_above": load.number - 1,
+                    "loads_in_interval": load.multiplicity,
+                    "closed_form": load.closed_form,
+                }
+                for load in self
+            ],
+            "unit": "B/L^2",
+            "convention": "end force at s = 1, tension positive; " + ends_text(problem),
+        }  # fmt: skip
+
+
+def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> CertifiedLoads:
+    """Critical end forces of the straight rod, proved: the first ``modes`` of them, none skipped.
+
+    Numbers of ``problem`` are taken as the decimals they are written as: clearance 0.01 is 1/100.
+
+    Parameters
+    ----------
+    problem
+        The rod; ``twist`` does not enter, ``turns`` must be 0.
+    modes
+        How many loads, 1 to 50. One more is found where the last is one of several that agree to all digits.
+    digits
+        Decimal digits, 3 to 300: the half-width of an enclosure is at most 10^(−digits) |F|, or of 1 if |F| is smaller.
+
+    Returns
+    -------
+    CertifiedLoads
+        In the order in which they are met as compression grows.
+
+    Raises
+    ------
+    InputError
+        If ``modes`` or ``digits`` is out of range, or ``problem.turns`` is not 0.
+    NotConvergedError
+        If a proof fails: the rod takes more than 3000 elements, or a sign cannot be decided.
+    """
+    modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
+    if problem.turns != 0:
+        raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    counter = Counter(lambda x: _rod(problem, x))
+    start = -2 - Fraction(problem.axial_weight)
+    if problem.on_top:
+        start -= Fraction(problem.lateral_weight / problem.clearance)
+    step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * problem.axial_weight)
+    found = critical_values(counter, start, step, modes, digits)
+    equation = closed_form(problem)
+    return CertifiedLoads(_load(problem, item, equation, digits) for item in found)
+
+
+def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits: int) -> CertifiedLoad:
+    """The certified load of a critical value x = −F."""
+    force = Enclosure(-item.enclosure.high, -item.enclosure.low)
+    name = ""
+    if equation is not None and item.multiplicity == 1:
+        name = equation.name
+        if not changes_sign(equation.function, force, digits):
+            raise NotConvergedError(f"certified load {item.number}: {name} does not change its sign there")
+    return CertifiedLoad(problem, item.number, force, item.multiplicity, name)
+
+
+def _rod(problem: Problem, x: Ball) -> Rod:
+    """The rod at the end force −x, at the present precision."""
+    weight, clearance, ends = weights(problem), ball(exact(problem.clearance)), problem.ends
+    if problem.lateral_weight == 0.0 and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
+        ends = {"guided": "clamped", "free": "pinned"}[ends[0]], ends[1]
+    foundation = weight[1] / clearance
+    return Rod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
+
+
+def ball(value: Fraction) -> Ball:
+    """A rational as a ball."""
+    from flint import arb, fmpq  # noqa: PLC0415
+
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def weights(problem: Problem) -> tuple[Ball, Ball]:
+    """Axial and lateral weight γ cos α and γ sin α, exactly zero where they vanish."""
+    from flint import arb, fmpq  # noqa: PLC0415
+
+    weight, angle = ball(exact(problem.weight)), exact(problem.alpha) / 180
+    turn = fmpq(angle.numerator, angle.denominator)
+    zero = arb(0)
+    axial = zero if angle == Fraction(1, 2) else weight * arb.cos_pi_fmpq(turn)
+    return axial, zero if angle == 0 else weight * arb.sin_pi_fmpq(turn)
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """A function of the end force, in balls, whose zeros are the critical loads, with the name of its equation."""
+
+    name: str
+    function: Callable[[Ball], Ball]
+
+
+def changes_sign(function: Callable[[Ball], Ball], place: Enclosure, digits: int) -> bool:
+    """Whether a continuous function certainly has opposite signs at the two ends of an enclosure."""
+    from flint import ctx  # noqa: PLC0415
+
+    for factor in (1, 2, 4, 8, 16):
+        with ctx.workprec(bits(digits) * factor):
+            product = function(ball(place.low)) * function(ball(place.high))
+            if product > 0 or product < 0:
+                return bool(product < 0)
+    return False
+
+
+def closed_form(problem: Problem) -> ClosedForm | None:
+    """The paper's closed form for the critical loads of ``problem``, None where it has none."""
+    ends, upright, flat = problem.ends, problem.lateral_weight == 0.0, problem.axial_weight == 0.0
+    if problem.weight == 0.0:
+        return None
+    if flat and set(ends) == {"clamped"}:
+        if problem.on_top:
+            return ClosedForm("on top, section 4.3", lambda force: _on_top(force, weights(problem)[1] / _gap(problem)))
+        return ClosedForm("(77)", lambda force: _equation_77(force, weights(problem)[1] / _gap(problem)))
+    if upright and problem.weight ** (1.0 / 3.0) < LARGEST_AIRY / 10.0 and problem.weight > 1.0:
+        if ends == ("clamped", "clamped"):
+            return ClosedForm("(86)", lambda force: vertical.scorer_determinant(force, weights(problem)[0]))
+        if ends == ("clamped", "guided"):
+            return ClosedForm("(88)", lambda force: vertical.sway_determinant(force, weights(problem)[0]))
+    return None
+
+
+def _gap(problem: Problem) -> Ball:
+    return ball(exact(problem.clearance))
+
+
+def _equation_77(force: Ball, foundation: Ball) -> Ball:
+    """Left side of (77) at the end force."""
+    return horizontal.buckling_equation(*horizontal.wavenumbers(force, foundation))
+
+
+def _on_top(force: Ball, foundation: Ball) -> Ball:
+    """Product of both factors for a rod on top, with P from −F = 4P² − c²/(4P²)."""
+    c = foundation.sqrt()
+    p = (((force * force + 4 * c * c).sqrt() - force) / 8).sqrt()
+    return horizontal.even_factor_on_top(p, c) * horizontal.odd_factor_on_top(p, c)
