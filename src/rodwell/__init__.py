@@ -23,6 +23,7 @@ _HOME = {
     "Branch": "rodwell.analysis.branches",
     "Certificate": "rodwell.analysis.certificate",
     "Case": "rodwell.practice.case",
+    "CertifiedLoads": "rodwell.analysis.certify",
     "Answer": "rodwell.practice.answer",
     "Audit": "rodwell.practice.audit",
     "answer": "rodwell.practice.answer",
@@ -40,6 +41,7 @@ _HOME = {
     "SpecialPoint": "rodwell.analysis.special",
     "Torsion": "rodwell.analysis.torsion",
     "branch_off": "rodwell.analysis.follow",
+    "certify": "rodwell.analysis.certify",
     "coil": "rodwell.analysis.coiled",
     "critical_curves": "rodwell.analysis.critical_curves",
     "critical_loads": "rodwell.analysis.critical",
@@ -49,7 +51,10 @@ _HOME = {
     "follow": "rodwell.analysis.follow",
     "lift_off_curve": "rodwell.analysis.state_curves",
     "sensitivities": "rodwell.analysis.sensitivity",
+    "mode_pairs": "rodwell.analysis.modes",
+    "paper_values": "rodwell.analysis.paper_values",
     "secondary_curve": "rodwell.analysis.state_curves",
+    "switching_table": "rodwell.analysis.modes",
     "torsion": "rodwell.analysis.torsion",
     "twist_curve": "rodwell.analysis.state_curves",
     "verify": "rodwell.analysis.verify",
@@ -60,6 +65,7 @@ __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __g
 if TYPE_CHECKING:
     from rodwell.analysis.branches import Branch
     from rodwell.analysis.certificate import Certificate
+    from rodwell.analysis.certify import CertifiedLoads, certify
     from rodwell.analysis.coiled import coil
     from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.critical_curves import critical_curves
@@ -68,6 +74,8 @@ if TYPE_CHECKING:
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
     from rodwell.analysis.sensitivity import Sensitivity, sensitivities
+    from rodwell.analysis.modes import mode_pairs, switching_table
+    from rodwell.analysis.paper_values import paper_values
     from rodwell.analysis.solution import Solution
     from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve

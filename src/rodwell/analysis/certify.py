@@ -26,6 +26,8 @@ Ball = Any
 """A real number with a bound of its error: flint.arb."""
 
 DIGITS = 30
+SPARE = 2
+"""Digits proved beyond those asked for, so that the last one shown is right."""
 MOST_MODES = 50
 LARGEST_AIRY = 1000.0
 """|t| up to which (86) and (88) are evaluated for comparison: their series cancel as exp(2|t|^{3/2}/3)."""
@@ -66,6 +68,11 @@ class CertifiedLoads(tuple[CertifiedLoad, ...]):
 
     __slots__ = ()
 
+    @property
+    def shown(self) -> int:
+        """Digits to show: those that every load has, all but the spare ones."""
+        return max(min(load.digits for load in self) - SPARE, 1)
+
     def as_dict(self) -> dict[str, Any]:
         """Plain data for JSON: decimals are texts, so that no digit is lost."""
         problem = self[0].problem
@@ -77,7 +84,7 @@ class CertifiedLoads(tuple[CertifiedLoad, ...]):
             "loads": [
                 {
                     "mode": load.number,
-                    "force": (text := load.force.text(load.digits))[0].replace("−", "-"),
+                    "force": (text := load.force.text(self.shown))[0],
                     "radius": text[1],
                     "digits": load.digits,
                     "loads_above": load.number - 1,
@@ -125,7 +132,7 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     if problem.on_top:
         start -= Fraction(problem.lateral_weight / problem.clearance)
     step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * problem.axial_weight)
-    found = critical_values(counter, start, step, modes, digits)
+    found = critical_values(counter, start, step, modes, digits + SPARE)
     equation = closed_form(problem)
     return CertifiedLoads(_load(problem, item, equation, digits) for item in found)
 
@@ -136,8 +143,7 @@ def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits:
     name = ""
     if equation is not None and item.multiplicity == 1:
         name = equation.name
-        if not changes_sign(equation.function, force, digits):
-            raise NotConvergedError(f"certified load {item.number}: {name} does not change its sign there")
+        check_sign_change(equation, force, digits)
     return CertifiedLoad(problem, item.number, force, item.multiplicity, name)
 
 
@@ -176,16 +182,18 @@ class ClosedForm:
     function: Callable[[Ball], Ball]
 
 
-def changes_sign(function: Callable[[Ball], Ball], place: Enclosure, digits: int) -> bool:
-    """Whether a continuous function certainly has opposite signs at the two ends of an enclosure."""
+def check_sign_change(equation: ClosedForm, place: Enclosure, digits: int) -> None:
+    """Prove that a closed form has opposite signs at the two ends of an enclosure, or raise a NotConvergedError."""
     from flint import ctx  # noqa: PLC0415
 
     for factor in (1, 2, 4, 8, 16):
         with ctx.workprec(bits(digits) * factor):
-            product = function(ball(place.low)) * function(ball(place.high))
-            if product > 0 or product < 0:
-                return bool(product < 0)
-    return False
+            product = equation.function(ball(place.low)) * equation.function(ball(place.high))
+            if product < 0:
+                return
+            if product > 0:
+                break
+    raise NotConvergedError(f"{equation.name} was not proved to change its sign at {float(place):.17g}")
 
 
 def closed_form(problem: Problem) -> ClosedForm | None:

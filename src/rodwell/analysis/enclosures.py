@@ -40,7 +40,7 @@ class Enclosure:
 
     @property
     def digits(self) -> int:
-        """How many decimal digits are proved: the half-width is at most 10^(−digits) of the number, or of 1 if smaller."""
+        """Decimal digits proved: the half-width is at most 10^(−digits) of the number, or of 1 if that is more."""
         if self.half_width == 0:
             return MOST_DIGITS
         size = max(abs(self.middle), Fraction(1))
@@ -63,12 +63,11 @@ class Enclosure:
         """Whether a decimal as printed, "−111.2334", is the number rounded to as many places."""
         text = printed.replace("−", "-")
         half = Fraction(1, 2) / 10 ** len(text.partition(".")[2])
-        return Fraction(text) - half <= self.low and self.high <= Fraction(text) + half
+        return bool(Fraction(text) - half <= self.low and self.high <= Fraction(text) + half)
 
     def text(self, digits: int = 30) -> tuple[str, str]:
-        """Decimal with so many digits, and a bound of its distance from the number: what is cut off is included."""
-        size = abs(self.middle)
-        places = digits if size == 0 else max(digits - 1 - _exponent(size), 0)
+        """Decimal with so many digits (places, for numbers below 1), and a bound of its distance from the number."""
+        places = max(digits - 1 - _exponent(max(abs(self.middle), Fraction(1))), 0)
         rounded = Fraction(round(self.middle * 10**places), 10**places)
         return _decimal(rounded, places), _upper(max(rounded - self.low, self.high - rounded))
 
@@ -82,7 +81,7 @@ def _exponent(value: Fraction) -> int:
 def _decimal(value: Fraction, places: int) -> str:
     """Exact decimal of a rational with so many places."""
     scaled = str(abs(round(value * 10**places))).rjust(places + 1, "0")
-    sign = "−" if value < 0 else ""
+    sign = "-" if value < 0 else ""
     return sign + (f"{scaled[:-places]}.{scaled[-places:]}" if places else scaled)
 
 

@@ -15,7 +15,7 @@ Every step is done in balls that contain the true number (Arb):
 - *solutions*: power series about mid-element, with a bound of the tail that is proved in :func:`_solution`;
 - *nodes*: block elimination, whose pivots' signs must be decided (Haynsworth's inertia additivity).
 
-The count is a whole number that is right, or :class:`Undecided` is raised. Q falls as F falls, so critical loads
+The count is a whole number that is right, or :class:`UndecidedError` is raised. Q falls as F falls, so critical loads
 between two forces are exactly as many as the counts differ by: with counts n and n + 1 at the ends of an interval it
 contains one critical load, the (n + 1)-th, and no other.
 """
@@ -39,7 +39,7 @@ WAVES_PER_ELEMENT = 3.0
 """Element length times the largest wavenumber: below 2π, so that interiors are positive."""
 
 
-class Undecided(Exception):
+class UndecidedError(Exception):
     """A sign could not be decided at this precision."""
 
 
@@ -79,7 +79,7 @@ def inertia(rod: Rod, least: int = 0) -> Inertia:
 
     Raises
     ------
-    Undecided
+    UndecidedError
         If a sign cannot be decided: raise the precision, or move away from a critical load.
     NotConvergedError
         If the problem takes more than 3000 elements.
@@ -131,7 +131,7 @@ def _check_interiors(rod: Rod, count: int) -> None:
     wave = (rod.force.pi() * count) ** 2  # π²/h²
     slack = 4 * wave + rod.force.min(rod.force - rod.axial)
     if not (slack > 0 and slack * wave + rod.foundation > 0):
-        raise Undecided("whether elements are short enough")
+        raise UndecidedError("whether elements are short enough")
 
 
 def _element(force: Ball, axial: Ball, foundation: Ball, index: int, count: int) -> Ball:
@@ -184,7 +184,7 @@ def _solution(which: int, n: Ball, w: Ball, b: Ball) -> tuple[list[Ball], list[B
                 break
         u.append(n * u[k + 2] + (k + 1) * w * u[k + 1] - b * u[k])
         k += 1
-    table = arb_mat([u, u[1:] + [zero], u[2:] + [zero] * 2, u[3:] + [zero] * 3])
+    table = arb_mat([u, [*u[1:], zero], [*u[2:], zero, zero], [*u[3:], zero, zero, zero]])
     sums = table * _factorials(len(u), ctx.prec)
     rest = arb(0, tail)
     return [sums[j, 0] + rest for j in range(4)], [sums[j, 1] + rest for j in range(4)]
@@ -249,4 +249,4 @@ def _negative(ball: Ball) -> bool:
         return True
     if ball > 0:
         return False
-    raise Undecided("a pivot")
+    raise UndecidedError("a pivot")

@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from rodwell.analysis.enclosures import Enclosure, bits
-from rodwell.analysis.inertia import Inertia, Rod, Undecided, elements, inertia
+from rodwell.analysis.inertia import Inertia, Rod, UndecidedError, elements, inertia
 from rodwell.errors import NotConvergedError
 
 Ball = Any
@@ -57,7 +57,7 @@ class Counter:
             with ctx.workprec(precision * factor):
                 try:
                     return inertia(self.rod(arb(fmpq(x.numerator, x.denominator))), elements)
-                except Undecided as problem:
+                except UndecidedError as problem:
                     reason = problem
         raise NotConvergedError(f"certified counts: {reason} cannot be decided with {precision * PRECISIONS[-1]} bits")
 
@@ -106,11 +106,11 @@ def _isolated(counter: Counter, number: int, digits: int) -> tuple[Fraction, Fra
 
 def _width(low: Fraction, high: Fraction, digits: int) -> Fraction:
     """Width of an enclosure with so many digits."""
-    return max(min(abs(low), abs(high)), Fraction(1)) / 10**digits
+    return max(min(abs(low), abs(high)), Fraction(1)) / Fraction(10) ** digits
 
 
 def _dyadic(x: Fraction, scale: Fraction) -> Fraction:
-    """x rounded to a binary fraction, by much less than ``scale``."""
+    """Round x to a binary fraction, by much less than ``scale``."""
     shift = max(scale.denominator.bit_length() - scale.numerator.bit_length() + 12, 0)
     return Fraction(round(x * (1 << shift)), 1 << shift)
 
@@ -143,7 +143,10 @@ def _narrowed(counter: Counter, low: Fraction, high: Fraction, digits: int) -> t
         elif abs(place - x[0]) < goal / 8:
             return max(low, _dyadic(place - goal / 2, goal)), min(high, _dyadic(place + goal / 2, goal))
         place = _dyadic(place, goal)
-        old, x = x, (place, counter.at(place, precision, elements))
+        try:
+            old, x = x, (place, counter.at(place, precision, elements))
+        except NotConvergedError:  # hit exactly, as zero may be
+            return max(low, place - goal / 2), min(high, place + goal / 2)
         if x[1].negative == before:
             low = place
         else:

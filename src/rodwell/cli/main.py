@@ -14,6 +14,7 @@ from rodwell._version import __version__
 from rodwell.cli.audit import audit
 from rodwell.cli.check import verify
 from rodwell.cli.export import export
+from rodwell.cli.exact import certify, modes
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run
@@ -32,7 +33,10 @@ def cli() -> None:
     """
 
 
-for command in (run, audit, verify, critical, liftoff, sensitivity, diagram, curve, twist, export):
+for command in (
+    *(run, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(diagram, curve, twist, export),
+):
     cli.add_command(command)
 
 

@@ -135,7 +135,7 @@ def self_weights(count: int) -> list[float]:
 
 
 def chord_slope(mode: int) -> float:
-    """Slope k of the line kγ − F = −F₀ of (79) through the loads at γ = 0 and at F = 0: 0.5290 and 0.5143 for modes 1, 2.
+    """Slope k of the line kγ − F = −F₀ of (79) through the loads at γ = 0 and at F = 0: 0.5290, 0.5143, ….
 
     The curves bend: at small γ the slope is ½ for every mode (:func:`tangent_slope`).
     """

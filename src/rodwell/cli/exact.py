@@ -1,0 +1,126 @@
+"""``rodwell certify`` and ``rodwell modes``: loads with proof, and which mode comes first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rodwell.cli.options import json_option, make_problem, print_json, problem_options
+from rodwell.errors import InputError
+
+if TYPE_CHECKING:
+    from rodwell.analysis.modes import ModePair
+
+UNIT = "B/L²"
+
+
+@click.command()
+@problem_options(required=False)
+@click.option("--modes", type=int, help="How many critical loads of one problem.  [default: 5]")
+@click.option("--digits", default=30, show_default=True, help="Decimal digits.")
+@json_option
+def certify(modes: int | None, digits: int, as_json: bool, **given: Any) -> None:
+    """Critical loads with proof that they are right and that none is skipped.
+
+    Without --weight: every load that the paper gives by a closed form, beside what it prints. With --weight: the
+    critical loads of one problem, for any inclination and ends. End force at s = 1 in B/L², tension positive.
+    """
+    if given["weight"] is None:
+        context = click.get_current_context()
+        stray = [name for name in (*given, "modes") if name in context.params and _was_given(context, name)]
+        if stray:
+            raise InputError("weight", None, f"is needed with --{stray[0].replace('_', '-')}")
+        _paper(digits, as_json)
+        return
+    from rodwell.analysis.certify import certify as certified  # noqa: PLC0415
+    from rodwell.problem import ends_text  # noqa: PLC0415
+
+    problem = make_problem(given)
+    loads = certified(problem, 5 if modes is None else modes, digits=digits)
+    if as_json:
+        print_json(loads.as_dict())
+        return
+    click.echo(f"Certified critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    for load in loads:
+        value, radius = load.force.text(loads.shown)
+        closed = f"; {load.closed_form} changes sign" if load.closed_form else ""
+        several = "" if load.multiplicity == 1 else f"; {load.multiplicity} loads agree to these digits"
+        click.echo(f"  mode {load.number:>2}  {value} ± {radius}   {load.number - 1} above{several}{closed}")
+    click.echo(
+        "Proved for each: that it exists, that no other load lies within its bounds, and how many lie above it. "
+        "Weight, angle and clearance are taken as the decimals given."
+    )
+
+
+def _was_given(context: click.Context, name: str) -> bool:
+    """Whether an option was on the command line."""
+    return context.get_parameter_source(name) is not click.core.ParameterSource.DEFAULT
+
+
+def _paper(digits: int, as_json: bool) -> None:
+    """Print the paper's closed-form values."""
+    from rodwell.analysis.paper_values import paper_values  # noqa: PLC0415
+
+    values = paper_values(digits)
+    if as_json:
+        print_json({"values": [value.as_dict(digits) for value in values], "clearance": 0.01})
+        return
+    click.echo("Closed-form values of the paper, enclosed; B = L = 1, Δ/L = 0.01, γ = mg L³/B, F at s = 1:")
+    for value in values:
+        text, radius = value.value.text(digits)
+        verdict = "as printed" if value.agrees else "NOT as printed"
+        click.echo(f"  {value.equation}: {value.quantity}")
+        click.echo(f"    {text} ± {radius}   printed {value.printed}: {verdict}   [{value.proof}]")
+    wrong = sum(not value.agrees for value in values)
+    click.echo(f"{len(values)} values, {len(values) - wrong} of them as printed.")
+
+
+@click.command()
+@click.option("--weight", type=float, help="γ = mg L³/B, weight of the rod.")
+@click.option("--clearance", default=0.01, show_default=True, help="Δ/L, distance between the axes.")
+@click.option("--pairs", default=1, show_default=True, help="How many pairs of modes.")
+@click.option("--table", type=int, metavar="M", help="Table 1 of the paper, up to this m.")
+@json_option
+def modes(weight: float | None, clearance: float, pairs: int, table: int | None, as_json: bool) -> None:
+    """Which buckling mode of a horizontal rod comes first, and at which weights modes switch.
+
+    Both ends clamped, rod at the bottom. Closed forms: no mesh.
+    """
+    from rodwell.analysis.modes import mode_pairs, switching_table  # noqa: PLC0415
+
+    if weight is None and table is None:
+        raise InputError("weight", None, "is needed, or --table")
+    found = [] if weight is None else mode_pairs(weight, clearance, pairs=pairs)
+    rows = [] if table is None else switching_table(table, clearance)
+    if as_json:
+        out: dict[str, Any] = {"unit": "B/L^2", "clearance": clearance}
+        out["convention"] = "end force at s = 1, tension positive; both ends clamped"
+        if weight is not None:
+            out |= {"weight": weight, "pairs": [pair.as_dict() for pair in found]}
+        if table is not None:
+            out["table"] = [row._asdict() for row in rows]
+        print_json(out)
+        return
+    if found:
+        click.echo(f"Horizontal rod, γ = {weight:g}, Δ/L = {clearance:g}, both ends clamped; F at s = 1 in {UNIT}:")
+    for pair in found:
+        _print_pair(pair)
+    if rows:
+        click.echo(f"Weights at which modes switch, m ≤ {table}, Δ/L = {clearance:g}; both loads are F_c:")
+        click.echo("    n    m          γ_c          F_c   modes")
+        for row in rows:
+            both = f"{2 * row.pair - 1}, {2 * row.pair}"
+            click.echo(f"  {row.n:>3}  {row.m:>3}  {row.weight:>11.4f}  {row.force:>+11.4f}   {both}")
+
+
+def _print_pair(pair: ModePair) -> None:
+    """One pair of modes, with the weights at which it switches."""
+    for number, parity, force in zip((2 * pair.pair - 1, 2 * pair.pair), pair.parities, pair.forces, strict=True):
+        click.echo(f"  mode {number:>2}  {force:+.12g} ± {pair.error:.0e}   {'even' if parity == 1 else 'odd'}")
+    times = {0: "never", 1: "once", 2: "twice"}.get(pair.switched, f"{pair.switched} times")
+    click.echo(f"    switched {times} below this weight", nl=False)
+    for name, place in (("last", pair.before), ("next", pair.after)):
+        if place is not None:
+            click.echo(f"; {name} at γ = {place.weight:.10g} (n = {place.n}, m = {place.m})", nl=False)
+    click.echo("")
