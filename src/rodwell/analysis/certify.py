@@ -128,9 +128,9 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
     counter = Counter(lambda x: _rod(problem, x))
-    start = -2 - Fraction(problem.axial_weight)
-    if problem.on_top:
-        start -= Fraction(problem.lateral_weight / problem.clearance)
+    # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
+    against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
+    start = Fraction(-2.0 - problem.axial_weight - 1.001 * against)
     step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * problem.axial_weight)
     found = critical_values(counter, start, step, modes, digits + SPARE)
     equation = closed_form(problem)

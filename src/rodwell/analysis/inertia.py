@@ -38,6 +38,9 @@ MOST_ELEMENTS = 3000
 WAVES_PER_ELEMENT = 3.0
 """Element length times the largest wavenumber: below 2π, so that interiors are positive."""
 
+TENSION_COUNTS = 16.0
+"""Tension asks for elements longer by the root of this: interiors are positive anyway, and the series converge."""
+
 
 class UndecidedError(Exception):
     """A sign could not be decided at this precision."""
@@ -115,8 +118,9 @@ def _part(i: int, j: int) -> int:
 
 def elements(rod: Rod) -> int:
     """Number of elements that resolve the rod, and inside which Q should be positive."""
-    force, axial, foundation, _ = rod
-    size = max(float(abs(force)), float(abs(force - axial)), sqrt(float(abs(foundation))), 1.0)
+    top, bottom = float(rod.force), float(rod.force - rod.axial)
+    tension = max(top, bottom) / TENSION_COUNTS
+    size = max(-top, -bottom, tension, sqrt(float(abs(rod.foundation))), 1.0)
     count = ceil(sqrt(size) / WAVES_PER_ELEMENT)
     if count > MOST_ELEMENTS:
         raise NotConvergedError(

@@ -21,6 +21,8 @@ Ball = Any
 MOST_REFINEMENTS = 200
 OFF_CENTRE = Fraction(127, 256)
 """Where intervals are cut: not at places that a problem's symmetry makes special, such as a load of exactly zero."""
+NEAR_ZERO = 40
+"""Values are cut to an eighth of their size, or of this, before secants start."""
 PRECISIONS = (1, 2, 4)
 BITS_PER_ELEMENT = 4
 """What balls lose from one element to the next: about 3 bits, measured; too few cost time only."""
@@ -99,7 +101,8 @@ def _isolated(counter: Counter, number: int, digits: int) -> tuple[Fraction, Fra
         low = max(x for x, known in counter.known.items() if known.negative < number)
         high = min(x for x, known in counter.known.items() if known.negative >= number)
         alone = counter.count(low) == number - 1 and counter.count(high) == number
-        if alone or high - low <= _width(low, high, digits):
+        close = high - low <= max(abs(low), abs(high), NEAR_ZERO) / 8
+        if (alone and close) or high - low <= _width(low, high, digits):
             return low, high
         counter.count(_dyadic(low + (high - low) * OFF_CENTRE, high - low))
 
@@ -129,28 +132,43 @@ def _enclosed(counter: Counter, number: int, low: Fraction, high: Fraction, digi
 def _narrowed(counter: Counter, low: Fraction, high: Fraction, digits: int) -> tuple[Fraction, Fraction]:
     """Narrow an interval with one critical value: secants on the determinant, kept in the interval by the counts.
 
-    The determinant on a given number of elements is analytic and has a simple zero at the critical value. What is
-    returned still has to be proved: :func:`_enclosed` does.
+    The determinant on a given number of elements is analytic and has a simple zero at the critical value. Where secants
+    hardly move, it is tried whether the zero is there; if not (the determinant may grow exponentially), or if the
+    interval was not halved by three of them, the interval is cut.
     """
     precision, before = bits(digits), counter.count(low)
     elements = max(counter.elements(x) for x in (low, high))
-    old, x = (low, counter.at(low, precision, elements)), (high, counter.at(high, precision, elements))
+
+    def inertia_at(x: Fraction) -> Inertia:
+        nonlocal low, high
+        found = counter.at(x, precision, elements)
+        if found.negative == before:
+            low = max(low, x)
+        else:
+            high = min(high, x)
+        return found
+
+    old, new, halved = (low, inertia_at(low)), (high, inertia_at(high)), [high - low] * 3
     for _ in range(MOST_REFINEMENTS):
-        width, goal = high - low, _width(low, high, digits)
-        place = _secant(old, x)
-        if place is None or not low < place < high:
-            place = low + width * OFF_CENTRE
-        elif abs(place - x[0]) < goal / 8:
-            return max(low, _dyadic(place - goal / 2, goal)), min(high, _dyadic(place + goal / 2, goal))
+        goal, place = _width(low, high, digits), _secant(old, new)
+        if high - low <= goal:
+            return low, high
+        slow = high - low > halved[-3] / 2
+        halved.append(high - low)
+        if place is None or not low < place < high or (slow and len(halved) > 6):
+            place, halved = low + (high - low) * OFF_CENTRE, halved[:3]
+        elif abs(place - new[0]) < goal / 8:
+            for x in (_dyadic(place - goal / 2, goal), _dyadic(place + goal / 2, goal)):
+                if low < x < high:
+                    inertia_at(x)
+            if high - low <= goal:
+                return low, high
+            place = low + (high - low) * OFF_CENTRE
         place = _dyadic(place, goal)
         try:
-            old, x = x, (place, counter.at(place, precision, elements))
-        except NotConvergedError:  # hit exactly, as zero may be
+            old, new = new, (place, inertia_at(place))
+        except NotConvergedError:  # a value hit exactly, as zero may be
             return max(low, place - goal / 2), min(high, place + goal / 2)
-        if x[1].negative == before:
-            low = place
-        else:
-            high = place
     raise NotConvergedError(f"certified counts: {digits} digits were not reached")
 
 
