@@ -23,6 +23,9 @@ from rodwell.problem import Problem
 
 MOST_MODES = 200
 
+ROUND_OFF = 64.0 * np.finfo(float).eps
+"""Relative to the size of the terms that make up a load; certified enclosures show up to half of it."""
+
 EULER = 4.0 * np.pi**2
 """First critical load of the weightless rod: the size against which loads near zero are judged."""
 
@@ -121,7 +124,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         start = np.array([up(v) for v in vectors])
         better, shapes = _solve(problem, finer, count, (values, start))
         size = np.abs(better[:count]) + problem.axial_weight + EULER
-        error = np.abs(better[:count] - values[:count]) + 8.0 * np.finfo(float).eps * size
+        error = np.abs(better[:count] - values[:count]) + ROUND_OFF * size
         if np.all(error <= rtol * size):
             break
         if 2 * finer.elements > MOST_ELEMENTS:

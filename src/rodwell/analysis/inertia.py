@@ -159,10 +159,13 @@ def _element(force: Ball, axial: Ball, foundation: Ball, index: int, count: int)
     return arb_mat(values).solve(arb_mat(forces))
 
 
-def _solution(which: int, n: Ball, w: Ball, b: Ball) -> tuple[list[Ball], list[Ball]]:
+def _solution(
+    which: int, n: Ball, w: Ball, b: Ball, cut: float | None = None
+) -> tuple[list[Ball], list[Ball]]:
     """Value and three derivatives in ξ at ξ = −1 and 1 of the solution of (64) in one element that starts as ξ^i/i!.
 
-    With s = s_m + ξh/2 equation (64) is y⁗ = n y'' + w (ξy')' − b y; i is ``which``. So y = Σ uₖξᵏ/k! with
+    With s = s_m + ξh/2 equation (64) is y⁗ = n y'' + w (ξy')' − b y; i is ``which``. So y = Σ uₖξᵏ/k!,
+    cut where the bound of the rest falls below ``cut`` (2^(−precision) if not given), with
 
         uₖ₊₄ = n uₖ₊₂ + (k+1) w uₖ₊₁ − b uₖ.
 
@@ -176,7 +179,7 @@ def _solution(which: int, n: Ball, w: Ball, b: Ball) -> tuple[list[Ball], list[B
 
     zero = arb(0)
     u = [arb(1) if k == which else zero for k in range(4)]
-    small = arb(2) ** (-ctx.prec)
+    small = arb(2) ** (-ctx.prec) if cut is None else arb(cut)
     reach, stiff = n.abs_upper() + w.abs_upper(), b.abs_upper()
     k = 0
     while True:

@@ -15,7 +15,7 @@ class Helix(NamedTuple):
     Attributes
     ----------
     force
-        End force F = −(2B/Δ²) sin²η cos η, tension positive: without torque on the cylinder, T₂ = 0.
+        End force F = −(2B/Δ²) sin²η cos η, tension positive: ends need not be held from turning about the cylinder.
     pressure
         Contact pressure p = −B sin⁴η/Δ³ per length; p < 0 presses on the wall around the rod.
     rate

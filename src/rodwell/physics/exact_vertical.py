@@ -25,7 +25,7 @@ from rodwell.errors import NotConvergedError
 Ball = Any
 """A real number with a bound of its error: flint.arb."""
 
-MOST_BITS = 20000
+MOST_BITS = 4000
 
 
 def airy_places(force: Ball, weight: Ball) -> tuple[Ball, Ball]:
@@ -87,7 +87,7 @@ def as_float(function: Callable[..., Ball], *arguments: float) -> float:
     Raises
     ------
     NotConvergedError
-        If 20 000 bits do not suffice: far beyond γ^⅓ or |F|^½ of some hundreds.
+        If 4000 bits do not suffice: the series cancel as exp(⅔|t|^{3/2}), t in the hundreds.
     """
     from flint import arb, ctx  # noqa: PLC0415
 

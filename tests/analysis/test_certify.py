@@ -1,0 +1,300 @@
+"""Certified loads: against the engine, closed forms, 40-digit Rayleigh–Ritz, and what the proofs rest on."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+import scipy.linalg
+from flint import arb, ctx
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rodwell import InputError, NotConvergedError, Problem, certify, critical_loads, paper_values
+from rodwell.analysis import inertia as counting
+from rodwell.analysis.certify import ClosedForm, check_sign_change
+from rodwell.analysis.enclosures import Enclosure
+from rodwell.analysis.inertia import Rod, UndecidedError, inertia
+from rodwell.analysis.modes import mode_pairs, switching_table
+from rodwell.analysis.paper_values import self_weights
+from rodwell.analysis.roots import Counter, critical_values
+from rodwell.physics import exact
+from rodwell.problem import ENDS
+
+CLAMPED = ("clamped", "clamped")
+
+PROBLEMS = [
+    Problem(15.0),
+    Problem(15.0, on_top=True),
+    Problem(60.0, alpha=35.0),
+    Problem(140.0, alpha=60.0),
+    Problem(40.0, alpha=20.0, on_top=True, ends=("pinned", "clamped")),
+    Problem(100.0, alpha=0.0),
+    Problem(8.7668),  # a pair of loads 4e-5 apart
+    Problem(1e4, clearance=1e-3),
+    *(Problem(25.0, alpha=50.0, clearance=0.02, ends=ends) for ends in itertools.product(ENDS, ENDS)),
+    *(Problem(0.0, ends=ends) for ends in (CLAMPED, ("clamped", "free"), ("free", "free"), ("guided", "pinned"))),
+]
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=str)
+def test_the_engine_lies_inside(problem: Problem) -> None:
+    certified, loads = certify(problem, 3, digits=18), critical_loads(problem, 3)
+    for proved, mode in zip(certified, loads, strict=True):
+        assert proved.number == mode.number
+        assert proved.multiplicity == 1
+        assert proved.digits >= 18
+        assert proved.force.within(mode.force, mode.error)
+
+
+def ritz_loads(problem: Problem, size: int, count: int) -> list[mpmath.mpf]:
+    """Second method, 60 digits: Rayleigh–Ritz with s²(1−s)²sᵏ, integrals exact; bounds from above for −F."""
+    with mpmath.workdps(60):
+        angle = mpmath.mpf(repr(problem.alpha)) * mpmath.pi / 180
+        weight, gap = mpmath.mpf(repr(problem.weight)), mpmath.mpf(repr(problem.clearance))
+        axial, b = weight * mpmath.cos(angle), weight * mpmath.sin(angle) / gap * (-1 if problem.on_top else 1)
+        basis = [{k + 2: 1, k + 3: -2, k + 4: 1} for k in range(size)]
+
+        def derivative(p: dict[int, int]) -> dict[int, int]:
+            return {e - 1: c * e for e, c in p.items() if e}
+
+        def moment(p: dict[int, int], q: dict[int, int], power: int = 0) -> Fraction:
+            return sum((Fraction(a * c, d + e + power + 1) for d, a in p.items() for e, c in q.items()), Fraction(0))
+
+        first = [derivative(p) for p in basis]
+        second = [derivative(p) for p in first]
+        k, g = mpmath.matrix(size), mpmath.matrix(size)
+        for i in range(size):
+            for j in range(size):
+                bend, slope, down, press = (
+                    moment(second[i], second[j]), moment(first[i], first[j]),
+                    moment(first[i], first[j], 1), moment(basis[i], basis[j]),
+                )  # fmt: skip
+                exact_k = [mpmath.mpf(x.numerator) / x.denominator for x in (bend, down - slope, press, slope)]
+                k[i, j], g[i, j] = exact_k[0] + axial * exact_k[1] + b * exact_k[2], exact_k[3]
+        lower = mpmath.cholesky(g)
+        inverse = lower**-1
+        values = mpmath.eigsy(inverse * k * inverse.T, eigvals_only=True)
+        return [-values[i] for i in range(count)]
+
+
+@pytest.mark.parametrize(
+    "problem", [Problem(60.0, alpha=35.0), Problem(30.0, alpha=70.0, on_top=True), Problem(100.0, alpha=0.0)], ids=str
+)
+def test_inclined_loads_against_rayleigh_ritz_with_60_digits(problem: Problem) -> None:
+    """Ritz loads lie on the far side of the exact ones, by less than 1e-20 with 26 polynomials."""
+    for proved, ritz in zip(certify(problem, 2), ritz_loads(problem, 26, 2), strict=True):
+        with mpmath.workdps(60):
+            high = mpmath.mpf(proved.force.high.numerator) / proved.force.high.denominator
+            assert ritz <= high
+            assert abs(ritz - high) < mpmath.mpf(10) ** -18
+        assert proved.digits >= 30
+
+
+@pytest.mark.parametrize("on_top", [False, True])
+@pytest.mark.parametrize("ends", [CLAMPED, ("clamped", "pinned"), ("guided", "clamped"), ("pinned", "pinned"),
+                                  ("pinned", "guided")])  # fmt: skip
+@pytest.mark.parametrize("weight", [0.7, 33.0])
+def test_closed_forms_lie_inside(weight: float, ends: tuple[str, str], on_top: bool) -> None:
+    certified = certify(Problem(weight, clearance=0.02, on_top=on_top, ends=ends), 4, digits=12)
+    for proved, load in zip(certified, exact.horizontal_loads(weight / 0.02, 4, ends, on_top=on_top), strict=True):
+        assert proved.force.within(load, 1e-13 * (abs(load) + weight / 0.02 / 9.0))
+    assert certified[0].closed_form == ("" if ends != CLAMPED else "on top, section 4.3" if on_top else "(77)")
+
+
+@pytest.mark.parametrize("ends", list(itertools.product(ENDS, ENDS)))
+def test_weightless_columns(ends: tuple[str, str]) -> None:
+    certified = certify(Problem(0.0, ends=ends), 3, digits=12)
+    for proved, load in zip(certified, exact.weightless_loads(3, ends), strict=True):
+        assert proved.force.within(load, 1e-13 * abs(load) + 1e-13)
+
+
+@settings(max_examples=40)
+@given(
+    st.floats(0.0, 400.0), st.floats(0.0, 90.0), st.booleans(), st.sampled_from(ENDS), st.sampled_from(ENDS),
+    st.floats(-900.0, 300.0),
+)  # fmt: skip
+def test_counts_are_those_of_polynomials(
+    weight: float, alpha: float, top: bool, first: str, last: str, force: float
+) -> None:
+    """Number of negative eigenvalues of K + FG on Legendre polynomials that meet the ends' conditions."""
+    axial, b = weight * math.cos(math.radians(alpha)), weight * math.sin(math.radians(alpha)) / 0.02
+    b = -b if top else b
+    low = sum({"clamped": 2, "pinned": 1, "guided": 1, "free": 0}[end] for end in (first, last))
+    degree = 44
+    nodes, w = np.polynomial.legendre.leggauss(60)
+    basis = [np.polynomial.legendre.Legendre.basis(k) for k in range(degree)]
+    held = [
+        [p.deriv(d)(x) if d else p(x) for p in basis]
+        for end, x in ((first, -1.0), (last, 1.0))
+        for d in {"clamped": (0, 1), "pinned": (0,), "guided": (1,), "free": ()}[end]
+    ]
+    space = scipy.linalg.null_space(np.array(held)) if low else np.eye(degree)
+    values = [np.array([(p.deriv(d) if d else p)(nodes) for p in basis]) * 2.0**d for d in range(3)]
+    s = 0.5 * (nodes + 1.0)
+    form = (values[2] * w) @ values[2].T + (values[1] * w * (force + axial * (s - 1.0))) @ values[1].T
+    form = space.T @ (form + b * (values[0] * w) @ values[0].T) @ space
+    mass = space.T @ ((values[1] * w) @ values[1].T + (values[0] * w) @ values[0].T) @ space
+    eigenvalues = scipy.linalg.eigh(form, mass, eigvals_only=True)
+    if np.min(np.abs(eigenvalues)) < 1e-6:
+        return
+    with ctx.workprec(400):
+        found = inertia(Rod(arb(force), arb(axial), arb(b), (first, last))).negative
+    assert found == np.sum(eigenvalues < 0.0)
+
+
+@pytest.mark.parametrize("which", range(4))
+def test_bound_of_the_tail_holds_where_the_series_is_cut_early(which: int) -> None:
+    """N = −κ², constant: 1, sin κx/κ, (1 − cos κx)/κ², (κx − sin κx)/κ³; and an Airy function's integral for w ≠ 0."""
+    kappa = 7.0
+    with ctx.workprec(200):
+        k = arb(kappa)
+        truth = [arb(1), k.sin() / k, (1 - k.cos()) / k**2, (k - k.sin()) / k**3][which]
+        right = counting._solution(which, -k * k, arb(0), arb(0), cut=1e-2)[1]
+        assert right[0].contains(truth)
+        if which:
+            assert right[0].rad() > 1e-9
+        airy = counting._solution(1, arb(0), arb(9), arb(0), cut=1e-1)[1][1]  # y' = f(9^{1/3} ξ)
+        assert airy.contains(arb(1).hypgeom([], [arb(2) / 3]) if which < 0 else (arb(9) / 9).hypgeom([], [arb(2) / 3]))
+
+
+def test_no_count_at_a_critical_load() -> None:
+    """Where the answer jumps, none is given: F = 0 of a free rod is exact."""
+    with ctx.workprec(200), pytest.raises(UndecidedError):
+        inertia(Rod(arb(0), arb(0), arb(0), ("pinned", "free")))
+    load = certify(Problem(0.0, ends=("pinned", "free")), 1)[0].force
+    assert 0.0 in load
+
+
+def test_long_elements_are_refused() -> None:
+    """Interiors must be proved positive: one element at −F beyond 4π² is not enough."""
+    rod = Rod(arb(-50), arb(0), arb(0), CLAMPED)
+    with pytest.raises(UndecidedError, match="short"):
+        counting._check_interiors(rod, 1)
+    with pytest.raises(UndecidedError, match="short"):
+        counting._check_interiors(Rod(arb(0), arb(0), arb(-600), CLAMPED), 1)
+    counting._check_interiors(rod, 2)
+
+
+def test_double_loads_are_counted_twice() -> None:
+    """At γ_c = 9π⁴Δ, (78): two loads in one enclosure, the first two; −F = 10π²."""
+    counter = Counter(lambda x: Rod(-x, arb(0), 9 * arb.pi() ** 4, CLAMPED))
+    double, third = critical_values(counter, Fraction(-2), Fraction(40), 3, 25)
+    assert (double.number, double.multiplicity, third.number) == (1, 2, 3)
+    assert 10.0 * math.pi**2 == pytest.approx(float(double.enclosure), rel=1e-15)
+
+
+def test_paper_values_are_as_printed_but_one() -> None:
+    """54 values; the second root of (87) is 157.032780…, not 157.032783."""
+    values = paper_values()
+    assert len(values) == 54
+    assert [value.printed for value in values if not value.agrees] == ["157.032783"]
+    assert all(value.value.digits >= 30 for value in values)
+    assert sum(value.equation.startswith("Table 1") for value in values) == 40
+    by_quantity = {value.quantity: value.value for value in values}
+    with mpmath.workdps(40):
+        for first, root in ((4.7, 5.0056), (7.9, 38.0354), (11.0, 146.1763)):
+            x = mpmath.findroot(lambda y: mpmath.cos(y) - mpmath.sech(y), first)
+            (found,) = [v.value for v in values if v.printed == str(root)]
+            assert abs(mpmath.mpf(found.low.numerator) / found.low.denominator - x**4 / 100) < mpmath.mpf(10) ** -27
+        sway = by_quantity["γ at F = 0, free to sway"]
+        zero = mpmath.findroot(lambda x: mpmath.besselj(mpmath.mpf(1) / 3, x), 2.9)
+        assert abs(mpmath.mpf(sway.low.numerator) / sway.low.denominator - zero**2 * 9 / 4) < mpmath.mpf(10) ** -28
+
+
+def test_self_weights_to_many_digits() -> None:
+    """More digits only add digits."""
+    few, many = self_weights(2, 12), self_weights(2, 60)
+    for a, b in zip(few, many, strict=True):
+        assert a.low <= b.low <= b.high <= a.high
+        assert b.digits >= 60
+
+
+def test_a_wrong_closed_form_is_noticed() -> None:
+    place = certify(Problem(15.0), 1, digits=10)[0].force
+    with pytest.raises(NotConvergedError, match="wrong"):
+        check_sign_change(ClosedForm("wrong", lambda force: force), place, 10)
+
+
+def test_numbers_are_taken_as_decimals() -> None:
+    """(77) with b = 1500 exactly, by mpmath at 40 digits: 0.01 is 1/100."""
+    proved = certify(Problem(15.0, clearance=0.01), 1)[0].force
+    with mpmath.workdps(40):
+        c = mpmath.sqrt(1500)
+        q = mpmath.findroot(lambda q: q * mpmath.sin(mpmath.sqrt(q * q + c)) - mpmath.sqrt(q * q + c) * mpmath.sin(q),
+                            2.9)  # fmt: skip
+        value = -(4 * q * q + 2 * c)
+        for bound in (proved.low, proved.high):
+            assert abs(mpmath.mpf(bound.numerator) / bound.denominator - value) < mpmath.mpf(10) ** -28
+
+
+def test_input() -> None:
+    for bad in ({"digits": 2}, {"digits": 301}, {"modes": 0}, {"modes": 51}, {"modes": 2.5}):
+        with pytest.raises(InputError):
+            certify(Problem(15.0), **bad)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="turns"):
+        certify(Problem(15.0, turns=1))
+    with pytest.raises(NotConvergedError, match="elements"):
+        certify(Problem(1e9, alpha=0.0), 1)
+
+
+def test_enclosures() -> None:
+    third = Enclosure(Fraction(1, 3), Fraction(1, 3))
+    assert third.text(5) == ("0.33333", "3.4e-06")
+    assert Enclosure(Fraction(-3), Fraction(-2)).text(1) == ("-2", "1.0e+00")
+    assert Enclosure(Fraction(-2001, 1000), Fraction(-1999, 1000)).digits == 3
+    assert Enclosure(Fraction("157.0327801"), Fraction("157.0327802")).rounds_to("157.032780")
+    assert not Enclosure(Fraction("157.0327801"), Fraction("157.0327802")).rounds_to("157.032783")
+    assert Enclosure(Fraction("-1.25"), Fraction("-1.24")).rounds_to("−1.2")
+    assert not Enclosure(Fraction("1.2"), Fraction("1.3")).rounds_to("1.2")
+    assert 1.25 in Enclosure(Fraction("1.2"), Fraction("1.3"))
+    assert 1.31 not in Enclosure(Fraction("1.2"), Fraction("1.3"))
+    assert Enclosure(Fraction("1.2"), Fraction("1.3")).within(1.4, 0.11)
+    assert not Enclosure(Fraction("1.2"), Fraction("1.3")).within(1.4, 0.09)
+
+
+@given(st.floats(-1e6, 1e6), st.integers(1, 40))
+def test_text_of_an_enclosure_bounds_it(value: float, digits: int) -> None:
+    place = Enclosure(Fraction(value), Fraction(value) + Fraction(1, 10**9))
+    text, radius = place.text(digits)
+    assert Fraction(text) - Fraction(radius) <= place.low
+    assert place.high <= Fraction(text) + Fraction(radius)
+
+
+@given(st.floats(0.0, 1e5), st.integers(1, 4))
+def test_mode_pairs_agree_with_the_loads(weight: float, pair: int) -> None:
+    """Which is first, from (78), as the loads have it; switchings on either side of the weight."""
+    found = mode_pairs(weight, 0.01, pairs=pair)[-1]
+    loads = exact.horizontal_loads(weight / 0.01, 2 * pair)
+    assert list(found.forces) == pytest.approx(loads[-2:], rel=1e-14)
+    assert found.after.weight > weight
+    assert found.before is None or found.before.weight <= weight
+    assert found.after.pair == pair
+    if found.forces[0] - found.forces[1] > 1e-9 * abs(found.forces[0]):
+        even, odd = exact.pair_loads(pair, math.sqrt(weight / 0.01))
+        assert found.parities == ((1, -1) if even > odd else (-1, 1))
+
+
+def test_mode_pairs_lie_inside_enclosures_and_switch_as_printed() -> None:
+    """γ = 15: switched once at 8.7668, next at 62.3418 (paper, after Table 1)."""
+    first, second = mode_pairs(15.0, pairs=2)
+    proved = certify(Problem(15.0), 4, digits=20)
+    for load, force in zip(proved, (*first.forces, *second.forces), strict=True):
+        assert load.force.within(force, second.error)
+    assert first.before is not None
+    assert (f"{first.before.weight:.4f}", f"{first.after.weight:.4f}") == ("8.7668", "62.3418")
+    assert (first.parities, first.switched, second.switched) == ((-1, 1), 1, 0)
+    table = switching_table(12)
+    assert len(table) == 30
+    assert table[-1].weight == pytest.approx(100 * 144 * math.pi**4 * 0.01, rel=1e-14)
+    for bad in (2, 201):
+        with pytest.raises(InputError, match="largest"):
+            switching_table(bad)
+    with pytest.raises(InputError, match="clearance"):
+        switching_table(10, 0.0)
+    with pytest.raises(InputError, match="pairs"):
+        mode_pairs(15.0, pairs=0)
