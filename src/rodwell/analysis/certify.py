@@ -122,7 +122,7 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     InputError
         If ``modes`` or ``digits`` is out of range, or ``problem.turns`` is not 0.
     NotConvergedError
-        If a proof fails: the rod takes more than 3000 elements, or a sign cannot be decided.
+        If a proof fails: the rod takes more than 3000 elements (300 with axial weight), or a sign cannot be decided.
     """
     modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
     if problem.turns != 0:

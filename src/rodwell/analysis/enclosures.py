@@ -67,7 +67,8 @@ class Enclosure:
 
     def text(self, digits: int = 30) -> tuple[str, str]:
         """Decimal with so many digits (places, for numbers below 1), and a bound of its distance from the number."""
-        places = max(digits - 1 - _exponent(max(abs(self.middle), Fraction(1))), 0)
+        size = abs(self.middle)
+        places = digits if size < 1 else max(digits - 1 - _exponent(size), 0)
         rounded = Fraction(round(self.middle * 10**places), 10**places)
         return _decimal(rounded, places), _upper(max(rounded - self.low, self.high - rounded))
 
