@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,8 @@ COMMANDS = {
     "critical-twist": "critical --weight 15 --alpha 90 --twist 5 --modes 2",
     "critical-ends": "critical --weight 15 --alpha 60 --ends clamped-pinned --modes 3",
     "critical-on-top": "critical --weight 65 --alpha 90 --on-top --modes 3",
+    "certify": "certify --weight 60 --alpha 35 --modes 3",
+    "modes": "modes --weight 15 --pairs 2 --table 4",
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
     "verify": "verify examples/drill-string.toml --at -140 --rtol 1e-6",
     "sensitivity": "sensitivity --weight 15 --alpha 90",
@@ -63,6 +66,8 @@ def pages(out: Path) -> dict[str, str]:
         "ends-critical.md": ends_table(lift_off=False),
         "ends-lift-off.md": ends_table(lift_off=True),
         "columns.md": column_table(),
+        "exact-paper.md": paper_table(),
+        "exact-engine.md": engine_table(),
     }
 
 
@@ -256,6 +261,39 @@ def column_table() -> str:
             multiples = (abs(load) / math.pi**2 for load in loads)
             rows.append((f"{first}–{last}", *(f"{x:.6f}" for x in multiples)))
     return table(("Ends", "−F₁/π²", "−F₂/π²", "−F₃/π²"), rows)
+
+
+def paper_table() -> str:
+    """The paper's closed-form values, enclosed."""
+    rows = []
+    for item in rodwell.paper_values():
+        value, _ = item.value.text(30)
+        verdict = "yes" if item.agrees else "**no**"
+        rows.append((item.equation, item.quantity, item.printed, value, verdict, item.proof))
+    return table(("Where", "Quantity", "Printed", "Exact, 30 digits", "As printed", "Proof"), rows)
+
+
+def engine_table() -> str:
+    """Certified first loads beside those of the engine."""
+    clamped, rows = ("clamped", "clamped"), []
+    for weight, alpha, ends, on_top in (
+        (60, 35, clamped, False),
+        (140, 60, clamped, False),
+        (125, 2, clamped, False),
+        (60, 35, ("pinned", "free"), False),
+        (60, 35, ("guided", "clamped"), False),
+        (40, 70, clamped, True),
+    ):
+        problem = rodwell.Problem(weight, alpha=alpha, ends=ends, on_top=on_top)
+        proved, mode = rodwell.certify(problem, 1)[0], rodwell.critical_loads(problem, 1)[0]
+        if not proved.force.within(mode.force, mode.error):
+            raise RuntimeError(f"docs: {problem}: {mode.force} ± {mode.error} lies outside its enclosure")
+        share = abs(float(proved.force.middle - Fraction(mode.force))) / mode.error
+        engine = f"{mode.force:.12f} ± {mode.error:.0e}".replace("-", "−")
+        exact = proved.force.text(30)[0].replace("-", "−")
+        place = f"{'–'.join(ends)}{', on top' if on_top else ''}"
+        rows.append((str(weight), f"{alpha}°", place, exact, engine, f"{share:.2f}"))
+    return table(("γ", "α", "Ends", "F, 30 digits proved", "Engine", "Error / estimate"), rows)
 
 
 def numbers() -> dict[str, str]:

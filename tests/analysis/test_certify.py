@@ -21,7 +21,7 @@ from rodwell.analysis.enclosures import Enclosure
 from rodwell.analysis.inertia import Rod, UndecidedError, inertia
 from rodwell.analysis.modes import mode_pairs, switching_table
 from rodwell.analysis.paper_values import self_weights
-from rodwell.analysis.roots import Counter, critical_values
+from rodwell.analysis.roots import Counter, _enclosed, critical_values
 from rodwell.physics import exact
 from rodwell.problem import ENDS
 
@@ -149,7 +149,7 @@ def test_counts_are_those_of_polynomials(
 
 @pytest.mark.parametrize("which", range(4))
 def test_bound_of_the_tail_holds_where_the_series_is_cut_early(which: int) -> None:
-    """y⁗ = −κ²y'': 1, ξ, (1 − cos κξ)/κ², (κξ − sin κξ)/κ³ at ξ = 1. y⁗ = 9(ξy')': y' = ₀F₁(2/3; ξ³), Airy's equation."""
+    """y⁗ = −κ²y'': 1, ξ, (1 − cos κξ)/κ², (κξ − sin κξ)/κ³ at ξ = 1. y⁗ = 9(ξy')': y' = ₀F₁(2/3; ξ³)."""
     kappa = 7.0
     with ctx.workprec(200):
         k = arb(kappa)
@@ -160,6 +160,27 @@ def test_bound_of_the_tail_holds_where_the_series_is_cut_early(which: int) -> No
             assert right[0].rad() > 1e-9
         airy = counting._solution(1, arb(0), arb(9), arb(0), cut=1e-1)[1][1]
         assert airy.contains(arb(1).hypgeom([], [arb(2) / 3]))
+
+
+def test_element_matrices_are_symmetric_and_beams() -> None:
+    """K = Kᵀ with axial weight; without loads 12/h³, 6/h², 4/h, 2/h, as in any text on beam elements."""
+    with ctx.workprec(120):
+        heavy = counting._element(arb(-30), arb(80), arb(500), 1, 3)
+        beam = counting._element(arb(0), arb(0), arb(0), 0, 2)
+    for i, j in itertools.combinations(range(4), 2):
+        assert heavy[i, j].overlaps(heavy[j, i])
+        assert heavy[i, j].rad() < 1e-20
+    assert [round(float(beam[0, j]), 9) for j in range(4)] == [96.0, 24.0, -96.0, 24.0]
+    assert [round(float(beam[1, j]), 9) for j in range(1, 4)] == [8.0, -24.0, 4.0]
+
+
+def test_intervals_are_believed_only_after_counts_at_their_ends() -> None:
+    counter = Counter(lambda x: Rod(-x, arb(0), arb(0), CLAMPED))
+    with pytest.raises(NotConvergedError, match="lost"):
+        _enclosed(counter, 2, Fraction(30), Fraction(50), 10)
+    with pytest.raises(NotConvergedError, match="before it"):
+        critical_values(counter, Fraction(50), Fraction(10), 1, 10)
+    assert _enclosed(counter, 1, Fraction(30), Fraction(50), 10).enclosure.within(4.0 * math.pi**2, 1e-12)
 
 
 def test_no_count_at_a_critical_load() -> None:

@@ -162,6 +162,9 @@ def test_weights_without_end_force() -> None:
     for weight in clamped:
         forces = critical_loads(Problem(weight, alpha=0.0), 3).forces
         assert np.min(np.abs(forces)) < 1e-9
+    for weight in sway:
+        forces = critical_loads(Problem(weight, alpha=0.0, ends=("clamped", "guided")), 3).forces
+        assert np.min(np.abs(forces)) < 1e-9
     length = exact.critical_length(2.0, 5.0)
     assert 5.0 * length**3 / 2.0 == pytest.approx(74.6285687190407, rel=1e-13)
     assert f"{(clamped[0] / sway[0]) ** (1 / 3):.2f}" == "1.58"
@@ -178,7 +181,7 @@ def test_lines_79_are_chords_and_half_is_the_tangent() -> None:
 
 @pytest.mark.parametrize("eta", [0.05, 0.3, 0.48])
 def test_weightless_helix(eta: float) -> None:
-    """The load is where the energy per length is stationary; shape and pressure are those that the solver finds there."""
+    """The load makes the energy per length stationary; shape and pressure are those that the solver finds there."""
     radius = math.sin(eta) / (2.0 * math.pi)  # one turn on the length 1
     helix = exact.weightless_helix(eta, radius)
 

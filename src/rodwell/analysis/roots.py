@@ -101,7 +101,7 @@ def _isolated(counter: Counter, number: int, digits: int) -> tuple[Fraction, Fra
         low = max(x for x, known in counter.known.items() if known.negative < number)
         high = min(x for x, known in counter.known.items() if known.negative >= number)
         alone = counter.count(low) == number - 1 and counter.count(high) == number
-        close = high - low <= max(abs(low), abs(high), NEAR_ZERO) / 8
+        close = high - low <= max(abs(low), abs(high), Fraction(NEAR_ZERO)) / 8
         if (alone and close) or high - low <= _width(low, high, digits):
             return low, high
         counter.count(_dyadic(low + (high - low) * OFF_CENTRE, high - low))
