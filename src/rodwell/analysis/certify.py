@@ -29,8 +29,8 @@ DIGITS = 30
 SPARE = 2
 """Digits proved beyond those asked for, so that the last one shown is right."""
 MOST_MODES = 50
-LARGEST_AIRY = 1000.0
-"""|t| up to which (86) and (88) are evaluated for comparison: their series cancel as exp(2|t|^{3/2}/3)."""
+HEAVIEST_AIRY = 1e6
+"""γ up to which (86) and (88) are compared with, from 1: for larger |t| their series cancel as exp(⅔|t|^{3/2})."""
 
 
 @dataclass(frozen=True)
@@ -108,14 +108,14 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     problem
         The rod; ``twist`` does not enter, ``turns`` must be 0.
     modes
-        How many loads, 1 to 50. One more is found where the last is one of several that agree to all digits.
+        How many loads, 1 to 50; more where the last is one of several that agree to all digits.
     digits
         Decimal digits, 3 to 300: the half-width of an enclosure is at most 10^(−digits) |F|, or of 1 if |F| is smaller.
 
     Returns
     -------
     CertifiedLoads
-        In the order in which they are met as compression grows.
+        In the order in which they are met as compression grows. Loads that agree to all digits make one entry.
 
     Raises
     ------
@@ -197,15 +197,19 @@ def check_sign_change(equation: ClosedForm, place: Enclosure, digits: int) -> No
 
 
 def closed_form(problem: Problem) -> ClosedForm | None:
-    """The paper's closed form for the critical loads of ``problem``, None where it has none."""
+    """The closed form for the critical loads of ``problem``, None where none is compared with.
+
+    Horizontal: (77) or its counterpart on top with both ends clamped; with one end pinned or guided, the factor of odd
+    or even modes of a clamped rod of twice the length. Vertical: (86), and (88) with the upper end guided.
+    """
     ends, upright, flat = problem.ends, problem.lateral_weight == 0.0, problem.axial_weight == 0.0
     if problem.weight == 0.0:
         return None
-    if flat and set(ends) == {"clamped"}:
-        if problem.on_top:
-            return ClosedForm("on top, section 4.3", lambda force: _on_top(force, weights(problem)[1] / _gap(problem)))
-        return ClosedForm("(77)", lambda force: _equation_77(force, weights(problem)[1] / _gap(problem)))
-    if upright and problem.weight ** (1.0 / 3.0) < LARGEST_AIRY / 10.0 and problem.weight > 1.0:
+    if flat and "clamped" in ends and "free" not in ends:
+        name = "on top, section 4.3" if problem.on_top else "(77)"
+        name = name if set(ends) == {"clamped"} else f"{name}, twice the length"
+        return ClosedForm(name, lambda force: _flat(force, problem))
+    if upright and 1.0 < problem.weight < HEAVIEST_AIRY:
         if ends == ("clamped", "clamped"):
             return ClosedForm("(86)", lambda force: vertical.scorer_determinant(force, weights(problem)[0]))
         if ends == ("clamped", "guided"):
@@ -213,17 +217,19 @@ def closed_form(problem: Problem) -> ClosedForm | None:
     return None
 
 
-def _gap(problem: Problem) -> Ball:
-    return ball(exact(problem.clearance))
-
-
-def _equation_77(force: Ball, foundation: Ball) -> Ball:
-    """Left side of (77) at the end force."""
-    return horizontal.buckling_equation(*horizontal.wavenumbers(force, foundation))
-
-
-def _on_top(force: Ball, foundation: Ball) -> Ball:
-    """Product of both factors for a rod on top, with P from −F = 4P² − c²/(4P²)."""
+def _flat(force: Ball, problem: Problem) -> Ball:
+    """Closed form of a horizontal rod with a clamped end at the end force."""
+    foundation = weights(problem)[1] / ball(exact(problem.clearance))
+    other = {*problem.ends, "clamped"} - {"clamped"}
+    if not other and not problem.on_top:
+        return horizontal.buckling_equation(*horizontal.wavenumbers(force, foundation))
+    if other:
+        force, foundation = 4 * force, 16 * foundation
     c = foundation.sqrt()
-    p = (((force * force + 4 * c * c).sqrt() - force) / 8).sqrt()
-    return horizontal.even_factor_on_top(p, c) * horizontal.odd_factor_on_top(p, c)
+    if problem.on_top:
+        p = (((force * force + 4 * c * c).sqrt() - force) / 8).sqrt()  # of −F = 4P² − c²/(4P²)
+        even, odd = horizontal.even_factor_on_top(p, c), horizontal.odd_factor_on_top(p, c)
+    else:
+        q = ((-force - 2 * c) / 4).sqrt()
+        even, odd = horizontal.even_factor(q, c), horizontal.odd_factor(q, c)
+    return {"guided": even, "pinned": odd}[other.pop()] if other else even * odd
