@@ -51,6 +51,21 @@ def test_the_engine_lies_inside(problem: Problem) -> None:
         assert proved.force.within(mode.force, mode.error)
 
 
+@settings(max_examples=15)
+@given(
+    st.just(0.0) | st.floats(1e-3, 300.0), st.sampled_from([0.0, 90.0]) | st.floats(0.1, 89.9),
+    st.floats(5e-3, 0.05), st.booleans(), st.sampled_from(ENDS), st.sampled_from(ENDS),
+)  # fmt: skip
+def test_the_engine_lies_inside_for_any_problem(
+    weight: float, alpha: float, clearance: float, top: bool, first: str, last: str
+) -> None:
+    problem = Problem(weight, alpha=alpha, clearance=clearance, ends=(first, last))
+    problem = problem.but(on_top=top and problem.holds_angle)
+    for proved, mode in zip(certify(problem, 2, digits=15), critical_loads(problem, 2), strict=True):
+        assert proved.multiplicity == 1
+        assert proved.force.within(mode.force, mode.error)
+
+
 def ritz_loads(problem: Problem, size: int, count: int) -> list[mpmath.mpf]:
     """Second method, 60 digits: Rayleigh–Ritz with s²(1−s)²sᵏ, integrals exact; bounds from above for −F."""
     with mpmath.workdps(60):

@@ -5,9 +5,10 @@ p = (k₃ + k₁)/2 and q = (k₃ − k₁)/2, so p² = q² + c and −F = 4q² 
 
     even modes  q sin p + p sin q = 0,        odd modes  q sin p − p sin q = 0.
 
-*No load is skipped.* All loads are real and above 2c (for q² < 0, |sin p|/p < 1 < sinh|q|/|q|). At q = (i + ½)π,
-|sin q|/q = 1/q exceeds |sin p|/p, so neither factor vanishes there, for any c; nor does it for 0 < q ≤ π/2. Loads move
-continuously with c, so each strip (i − ½)π < q < (i + ½)π keeps what it holds at c = 0: for every i ≥ 1 one even root
+*No load is skipped.* All loads are real, as (64) is self-adjoint. For c > 0 neither factor vanishes where sin q/q exceeds
+abs(sin p)/p. So it is for q² ≤ 0 and for 0 < q ≤ π/2, since sin x/x falls as x² grows up to π² and is at most 1/π
+in size beyond; hence −F > 2c. At q = (i + ½)π the size of sin q/q is 1/q, again more than that of sin p/p, so neither
+factor vanishes there, for any c. Loads move continuously with c, so each strip (i − ½)π < q < (i + ½)π keeps what it holds at c = 0: for every i ≥ 1 one even root
 (q = iπ at c = 0) and one odd root (tan q = q), and none for i = 0. Modes 2i − 1 and 2i are therefore those of strip i:
 the pair i. At q = iπ both factors have the sign of sin p, so iπ lies between the two roots, and the even one comes
 first exactly if ⌊√(i² + c/π²)⌋ − i is even. They coincide where √(i² + c/π²) is a whole number j: that is (78) with
