@@ -118,8 +118,8 @@ def _print_pair(pair: ModePair) -> None:
     """One pair of modes, with the weights at which it switches."""
     for number, parity, force in zip((2 * pair.pair - 1, 2 * pair.pair), pair.parities, pair.forces, strict=True):
         click.echo(f"  mode {number:>2}  {force:+.12g} ± {pair.error:.0e}   {'even' if parity == 1 else 'odd'}")
-    times = {0: "never", 1: "once", 2: "twice"}.get(pair.switched, f"{pair.switched} times")
-    click.echo(f"    switched {times} below this weight", nl=False)
+    times = {0: "has not switched", 1: "switched once", 2: "switched twice"}
+    click.echo(f"    {times.get(pair.switched, f'switched {pair.switched} times')} below this weight", nl=False)
     for name, place in (("last", pair.before), ("next", pair.after)):
         if place is not None:
             click.echo(f"; {name} at γ = {place.weight:.10g} (n = {place.n}, m = {place.m})", nl=False)

@@ -5,14 +5,14 @@ p = (k₃ + k₁)/2 and q = (k₃ − k₁)/2, so p² = q² + c and −F = 4q² 
 
     even modes  q sin p + p sin q = 0,        odd modes  q sin p − p sin q = 0.
 
-*No load is skipped.* All loads are real, as (64) is self-adjoint. For c > 0 neither factor vanishes where sin q/q exceeds
-abs(sin p)/p. So it is for q² ≤ 0 and for 0 < q ≤ π/2, since sin x/x falls as x² grows up to π² and is at most 1/π
-in size beyond; hence −F > 2c. At q = (i + ½)π the size of sin q/q is 1/q, again more than that of sin p/p, so neither
-factor vanishes there, for any c. Loads move continuously with c, so each strip (i − ½)π < q < (i + ½)π keeps what it holds at c = 0: for every i ≥ 1 one even root
-(q = iπ at c = 0) and one odd root (tan q = q), and none for i = 0. Modes 2i − 1 and 2i are therefore those of strip i:
-the pair i. At q = iπ both factors have the sign of sin p, so iπ lies between the two roots, and the even one comes
-first exactly if ⌊√(i² + c/π²)⌋ − i is even. They coincide where √(i² + c/π²) is a whole number j: that is (78) with
-n = j − i and m = j + i.
+*No load is skipped.* All loads are real, as (64) is self-adjoint. For c > 0 neither factor vanishes where sin q/q
+exceeds abs(sin p)/p. So it is for q² ≤ 0 and for 0 < q ≤ π/2, since sin x/x falls as x² grows up to π² and is at most
+1/π in size beyond; hence −F > 2c. At q = (i + ½)π the size of sin q/q is 1/q, again more than that of sin p/p, so
+neither factor vanishes there, for any c. Loads move continuously with c, so each strip (i − ½)π < q < (i + ½)π keeps
+what it holds at c = 0: for every i ≥ 1 one even root (q = iπ at c = 0) and one odd root (tan q = q), and none for i =
+0. Modes 2i − 1 and 2i are therefore those of strip i: the pair i. At q = iπ both factors have the sign of sin p, so
+iπ lies between the two roots, and the even one comes first exactly if ⌊√(i² + c/π²)⌋ − i is even. They coincide where
+√(i² + c/π²) is a whole number j: that is (78) with n = j − i and m = j + i.
 
 On top, where p and q are conjugate complex, p = P + iQ with PQ = c/4: even modes P tan P + Q tanh Q = 0 with one
 root in each ((i − ½)π, iπ), odd modes tan P/P = tanh Q/Q with one root in each (iπ, (i + ½)π), by the same
