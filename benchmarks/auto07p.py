@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 import shutil
 import sys
 import time
@@ -44,7 +45,7 @@ CASES = {  # of states: problem, modes, end forces
     "w = 40": (rodwell.Problem(40.0), (1, 2), (-200.0, -300.0, -400.0)),
     "w = 40, α = 60°, T₁ = 1.5": (rodwell.Problem(40.0, alpha=60.0, twist=1.5), (1,), (-190.0, -300.0)),
 }
-STATE_MESH = 200
+STATE_MESH = 100
 NAMES = dict(zip(VARIABLES, VARIABLES, strict=True)) | {f"{v}{i}": f"braid_{v}{i}" for v in "FM" for i in (1, 2, 3)}
 ODD = {"F3", "M1", "M2", "T2", "eta", "xi2", "mu", "omega2"}
 """What changes sign with y, at T₁ = 0; so does ξ₁."""
@@ -95,7 +96,7 @@ def states() -> list[Row]:
     rows = []
     for title, (problem, modes, forces) in CASES.items():
         rod, loads = rod_of(problem), rodwell.critical_loads(problem, 4)
-        points = rod.trivial(loads[1].force - 2.0).branch_points()
+        points = rod.trivial(loads[modes[-1] - 1].force - 2.0).branch_points()
         for mode in modes:
             signs = (1.0, -1.0) if problem.twist else (1.0,)  # with twist the arms are not mirror images
             branch = rodwell.follow(problem, mode, until=min(forces) - 1.0, rtol=1e-10)
@@ -115,8 +116,8 @@ def states() -> list[Row]:
     return rows
 
 
-def accuracy() -> tuple[list[Row], float]:
-    """Time of a continuation point and accuracy, w = 15, mode 1 to F = −400; and the time of rodwell's point."""
+def accuracy() -> list[Row]:
+    """Time of a continuation point and accuracy, w = 15, mode 1 to F = −400."""
     problem, force = rodwell.Problem(15.0), -400.0
     rod = rod_of(problem)
     point = rod.trivial(-115.0).branch_points()[0]
@@ -141,7 +142,7 @@ def accuracy() -> tuple[list[Row], float]:
         error, along = compare(rodwell.follow(problem, 1, until=force - 1.0, rtol=rtol).at(force), finest)
         rows.append((f"rodwell, rtol {rtol:g}", len(branch()), cpu(branch, 3 * REPEATS), error, along))
     unit = rows[5][2] / rows[5][1]
-    table = [
+    return [
         (
             name,
             str(n),
@@ -153,7 +154,6 @@ def accuracy() -> tuple[list[Row], float]:
         )
         for name, n, t, e, a in rows
     ]
-    return table, unit
 
 
 def loads_and_time(found: diagram.Fig3c) -> tuple[list[Row], list[Row]]:
@@ -189,7 +189,8 @@ def loads_and_time(found: diagram.Fig3c) -> tuple[list[Row], list[Row]]:
 def table(head: str, rows: list[Row]) -> list[str]:
     columns = head.split("|")
     lines = ["| " + " | ".join(c.strip() for c in columns) + " |", "|" + " --- |" * len(columns)]
-    return ["", *lines, *("| " + " | ".join(row).replace("-", "−") + " |" for row in rows), ""]
+    minus = re.compile(r"(?<!\w)-(?=\d)")  # not that of AUTO-07p or 1e-8
+    return ["", *lines, *("| " + minus.sub("−", " | ".join(row)) + " |" for row in rows), ""]
 
 
 def main() -> None:
@@ -198,15 +199,15 @@ def main() -> None:
     found = diagram.fig_3c()
     loads, times = loads_and_time(found)
     clean([*found.runs, *found.primary.values()])
-    speed, unit = accuracy()
+    speed, compared = accuracy(), states()
     build = f"compiled with {OPTIONS}" if fast else "compiled as bifpy does it, without optimisation"
     lines = [
         f"Measured on {platform.machine()}, {os.cpu_count()} cores (load {began:.1f} before, {os.getloadavg()[0]:.1f} "
         f"after), Python {platform.python_version()}, rodwell {rodwell.__version__}, AUTO-07p of bifpy 0.3.0, {build}. "
         f"Processor times, least of {REPEATS} runs or more. Units B = L = 1, α = 90°, Δ = 0.01, ν = 0.3 unless said.",
         "", "## Loads, w = 15", "",
-        "Sharp: F where ω₂(1) = 0 (mode 2) or T₂(0) = 0 (modes 1, 4), interpolated on AUTO-07p's branches. Located: its "
-        f"own branch point. {found.failed} searches for a branch point failed before one succeeded.",
+        "Sharp: F where ω₂(1) = 0 (mode 2) or T₂(0) = 0 (modes 1, 4), interpolated on AUTO-07p's branches. Located: "
+        f"its own branch point. {found.failed} searches for a branch point failed before one succeeded.",
         *table("load | AUTO-07p, sharp | located | rodwell | difference", loads),
         "## Time for Fig. 3(c)", "",
         "The four primary branches of the figure to F = −700 and both secondary ones. AUTO-07p: straight rod, primary "
@@ -215,14 +216,14 @@ def main() -> None:
         *table("code | runs | points | seconds | ratio", times),
         "## Time of a continuation point, and accuracy: w = 15, mode 1 to F = −400", "",
         "Errors at F = −400 relative to the largest value along the rod: of AUTO-07p against rodwell at rtol 1e-11, of "
-        "rodwell against AUTO-07p at NTST 400, which writes 11 digits. rodwell's point includes two meshes, all numbers, "
-        "their errors, stability, lift-off and the branch point located; AUTO-07p's nothing besides the solution.",
+        "rodwell against AUTO-07p at NTST 400, which writes 11 digits. rodwell's point includes two meshes, all "
+        "numbers and their errors, stability, lift-off and the branch point located; AUTO-07p's the solution only.",
         *table("code | points | ms per point | ratio | ω₂(1) | max p | all 15, everywhere", speed),
         "## States", "",
-        f"Largest differences between AUTO-07p (NTST {STATE_MESH}) and rodwell (rtol 1e-10) over the end forces, relative "
-        "to the largest value along the rod; max p and 1 − z(1) relative to themselves. Last column: the fifteen "
-        "variables at all mesh points.",
-        *table("branch | F | critical load | ω₂(1) | ω₂(0) | T₂(0) | F₃(1) | 1 − z(1) | max p | all", states()),
+        f"Largest differences between AUTO-07p (NTST {STATE_MESH}) and rodwell (rtol 1e-10) over the end forces, "
+        "relative to the largest value along the rod; max p and 1 − z(1) relative to themselves. Last column: the "
+        "fifteen variables at all mesh points.",
+        *table("branch | F | critical load | ω₂(1) | ω₂(0) | T₂(0) | F₃(1) | 1 − z(1) | max p | all", compared),
     ]  # fmt: skip
     text = "\n".join(lines).rstrip() + "\n"
     print(text)

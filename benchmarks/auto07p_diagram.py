@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from auto07p_model import END_CURVATURE, TORQUE, F
-from auto07p_runs import Rod, Run
+from auto07p_runs import LOCATING, Rod, Run
 
 HORIZONTAL = (-20.0, 0.0, 0.0, 15.0, 0.01, 0.3)
 END = -700.0
@@ -16,10 +15,7 @@ MESH = 50
 STEP = 20.0
 BEFORE = {1: -340.0, 2: -150.0, 4: -395.0}
 """End force shortly before the secondary bifurcation of a mode, from where AUTO-07p looks for it in small steps."""
-SEARCHES: Sequence[dict[str, Any]] = [
-    {"dsmax": step, "epsl": tol, "epsu": tol, "epss": 1e-5, "nwtn": 9, "itmx": 20, "isp": 2, "ds": 0.1, "stop": ["BP1"]}
-    for step, tol in ((2.0, 1e-7), (1.0, 1e-7), (1.0, 1e-6))
-]
+SEARCHES = [LOCATING | {"dsmax": step, "ds": 0.1, "epsl": tol, "epsu": tol} for step, tol in ((2.0, 1e-7), (1.0, 1e-6))]
 NEAR_ZERO = (0.002, 0.004, 0.006)
 """Values of ±ω₂(1) between which F is interpolated."""
 LOW_TORQUES = {2: (1e-3, 2e-3, 3e-3), 4: (2e-3, 4e-3, 6e-3)}
@@ -49,7 +45,7 @@ def fig_3c() -> Fig3c:
         runs.append(primary[mode])
         for search in SEARCHES if mode in BEFORE else ():
             start = primary[mode].at(F, BEFORE[mode])[0]
-            run = rod.onward(start, BEFORE[mode] - 40.0, MESH, **search)
+            run = rod.onward(start, BEFORE[mode] - 40.0, MESH, stop=["BP1"], **search)
             if mode != 1:  # secondary branch 1 comes back to it
                 runs.append(run)
             if run.branch_points():

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-VARIABLES = "F1 F2 F3 M1 M2 M3 xi1 T2 eta omega3 xi2 lambda mu omega2 z".split()
+VARIABLES = ["F1", "F2", "F3", "M1", "M2", "M3", "xi1", "T2", "eta", "omega3", "xi2", "lambda", "mu", "omega2", "z"]
 F, T1, WA, WL, DELTA, NU, END_CURVATURE, TORQUE = range(8)
 CONDITIONS = 17
 

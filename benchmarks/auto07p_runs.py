@@ -34,6 +34,9 @@ SETTINGS = {
     "ds": 0.05, "dsmin": 1e-6, "nmx": 4000, "npr": 0, "rl1": 1e3, "epsl": 1e-8, "epsu": 1e-8, "epss": 1e-7, "iid": 2,
 }  # fmt: skip
 
+LOCATING = {"isp": 2, "epsl": 1e-7, "epsu": 1e-7, "epss": 1e-5, "nwtn": 9, "itmx": 20}
+"""Branch points, with which AUTO-07p converges to them; with tighter tolerances it often does not."""
+
 
 def optimised() -> bool:
     """Build AUTO-07p with optimisation and let bifpy use it; return whether that was possible.
@@ -121,9 +124,7 @@ class Rod:
 
     def trivial(self, down_to: float, ntst: int = 50, dsmax: float = 4.0) -> Run:
         """Follow the straight rod, with its branch points. The mesh stays: there is nothing to adapt it to."""
-        settings = SETTINGS | {
-            "ntst": ntst, "iad": 0, "isp": 2, "ds": -0.5, "dsmax": dsmax, "rl0": down_to, "epsl": 1e-9, "epsu": 1e-9,
-        }  # fmt: skip
+        settings = SETTINGS | LOCATING | {"ntst": ntst, "iad": 0, "ds": -0.5, "dsmax": dsmax, "rl0": down_to}
         return self._run(auto.run(equations, self._start, settings, **self._common))
 
     def onward(self, point: Any, down_to: float, ntst: int, dsmax: float, *, switch: bool = False, **more: Any) -> Run:
