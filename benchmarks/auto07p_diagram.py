@@ -18,7 +18,7 @@ BEFORE = {1: -340.0, 2: -150.0, 4: -395.0}
 SEARCHES = [LOCATING | {"dsmax": step, "ds": 0.1, "epsl": tol, "epsu": tol} for step, tol in ((2.0, 1e-7), (1.0, 1e-6))]
 NEAR_ZERO = (0.002, 0.004, 0.006)
 """Values of ±ω₂(1) between which F is interpolated."""
-LOW_TORQUES = {2: (1e-3, 2e-3, 3e-3), 4: (2e-3, 4e-3, 6e-3)}
+LOW_TORQUES = {2: (3e-4, 6e-4, 9e-4), 4: (2e-3, 4e-3, 6e-3)}
 """Values of ±T₂(0) on the secondary branch that starts at a mode, near its other end or this one."""
 
 
@@ -56,7 +56,7 @@ def fig_3c() -> Fig3c:
     return Fig3c([p.parameters[F] for p in points], primary, found, secondary, [*runs, *secondary.values()], failed)
 
 
-def _secondary(rod: Rod, mode: int, point: Any) -> Run:
+def _secondary(rod: Rod, mode: int, point: Any, mesh: int = MESH, tolerance: float = 1e-8) -> Run:
     """Follow the branch without symmetry: AUTO-07p's own switch, or else the tangent that it left at the point.
 
     At a pitchfork the tangent saved with the point may already be that of the branch that crosses; the switch then
@@ -65,7 +65,8 @@ def _secondary(rod: Rod, mode: int, point: Any) -> Run:
     low = [sign * t for t in LOW_TORQUES[mode] for sign in (1.0, -1.0)]
     for switch in (True, False):
         more = {"nmx": 115} if mode == 2 else {}  # goes on past F = −362.63, onto its own mirror image
-        run = rod.onward(point, END, MESH, STEP, switch=switch, uzr={TORQUE + 1: low}, rl1=BEFORE[mode] + 14.0, **more)
+        run = rod.onward(point, END, mesh, STEP, switch=switch, uzr={TORQUE + 1: low}, rl1=BEFORE[mode] + 14.0,
+                         epsl=tolerance, epsu=tolerance, **more)  # fmt: skip
         if any(run.at(TORQUE, t) for t in low):
             return run
     raise RuntimeError(f"AUTO-07p did not get onto the secondary branch of mode {mode}")
@@ -83,8 +84,16 @@ def load_by_curvature(mesh: int) -> float:
     return float(np.polyfit(curvatures / NEAR_ZERO[0], loads, len(past) - 1)[-1])
 
 
-def load_by_torque(run: Run, mode: int) -> float:
-    """F where a branch without symmetry meets an antisymmetric one, T₂(0) = 0: F is even in T₂(0)."""
-    low = [p for t in LOW_TORQUES[mode] for sign in (1.0, -1.0) for p in run.at(TORQUE, sign * t)]
-    squares = np.array([p.all_parameters[TORQUE] ** 2 for p in low]) / LOW_TORQUES[mode][0] ** 2
-    return float(np.polyfit(squares, [p.parameters[F] for p in low], 2)[-1])
+def load_by_torque(mode: int, point: Any) -> float:
+    """F where the secondary branch from a mode's branch point meets an antisymmetric branch.
+
+    There T₂(0) = 0, and F is even in T₂(0). Taken on a finer mesh, and on one side: next to the point the equations
+    are nearly singular, and past it AUTO-07p is off by 1e-5.
+    """
+    run = _secondary(Rod(HORIZONTAL), mode, point, 100, 1e-10)
+    for sign in (1.0, -1.0):
+        low = [p for t in LOW_TORQUES[mode] for p in run.at(TORQUE, sign * t)[:1]]
+        if len(low) == len(LOW_TORQUES[mode]):
+            squares = np.array([p.all_parameters[TORQUE] ** 2 for p in low]) / LOW_TORQUES[mode][0] ** 2
+            return float(np.polyfit(squares, [p.parameters[F] for p in low], 2)[-1])
+    raise RuntimeError(f"AUTO-07p did not bring the secondary branch of mode {mode} near T₂(0) = 0")
