@@ -160,7 +160,7 @@ MEANINGS: dict[str, dict[str, str]] = {
         "twist": "end twisting moment T₁, a dead load",
     },
     "cylinder": {
-        "outer_diameter": "outer diameter of the cylinder; the section is for the check of its strength, and may be left out",
+        "outer_diameter": "outer diameter of the cylinder; the whole section, for its strength, may be left out",
         "inner_diameter": "inner diameter; that of the hole, if hole.diameter is given",
         "yield_strength": "strength against which the largest equivalent stress is set",
     },

@@ -73,9 +73,9 @@ if TYPE_CHECKING:
     from rodwell.analysis.diagram import Diagram, diagram
     from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
-    from rodwell.analysis.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.modes import mode_pairs, switching_table
     from rodwell.analysis.paper_values import paper_values
+    from rodwell.analysis.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.solution import Solution
     from rodwell.analysis.special import SpecialPoint
     from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve

@@ -15,7 +15,6 @@ from rodwell.numerics.minimise import minimise
 from rodwell.numerics.spaces import FloatArray
 from rodwell.problem import Problem
 
-
 LOPSIDED = 0.3
 """How far, in radians around the cylinder, the search for an unsymmetric coil starts from the symmetric one."""
 

@@ -13,8 +13,8 @@ import click
 from rodwell._version import __version__
 from rodwell.cli.audit import audit
 from rodwell.cli.check import verify
-from rodwell.cli.export import export
 from rodwell.cli.exact import certify, modes
+from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run

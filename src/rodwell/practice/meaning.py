@@ -177,7 +177,8 @@ def _wall(answer: Answer) -> str:
     support = (
         "the cylinder's supports need no torque"
         if torque.value == 0.0
-        else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')}"
+        else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')} (if the rod's weight is "
+        "taken up along the cylinder; else the fittings of the rod do)"
     )
     stress = ""
     if "cylinder_stress" in figures:
