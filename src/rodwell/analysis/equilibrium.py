@@ -48,7 +48,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     family, outcome, coarse = _odd_or_any(problem, force)
     if coarse is None:
-        raise NotConvergedError(f"no stable coiled state found at F = {force:g} B/L²: {outcome.value}")
+        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
     outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")

@@ -129,15 +129,23 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
 
 
 def _wound(problem: Problem, rtol: float) -> Branch | None:
-    """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found."""
+    """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found.
+
+    Odd about mid-length if there is one: an unsymmetric coil, which is found where the odd one is no minimum, needs more
+    compression.
+    """
+    lopsided = None
     scale = (2.0 * math.pi * problem.turns) ** 2
     chen = 2.0 * math.sqrt(2.0 * problem.lateral_weight / problem.clearance)
     for start in STARTS:
         try:
-            return coil(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale), rtol=rtol)
+            branch = coil(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale), rtol=rtol)
         except (InputError, NotConvergedError):
             continue
-    return None
+        if branch[0].point.fine.symmetry != 0:
+            return branch
+        lopsided = lopsided or branch
+    return lopsided
 
 
 def _first(branch: Branch, kind: str) -> SpecialPoint | None:
