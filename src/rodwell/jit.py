@@ -40,8 +40,8 @@ def formula(function: Callable[..., Any]) -> Any:
 def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
     """Energy density of ``model`` and its derivatives at one place ``s``; returns the energy per length.
 
-    ``u`` (3 nf,) holds field f, derivative d at index ``3 f + d``. Written: ``gradient`` (3 nf,), ``hessian``
-    (3 nf, 3 nf) and ``mixed`` (3 nf,), the derivative of the gradient along ``rates``, a direction in the
+    ``u`` (3 nf,) holds field f, derivative d at index ``3 f + d``, and may be changed. Written: ``gradient`` (3 nf,),
+    ``hessian`` (3 nf, 3 nf) and ``mixed`` (3 nf,), the derivative of the gradient along ``rates``, a direction in the
     space of the ``parameters``.
     """
     raise NotImplementedError("density is implemented per model, by numba.extending.overload")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.fields import fields_at
+from rodwell.analysis.measures import shape
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
 from rodwell.numerics.spaces import FloatArray
@@ -56,7 +57,7 @@ def energies(solution: Solution) -> dict[str, tuple[float, float]]:
 def _energies(problem: Problem, family: Family, state: State) -> dict[str, float]:
     space, p = state.space, family.parameters(state.lam)
     s, w = space.points, space.weights
-    y, y1, y2 = space.evaluate(state.c, s, 3)
+    y, y1, y2 = shape(family, state, s, 3)
     cos = np.sqrt(1.0 - y1**2)
     sagging = y1**2 / (1.0 + cos)  # 1 − cos η = 1 − z'
     return {

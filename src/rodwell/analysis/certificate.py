@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.fields import element_fields, gauss_calculus
+from rodwell.analysis.measures import shape
 from rodwell.numerics.spaces import FloatArray
 from rodwell.physics import paper
 from rodwell.physics.paper import NAMES, NUMBERS, Fifteen, Load
@@ -169,7 +170,7 @@ def _work_and_energy(solution: Solution, load: Load) -> float:
     """
     state = solution.point.fine
     space = state.space
-    y, y1, y2 = space.evaluate(state.c, space.points, 3)
+    y, y1, y2 = shape(solution.ladder.fine, state, space.points, 3)
     u, u1, u2 = space.evaluate(state.tangent, space.points, 3)
     cos, D, angle = np.sqrt(1.0 - y1**2), load.clearance, y / load.clearance
     turn = u1 / cos  # δη

@@ -63,6 +63,8 @@ def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State 
         scale = max(abs(force), wavenumber**2)
         family = equilibria(problem, space, parity=parity, wavenumber=wavenumber, scale=scale)
         start = _winding(problem, family)
+        if parity < 0:  # steps are kept odd: what is even in the start, if only by round-off, would stay
+            start = 0.5 * (start - start[::-1])
         if parity == 0 and problem.symmetric:  # the odd one is no minimum: leave its symmetry
             bump = problem.clearance * np.sin(np.pi * space.points) ** 2
             start = start + LOPSIDED * space.project(bump, family.ends)
@@ -75,10 +77,14 @@ def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State 
 
 
 def _winding(problem: Problem, family: Family) -> FloatArray:
-    """Coefficients of the even winding between its ends: 2πnΔ at s = 1, level at both ends."""
+    """Coefficients of a winding that is level at both ends, less the even one, y = 2πnΔ s.
+
+    What the ends hold stands in the outermost coefficients: a linear function has the value of the ramp at the
+    Greville abscissae, so a level end is one whose first two values are those of the end less the ramp there.
+    """
     space, held = family.space, family.ends
     end = 2.0 * np.pi * problem.turns * problem.clearance
-    s = space.points
-    ramp = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
-    gap = end * (s - np.sin(2.0 * np.pi * s) / (2.0 * np.pi)) - space.at_points(ramp)[0]
-    return ramp + space.project(gap, held)
+    level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
+    kept = level - end * space.greville
+    gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]
+    return kept + space.project(gap, held)

@@ -10,7 +10,7 @@ from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics.model import RodOnCylinder
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, PARAMETERS, SIDE, TWIST
+from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.problem import Problem
 
 if TYPE_CHECKING:
@@ -21,8 +21,9 @@ HELD = {"clamped": (2, False), "pinned": (1, False), "guided": (1, True), "free"
 
 
 def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
-    """Physical parameters of ``problem`` in the order that kernels take them, (6,)."""
-    out = np.empty(len(PARAMETERS))
+    """Physical parameters of ``problem`` in the order that kernels take them, (7,)."""
+    out = np.empty(COUNT)
+    out[RAMP] = 2.0 * np.pi * problem.turns * problem.clearance
     out[FORCE], out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = force, problem.axial_weight, problem.foundation
     out[CLEARANCE], out[TWIST], out[SIDE] = problem.clearance, problem.twist, -1.0 if problem.outside else 1.0
     return out
@@ -43,7 +44,7 @@ def spline_ends(problem: Problem) -> Ends:
 
 def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
     """Parameters of ``problem`` as one of :data:`PATHS` varies: see :class:`rodwell.numerics.families.Family`."""
-    out = np.zeros((4, len(PARAMETERS)))
+    out = np.zeros((4, COUNT))
     out[0] = parameters(problem, force)
     if parameter == "weight":
         out[1, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = _per_weight(problem)

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from rodwell.analysis.measures import shape
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.physics import braid
@@ -32,14 +33,14 @@ Rates = Callable[[FloatArray, FloatArray], FloatArray]
 
 def end_force(family: Family, state: State) -> braid.EndForce:
     """What acts on the rod at s = 1, and where that is."""
-    y, y1 = state.space.evaluate(state.c, np.array([1.0]), 2)[:, 0]
+    y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
     return braid.end_force(*family.end_reactions(state), float(y), float(y1), family.parameters(state.lam))
 
 
 def total_wall_force(family: Family, state: State) -> float:
     """∫|p| ds in B/L²."""
     space = state.space
-    u = space.evaluate(state.c, space.points, 4)
+    u = shape(family, state, space.points, 4)
     pressure = contact_pressure(space.points, u[0], u[1], u[2], u[3], family.parameters(state.lam))
     return float(space.weights @ np.abs(pressure))
 
@@ -48,8 +49,8 @@ def fields_at(problem: Problem, family: Family, state: State, s: FloatArray) -> 
     """All fields at ``s`` (m,), in units B = L = 1."""
     space, end, p = state.space, end_force(family, state), family.parameters(state.lam)
     rates = _rates(problem, p, end)
-    integrals = _running_integrals(lambda places: rates(places, space.evaluate(state.c, places, 4)), s, space)
-    return _rebuilt(problem, s, space.evaluate(state.c, s, 4), integrals, p, end)
+    integrals = _running_integrals(lambda places: rates(places, shape(family, state, places, 4)), s, space)
+    return _rebuilt(problem, s, shape(family, state, s, 4), integrals, p, end)
 
 
 def element_fields(problem: Problem, family: Family, state: State) -> tuple[FloatArray, dict[str, FloatArray]]:
@@ -62,7 +63,7 @@ def element_fields(problem: Problem, family: Family, state: State) -> tuple[Floa
     half = 0.5 * np.diff(space.breaks)[:, None]
     inside = (space.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
     s = np.concatenate([[0.0], inside, [1.0]])
-    u = space.evaluate(state.c, s, 4)
+    u = shape(family, state, s, 4)
     values = _rates(problem, p, end)(inside, u[:, 1:-1])
     values = values.reshape(values.shape[0], half.size, PLACES)
     elements = values @ weights * half.T  # integral over each element

@@ -12,7 +12,7 @@ from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.spaces import FloatArray
-from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT
+from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
 
 NEAR_THE_TOP = 0.05
 """Sampled maxima of the contact pressure within this part of its range from the highest are refined."""
@@ -35,13 +35,13 @@ STEEPEST = len(Measured)
 
 
 @kernel
-def _totals(table, weights, elements, c, clearance, lateral_weight):
+def _totals(table, points, weights, elements, c, clearance, lateral_weight, ramp):
     """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
     per_element = weights.size // elements
     shortening = torque = bending = torque_size = sharpest = widest = steepest = 0.0
     for q in range(weights.size):
         start = q // per_element
-        y = y1 = y2 = 0.0
+        y, y1, y2 = ramp * points[q], ramp, 0.0
         for a in range(table.shape[2]):
             y += table[q, 0, a] * c[start + a]
             y1 += table[q, 1, a] * c[start + a]
@@ -64,6 +64,16 @@ KIN = (slice(Measured.OMEGA2_0, Measured.OMEGA2_1 + 1),)
 """Measured numbers of one kind: the end curvatures."""
 
 
+def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArray | None = None) -> FloatArray:
+    """Y and its derivatives at ``s`` (m,), (orders, m): the spline (with coefficients ``c``, if given) and the ramp."""
+    out = state.space.evaluate(state.c if c is None else c, s, orders)
+    ramp = family.parameters(state.lam)[RAMP]
+    out[0] += ramp * s
+    if orders > 1:
+        out[1] += ramp
+    return out
+
+
 def measured_ladder(family: Family, rtol: float, most_elements: int) -> Ladder:
     """Return the ladder on which states of ``family`` are measured to a tolerance."""
     return Ladder(family, measure, rtol, most_elements, KIN)
@@ -75,11 +85,12 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
     p = family.parameters(state.lam)
     clearance = p[CLEARANCE]
     shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
-        space.table, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT]
+        space.table, space.points, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT], p[RAMP]
     )
     _, values, lowest = pressure_maxima(family, state)
-    ends = space.evaluate(state.c, np.array([0.0, 0.5, 1.0]), 3)
+    ends = shape(family, state, np.array([0.0, 0.5, 1.0]), 3)
     highest = values.max()
+    curvature = max(sharpest, steepest**2 / clearance)  # ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
     omega2 = -ends[2] / np.sqrt(1.0 - ends[1] ** 2)
     numbers = np.array(
         [highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque, steepest]
@@ -90,8 +101,8 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
             * max(abs(highest), abs(lowest)),  # half the tolerance: the certificate looks at the pressure everywhere
             max(abs(state.energy), bending),
             shortening,
-            sharpest,
-            sharpest,
+            curvature,
+            curvature,
             widest,
             torque_size,
             np.inf,

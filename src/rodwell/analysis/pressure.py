@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.families import parameter_value
+from rodwell.analysis.measures import shape
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.starts import at_state
 from rodwell.numerics.families import Family, State
@@ -42,5 +43,5 @@ def pressure_rates(
 
 
 def _pressure(family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray) -> np.ndarray:
-    u = state.space.evaluate(c, places, 4)
+    u = shape(family, state, places, 4, c)
     return np.asarray(towards_lift_off(places, u[0], u[1], u[2], u[3], family.parameters(lam)))

@@ -52,6 +52,12 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
     return ladder, ladder.point(*states)
 
 
+def _wavenumber(problem: Problem, state: State) -> float:
+    """√(∫y''²/∫y'²) of a state; of a helix, that of its turns."""
+    ramp = 2.0 * np.pi * problem.turns * problem.clearance
+    return max(state.space.wavenumber(state.c + ramp * state.space.greville), 2.0 * np.pi * abs(problem.turns))
+
+
 def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:
     """Parity of a state that all of its branch has: a reflection that the problem has, for any value of the parameter.
 
@@ -71,7 +77,7 @@ def at_state(problem: Problem, start: Solution, parameter: str, until: float, rt
         problem,
         old.coarse.space,
         parity=kept_parity(problem, old.fine.symmetry, parameter),
-        wavenumber=old.fine.space.wavenumber(old.fine.c),
+        wavenumber=_wavenumber(problem, old.fine),
         scale=abs(until - here),
         parameter=parameter,
         force=start.force,

@@ -31,6 +31,9 @@ class Outcome(Enum):
     OUT_OF_RANGE = "the rod turned across the cylinder (|η| = 90°): the load is beyond the theory's range"
 
 
+ROUND_OFF = 1e-15
+"""Coefficients that differ by no more are equal: a state may be zero up to this."""
+
 SYMMETRIC = 1e-5
 """Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
 
@@ -66,7 +69,7 @@ class State:
 
     def symmetry_within(self, tolerance: float) -> int:
         """Symmetry up to a part ``tolerance`` of the largest coefficient; the mesh must be symmetric."""
-        size = tolerance * float(np.max(np.abs(self.c)))
+        size = tolerance * float(np.max(np.abs(self.c))) + ROUND_OFF
         for parity in (1, -1):
             if np.max(np.abs(self.c - self.symmetrised(parity))) <= 0.5 * size:
                 return parity

@@ -53,6 +53,11 @@ class SplineSpace:
         self.weights: FloatArray = (half * weights).ravel()
 
     @cached_property
+    def greville(self) -> FloatArray:
+        """Greville abscissae (size,): the coefficients of the function s."""
+        return np.array([self.knots[i + 1 : i + 1 + self.degree].mean() for i in range(self.size)])
+
+    @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
         return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.degree - 1, 3))

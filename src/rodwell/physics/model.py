@@ -10,6 +10,7 @@ from numba.extending import overload
 
 from rodwell.jit import contact, density
 from rodwell.physics._kernels import rod_density
+from rodwell.physics.parameters import RAMP
 from rodwell.physics.strand import towards_lift_off
 
 
@@ -31,6 +32,8 @@ def _density(  # type: ignore[no-untyped-def]
         return None
 
     def rod(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
+        u[0] += parameters[RAMP] * s
+        u[1] += parameters[RAMP]
         return rod_density(s, u, parameters, rates, gradient, hessian, mixed)
 
     return rod
@@ -42,6 +45,7 @@ def _contact(model, s, u, parameters) -> Callable[..., float] | None:  # type: i
         return None
 
     def rod(model, s, u, parameters):  # type: ignore[no-untyped-def]
-        return towards_lift_off(s, u[0], u[1], u[2], u[3], parameters)
+        ramp = parameters[RAMP]
+        return towards_lift_off(s, u[0] + ramp * s, u[1] + ramp, u[2], u[3], parameters)
 
     return rod

@@ -131,8 +131,8 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
 def _wound(problem: Problem, rtol: float) -> Branch | None:
     """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found.
 
-    Odd about mid-length if there is one: an unsymmetric coil, which is found where the odd one is no minimum, needs more
-    compression.
+    Odd about mid-length if there is one: an unsymmetric coil, which is found where the odd one is no minimum, needs
+    more compression.
     """
     lopsided = None
     scale = (2.0 * math.pi * problem.turns) ** 2
