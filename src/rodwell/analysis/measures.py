@@ -12,10 +12,14 @@ from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.spaces import FloatArray
-from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
+from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
 
 NEAR_THE_TOP = 0.05
 """Sampled maxima of the contact pressure within this part of its range from the highest are refined."""
+
+
+COEFFICIENT_NOISE = 4.0 * float(np.finfo(float).eps)
+"""Round-off in the coefficients of a state, relative to the largest: some units in the last place."""
 
 
 class Measured(IntEnum):
@@ -79,8 +83,12 @@ def measured_ladder(family: Family, rtol: float, most_elements: int) -> Ladder:
     return Ladder(family, measure, rtol, most_elements, KIN)
 
 
-def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
-    """Return the :class:`Measured` numbers of a state and the scales of their errors, (8,) each, STEEPEST last."""
+def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (8,) each.
+
+    STEEPEST stands last. A spline's third derivative is its coefficients' third difference over h³: round-off in them
+    comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
+    """
     space = state.space
     p = family.parameters(state.lam)
     clearance = p[CLEARANCE]
@@ -109,7 +117,10 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray]:
         ]
     )
     scales[scales == 0.0] = 1.0  # numbers that vanish identically: the straight rod, no lateral weight
-    return numbers, scales
+    noise = np.zeros_like(numbers)
+    lever = 4.0 * steepest / clearance + abs(p[TWIST])
+    noise[Measured.P_MAX] = COEFFICIENT_NOISE * float(np.max(np.abs(state.c))) / space.smallest**3 * lever
+    return numbers, scales, noise
 
 
 def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:

@@ -53,6 +53,11 @@ class SplineSpace:
         self.weights: FloatArray = (half * weights).ravel()
 
     @cached_property
+    def smallest(self) -> float:
+        """Length of the smallest element."""
+        return float(np.min(np.diff(self.breaks)))
+
+    @cached_property
     def greville(self) -> FloatArray:
         """Greville abscissae (size,): the coefficients of the function s."""
         return np.array([self.knots[i + 1 : i + 1 + self.degree].mean() for i in range(self.size)])
