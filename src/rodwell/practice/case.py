@@ -10,25 +10,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from rodwell.analysis.accuracy import checked_rtol
 from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.capacity import Cylinder, cylinder_of
-from rodwell.practice.physical import physical_problem
+from rodwell.practice.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.practice.explain import SECTIONS, explain
+from rodwell.practice.facts import Fact
+from rodwell.practice.fluids import Fluids
+from rodwell.practice.physical import check_force_words, physical
 from rodwell.practice.scales import Scales
+from rodwell.practice.strings import PhysicalRod
 from rodwell.practice.uncertainty import Moved, UncertainInput, split
+from rodwell.practice.units import SYSTEMS, System
 from rodwell.problem import Problem, checked_ends
-
-SECTIONS: dict[str, type[BaseModel]] = {
-    "rod": schema.Rod,
-    "hole": schema.Hole,
-    "cylinder": schema.Cylinder,
-    "dimensionless": schema.Dimensionless,
-    "load": schema.Load,
-    "analysis": schema.Analysis,
-}
+__all__ = ["SECTIONS", "Case", "CaseError"]
 
 
 class CaseError(InputError):
@@ -56,7 +54,8 @@ class Case:
     modes
         Number of buckling modes to compute and follow.
     until
-        End force at which branches end, in B/L² (tension positive); None: chosen from the loads found.
+        Effective end force at s = 1 at which branches end, in B/L² (tension positive); None: chosen from the loads
+        found.
     rtol
         Relative tolerance of every reported number.
     given
@@ -69,6 +68,12 @@ class Case:
         Section and strength of the cylinder, if given.
     uncertain
         Inputs that were given with "±", and what becomes of the problem if they move.
+    rod
+        The rod in SI units: section, weight in air, strength; None for a case without dimensions.
+    fluids
+        Mud and pressures; forces of a case with them are effective ones.
+    facts
+        What followed from the inputs on the way to the problem: weight, forces, clearance, and sources.
     """
 
     title: str
@@ -82,6 +87,30 @@ class Case:
     text: str = ""
     cylinder: Cylinder | None = None
     uncertain: tuple[UncertainInput, ...] = ()
+    rod: PhysicalRod | None = None
+    fluids: Fluids = Fluids()
+    facts: tuple[Fact, ...] = ()
+
+    @property
+    def yield_strength(self) -> float | None:
+        """Yield strength of the rod in Pa, None where it is not given."""
+        return None if self.rod is None else self.rod.yield_strength
+
+    def in_units(self, name: str | None) -> Case:
+        """Return this case with results shown in "si", "field" or "mm" units; None leaves it as it is.
+
+        Raises
+        ------
+        InputError
+            For a name that is not known, or a case without dimensions.
+        """
+        if name is None:
+            return self
+        if name not in SYSTEMS:
+            raise InputError("units", name, f"must be one of {', '.join(SYSTEMS)}")
+        if self.scales is None:
+            raise InputError("units", name, "needs a case with dimensions: this one has [dimensionless], leave it out")
+        return replace(self, scales=replace(self.scales, system=System(name)))
 
     @classmethod
     def read(cls, path: str | Path) -> Case:
@@ -115,42 +144,47 @@ class Case:
             raise InputError("case file", str(file), f"is not valid TOML: {problem}{hint}") from None
         except (ValueError, RecursionError):
             raise InputError("case file", str(file), "is not valid TOML: a number or a nesting too large") from None
-        return cls.from_dict(data, source=file.name, text=text)
+        return cls.from_dict(data, source=file.name, text=text, folder=file.parent)
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any], *, source: str = "case", text: str = "") -> Case:
-        """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`."""
+    def from_dict(
+        cls, data: Mapping[str, Any], *, source: str = "case", text: str = "", folder: str | Path = "."
+    ) -> Case:
+        """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`.
+
+        Catalogue files are sought from ``folder``.
+        """
         if not isinstance(data, Mapping):
             raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
         try:
             clean, moved = split(data)
-            case = cls._certain(clean, source, text)
+            case = cls._certain(clean, source, text, Path(folder))
         except CaseError:
             raise
         except InputError as problem:
             value = _as_written(data, problem.field, problem.value)
             raise CaseError(source, [(problem.field, value, problem.problem)]) from None
-        inputs = tuple(_uncertain(data, clean, *key, pair) for key, pair in moved.items())
-        return replace(case, uncertain=inputs, given={k: v for k, v in data.items() if k != "title"})
+        inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
+        return replace(case, uncertain=inputs, given=_given(data))
 
     @classmethod
-    def _certain(cls, data: Mapping[str, Any], source: str, text: str) -> Case:
+    def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:
         """A case from data without uncertainties."""
         try:
             parsed = schema.CaseFile.model_validate(dict(data))
         except ValidationError as problem:
-            raise CaseError(source, _explain(problem)) from None
-        return _assemble(parsed, data, source, text)
+            raise CaseError(source, explain(problem)) from None
+        return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
 
 
 def _uncertain(
-    data: Mapping[str, Any], clean: Mapping[str, Any], section: str, key: str, pair: tuple[Any, Any]
+    data: Mapping[str, Any], clean: Mapping[str, Any], section: str, key: str, pair: tuple[Any, Any], folder: Path
 ) -> UncertainInput:
     """What becomes of the case as one input moves by its uncertainty down and up."""
     sides: list[Moved | None] = []
     for value in pair:
         try:
-            case = Case._certain({**clean, section: {**clean[section], key: value}}, "case", "")
+            case = Case._certain({**clean, section: {**clean[section], key: value}}, "case", "", folder)
             sides.append((case.problem, case.scales))
         except InputError:
             sides.append(None)
@@ -173,95 +207,72 @@ def _siblings(file: Path) -> list[str]:
         return []
 
 
-def _explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple[str, object, str]]:
-    """Validation errors in the user's words: (key, value, what to do)."""
-    out: list[tuple[str, object, str]] = []
-    for item in error.errors():
-        where = ".".join(str(part) or "''" for part in item["loc"])
-        value = item["input"]
-        kind, text = item["type"], item["msg"]
-        if kind == "extra_forbidden":
-            out.append((where, None, _unknown((*within, *item["loc"]))))
-        elif kind == "missing":
-            out.append((where, None, "is missing; add it"))
-        elif kind in ("model_type", "model_attributes_type", "dict_type"):
-            out.append((where, value, f"must be a section: write [{where}] with its keys below it"))
-        elif kind == "value_error":
-            out.append((where, value, text.removeprefix("Value error, ")))
-        elif kind.startswith("int") or kind in ("greater_than_equal", "less_than_equal"):
-            out.append((where, value, f"must be a whole number from 1 to {schema.MOST_MODES}"))
-        elif kind.startswith("float"):
-            out.append((where, value, "must be a number"))
-        elif kind.startswith("string"):
-            out.append((where, value, "must be text in quotes"))
-        else:
-            out.append((where, value, text[:1].lower() + text[1:]))
-    return out
+def _given(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The sections as they were written."""
+    return {name: values for name, values in data.items() if name in SECTIONS}
 
 
-def _unknown(location: tuple[int | str, ...]) -> str:
-    """What to say of an unknown key: the nearest known one, or the section it belongs to."""
-    key = str(location[-1])
-    if len(location) == 1:
-        known = list(schema.CaseFile.model_fields)
-        for section, model in SECTIONS.items():
-            if key in model.model_fields:
-                return f"is not a section; it belongs into [{section}]"
-    else:
-        section = str(location[0])
-        known = list(SECTIONS[section].model_fields)
-        for other, model in SECTIONS.items():
-            if other != section and key in model.model_fields:
-                return f"does not belong into [{section}] but into [{other}]"
-    near = difflib.get_close_matches(key, known, n=1, cutoff=0.55)
-    if near:
-        return f"is not known; did you mean {near[0]!r}?"
-    return f"is not known; allowed are {', '.join(known)}"
+def _catalogue(parsed: schema.CaseFile, folder: Path) -> Catalogue:
+    return package_catalogue() if parsed.catalogue is None else read_catalogue(parsed.catalogue.files, folder)
 
 
-def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str) -> Case:
-    physical = parsed.rod is not None or parsed.hole is not None
-    if physical and parsed.dimensionless is not None:
+def _assemble(
+    parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue
+) -> Case:
+    with_dimensions = parsed.rod is not None or parsed.hole is not None
+    if with_dimensions and parsed.dimensionless is not None:
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
-    if not physical and parsed.dimensionless is None:
+    if not with_dimensions and parsed.dimensionless is None:
         raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
-    load = _load(parsed.load, physical, source)
-    if physical:
-        problem, scales = physical_problem(parsed.rod, parsed.hole, load.twist)
-        until = None if load.until is None else load.until / scales.factor("force")
+    if not with_dimensions:
+        _check_sections(parsed)
+    load = _load(parsed.load, with_dimensions, source)
+    case: Case
+    common = {
+        "title": parsed.title,
+        "modes": parsed.analysis.modes,
+        "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
+        "given": _given(data),
+        "source": source,
+        "text": text,
+    }
+    if isinstance(load, schema.Load):
+        found = physical(parsed, load, catalogue)
+        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
+                    rod=found.rod, fluids=found.fluids, facts=found.facts, **common)  # fmt: skip
     else:
-        problem, scales, until = _dimensionless(parsed.dimensionless, load.twist), None, load.until
-    if until is not None and not math.isfinite(until):
+        problem, until = _dimensionless(parsed.dimensionless, load)
+        case = Case(problem=problem, scales=None, until=until, **common)
+    if case.until is not None and not math.isfinite(case.until):
         raise InputError("load.until", load.until, "must be finite")
-    return Case(
-        title=parsed.title,
-        problem=problem,
-        scales=scales,
-        modes=parsed.analysis.modes,
-        until=until,
-        rtol=_named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
-        given={k: v for k, v in data.items() if k != "title"},
-        source=source,
-        text=text,
-        cylinder=_cylinder(parsed),
-    )
+    return case
+
+
+def _check_sections(parsed: schema.CaseFile) -> None:
+    """Refuse what a case without dimensions cannot use."""
+    reasons = {
+        "cylinder": "a dimensionless case has no stresses",
+        "mud": "the weight of a dimensionless case is that in its fluids",
+        "pressure": "the forces of a dimensionless case are effective ones",
+        "catalogue": "a dimensionless case has no pipe",
+        "units": "results of a dimensionless case are in units of B and L",
+    }
+    for name, why in reasons.items():
+        if getattr(parsed, name) is not None:
+            raise InputError(name, None, f"needs [rod] and [hole]: {why}; leave it out")
 
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
-    if parsed.cylinder is None:
-        return None
-    if parsed.hole is None:
-        raise InputError("cylinder", None, "needs [rod] and [hole]: a dimensionless case has no stresses")
-    return cylinder_of(parsed.cylinder, parsed.hole)
+    return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)
 
 
-def _load(given: Mapping[str, Any], physical: bool, source: str) -> schema.Load | schema.DimensionlessLoad:
+def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.Load | schema.DimensionlessLoad:
     """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
-    model = schema.Load if physical else schema.DimensionlessLoad
+    model = schema.Load if with_dimensions else schema.DimensionlessLoad
     try:
         return model.model_validate(given)
     except ValidationError as error:
-        found = [(f"load.{key}", value, what) for key, value, what in _explain(error, within=("load",))]
+        found = [(f"load.{key}", value, what) for key, value, what in explain(error, within=("load",))]
         raise CaseError(source, found) from None
 
 
@@ -273,17 +284,24 @@ def _named(field: str, compute: Any) -> Any:
         raise InputError(field, problem.value, problem.problem) from None
 
 
-def _dimensionless(given: schema.Dimensionless | None, twist: float) -> Problem:
+def _dimensionless(
+    given: schema.Dimensionless | None, load: schema.DimensionlessLoad
+) -> tuple[Problem, float | None]:
+    """Problem, and end force at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
     try:
-        return Problem(
+        problem = Problem(
             weight=given.weight,
             alpha=given.alpha,
             clearance=given.clearance,
             poisson=given.poisson,
-            twist=twist,
+            twist=load.twist,
             ends=checked_ends(given.ends),
         )
-    except InputError as problem:
-        section = "load" if problem.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{problem.field}", problem.value, problem.problem) from None
+    except InputError as found:
+        section = "load" if found.field == "twist" else "dimensionless"
+        raise InputError(f"{section}.{found.field}", found.value, found.problem) from None
+    if load.until is None:
+        check_force_words(load)
+        return problem, None
+    return problem, load.until + (problem.axial_weight if load.at == "bottom" else 0.0)

@@ -1,29 +1,49 @@
-"""From the rod and hole of a case file to the dimensionless problem."""
+"""From the rod, hole, fluids and load of a case file to the dimensionless problem."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from rodwell.errors import InputError
 from rodwell.practice import schema
+from rodwell.practice.catalogue import Catalogue
+from rodwell.practice.facts import Fact
+from rodwell.practice.fluids import Fluids, checked_weight, fluid_facts, fluids_of
 from rodwell.practice.scales import Scales
+from rodwell.practice.strings import PhysicalRod, physical_rod
+from rodwell.practice.units import System
 from rodwell.problem import Problem, checked_ends
 
 
-def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: float) -> tuple[Problem, Scales]:
-    """Return the dimensionless problem and its scales; ``twist`` in N m.
+@dataclass(frozen=True)
+class Physical:
+    """A case with dimensions: problem, scales, effective end force at s = 1 in B/L² (or None), and how it came about."""
+
+    problem: Problem
+    scales: Scales
+    until: float | None
+    rod: PhysicalRod
+    fluids: Fluids
+    facts: tuple[Fact, ...]
+
+
+def physical(parsed: schema.CaseFile, load: schema.Load, catalogue: Catalogue) -> Physical:
+    """Return the dimensionless problem of a case with dimensions, and what it was made from.
 
     Raises
     ------
     InputError
         Naming the key of the case file that is missing, contradicts another, or does not fit the others.
     """
-    if rod is None:
+    if parsed.rod is None:
         raise InputError("rod", None, "is missing: a case with [hole] needs [rod]")
-    if hole is None:
+    if parsed.hole is None:
         raise InputError("hole", None, "is missing: a case with [rod] needs [hole]")
-    stiffness = _stiffness(rod)
-    weight = _weight_per_length(rod, hole.gravity)
+    hole = parsed.hole
+    rod = physical_rod(parsed.rod, hole.gravity, catalogue)
+    fluids = fluids_of(parsed.mud, parsed.pressure, rod)
+    weight = checked_weight(fluids, rod, hole.gravity)
     clearance = _clearance(rod, hole)
     if clearance >= rod.length:
         raise InputError(
@@ -32,15 +52,26 @@ def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: fl
             f"leaves a clearance of {clearance:g} m, which must be below the rod's length of {rod.length:g} m",
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, stiffness, radius)
+    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
+    problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
+    facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
+    facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
+    until, how = _end_force(load, parsed, problem, scales, rod, fluids)
+    return Physical(problem, scales, until, rod, fluids, (*facts, *how))
+
+
+def _problem(
+    ends: str, rod: PhysicalRod, hole: schema.Hole, scales: Scales, weight: float, clearance: float, twist: float
+) -> Problem:
+    """The problem in units B = L = 1; errors in the names of the case file."""
     try:
-        problem = Problem(
+        return Problem(
             weight=weight / scales.factor("force_per_length"),
             alpha=_angle(hole),
             clearance=clearance / rod.length,
             poisson=rod.poisson,
             twist=twist / scales.factor("moment"),
-            ends=checked_ends(rod.ends),
+            ends=checked_ends(ends),
         )
     except InputError as found:
         names = {
@@ -58,39 +89,52 @@ def physical_problem(rod: schema.Rod | None, hole: schema.Hole | None, twist: fl
             )
             what += "length, weight or density, stiffness or diameters, and gravity"
         raise InputError(name, None if found.field == "weight" else found.value, what) from None
-    return problem, scales
 
 
-def _area_and_inertia(rod: schema.Rod, reason: str) -> tuple[float, float]:
-    if rod.outer_diameter is None:
-        raise InputError("rod.outer_diameter", None, f"is missing: it is needed {reason}")
-    outer, inner = rod.outer_diameter, rod.inner_diameter or 0.0
-    if inner >= outer:
-        raise InputError("rod.inner_diameter", inner, f"must be below the outer diameter of {outer:g} m")
-    return math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
+def _end_force(
+    load: schema.Load,
+    parsed: schema.CaseFile,
+    problem: Problem,
+    scales: Scales,
+    rod: PhysicalRod,
+    fluids: Fluids,
+) -> tuple[float | None, list[Fact]]:
+    """The effective end force at s = 1 in B/L² from load.until, wherever and however that is measured.
+
+    The real force becomes the effective one where it is measured; from the bottom to the top the effective force
+    grows by the buoyed weight along the axis, N(s) = F + γ cos α (s − 1).
+    """
+    if load.until is None:
+        check_force_words(load)
+        return None, []
+    if parsed.pressure is not None and load.kind is None:
+        what = 'is missing: with [pressure], say whether load.until is the "real" force in the wall of the pipe or the '
+        raise InputError("load.kind", None, what + '"effective" one')
+    assert parsed.hole is not None
+    bottom, gravity = load.at == "bottom", parsed.hole.gravity
+    until = load.until
+    drop = rod.length * math.cos(math.radians(problem.alpha)) if bottom and problem.alpha < 90.0 else 0.0
+    if load.kind == "real":
+        until += fluids.effective_minus_real(rod, gravity, drop)
+    force = until / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+    where = "bottom, s = 0" if bottom else "top, s = 1"
+    given = f"from {load.kind or 'effective'} {scales.system.text(load.until, 'force', 6)} at the {where}"
+    fact = Fact("end force asked for, effective, at s = 1", force * scales.factor("force"), "force", given)
+    return force, [fact]
 
 
-def _stiffness(rod: schema.Rod) -> float:
-    if rod.bending_stiffness is not None:
-        if rod.youngs_modulus is not None:
-            raise InputError("rod.bending_stiffness", None, "contradicts rod.youngs_modulus: give only one of the two")
-        return rod.bending_stiffness
-    if rod.youngs_modulus is None:
-        raise InputError("rod.youngs_modulus", None, "is missing: give it, or rod.bending_stiffness")
-    return rod.youngs_modulus * _area_and_inertia(rod, "with rod.youngs_modulus")[1]
+def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
+    """Refuse words on load.until where it is not given."""
+    for key in ("at", "kind"):
+        if getattr(load, key, None) is not None:
+            raise InputError(f"load.{key}", getattr(load, key), "tells of load.until: give load.until too, or leave it out")
 
 
-def _weight_per_length(rod: schema.Rod, gravity: float) -> float:
-    if rod.weight_per_length is not None:
-        if rod.density is not None:
-            raise InputError("rod.weight_per_length", None, "contradicts rod.density: give only one of the two")
-        return rod.weight_per_length
-    if rod.density is None:
-        raise InputError("rod.density", None, "is missing: give it, or rod.weight_per_length (may be 0 N/m)")
-    return rod.density * _area_and_inertia(rod, "with rod.density")[0] * gravity
+def _clearance_from(hole: schema.Hole) -> str:
+    return "as given" if hole.diameter is None else "half of hole.diameter less the rod's outer diameter"
 
 
-def _clearance(rod: schema.Rod, hole: schema.Hole) -> float:
+def _clearance(rod: PhysicalRod, hole: schema.Hole) -> float:
     if hole.clearance is not None:
         if hole.diameter is not None:
             raise InputError("hole.clearance", None, "contradicts hole.diameter: give only one of the two")

@@ -1,22 +1,25 @@
-"""From units B = L = 1 to SI and back, for one rod."""
+"""From units B = L = 1 to SI and back, for one rod, and on to the units in which results are shown."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from rodwell.analysis.nomenclature import POWERS, QUANTITIES, SI_UNITS
+from rodwell.practice.units import SI, System
 
 
 @dataclass(frozen=True)
 class Scales:
     """Length L in m and bending stiffness B in N m² of the rod: they carry every unit.
 
-    ``radius`` is the rod's outer radius in m where it is known. The theory does not need it, pictures do.
+    ``radius`` is the rod's outer radius in m where it is known. The theory does not need it, pictures do. ``system``
+    says in which units summaries, reports and figures show results; data files stay in SI.
     """
 
     length: float
     stiffness: float
     radius: float | None = None
+    system: System = SI
 
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of ``dimension`` (see ``nomenclature.UNITS``)."""
@@ -27,3 +30,13 @@ class Scales:
         """SI factor and unit of a quantity of the nomenclature."""
         dimension = QUANTITIES[name].dimension
         return self.factor(dimension), SI_UNITS[dimension]
+
+    def text(self, value: float, dimension: str, digits: int = 4) -> str:
+        """A number in units B = L = 1 as text in the units of ``system``."""
+        return self.system.text(value * self.factor(dimension), dimension, digits)
+
+    def shown(self, value: float, error: float, dimension: str) -> dict[str, float | str]:
+        """A number in units B = L = 1 and its error in the units of ``system``, for JSON."""
+        unit, text = self.system.unit(dimension)
+        factor = self.factor(dimension) / unit
+        return {"value": value * factor, "error": error * factor, "unit": text}

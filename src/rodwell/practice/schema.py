@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from rodwell.errors import InputError
-from rodwell.practice.units import to_si
+from rodwell.practice.units import SYSTEMS, to_si
 from rodwell.problem import checked_ends
 
 
@@ -44,6 +44,8 @@ Density = Annotated[float, _quantity("density", above=0.0)]
 ForcePerLength = Annotated[float, _quantity("force per length", least=0.0)]
 Stiffness = Annotated[float, _quantity("bending stiffness", above=0.0)]
 Acceleration = Annotated[float, _quantity("acceleration", least=0.0)]
+Pressure = Annotated[float, _quantity("pressure", least=0.0)]
+FluidDensity = Annotated[float, _quantity("density", least=0.0)]
 Number = Annotated[float, BeforeValidator(_plain)]
 
 
@@ -55,6 +57,24 @@ def _ends(text: object) -> str:
 
 
 Ends = Annotated[str, BeforeValidator(_ends)]
+
+
+
+def _one_of(*allowed: str) -> BeforeValidator:
+    """Validator of text that must be one of a few words."""
+
+    def check(text: object) -> object:
+        if text not in allowed:
+            raise ValueError("must be " + " or ".join(f'"{word}"' for word in allowed))
+        return text
+
+    return BeforeValidator(check)
+
+
+Name = Annotated[str, Field(min_length=1, max_length=80)]
+End = Annotated[Literal["top", "bottom"], _one_of("top", "bottom")]
+ForceKind = Annotated[Literal["effective", "real"], _one_of("effective", "real")]
+Units = Annotated[Literal["si", "field", "mm"], _one_of(*SYSTEMS)]
 
 MOST_MODES = 12
 """Branches that one case may ask for."""
@@ -78,6 +98,10 @@ class Rod(Section):
     weight_per_length: ForcePerLength | None = None
     poisson: Number = 0.3
     ends: Ends = "clamped-clamped"
+    pipe: Name | None = None
+    material: Name | None = None
+    grade: Name | None = None
+    yield_strength: Stress | None = None
 
 
 class Hole(Section):
@@ -98,6 +122,27 @@ class Cylinder(Section):
     yield_strength: Stress
 
 
+class Mud(Section):
+    """[mud]: the fluids in and around the rod, whose weight and lift make its weight the buoyed one."""
+
+    density: FluidDensity | None = None
+    inside: FluidDensity | None = None
+    outside: FluidDensity | None = None
+
+
+class PressureAtEnd(Section):
+    """[pressure]: fluid pressures at the end s = 1, which make the force in the pipe wall the effective one."""
+
+    inside: Pressure = 0.0
+    outside: Pressure = 0.0
+
+
+class CatalogueFiles(Section):
+    """[catalogue]: the user's own pipes, materials and grades."""
+
+    files: list[str]
+
+
 class Dimensionless(Section):
     """[dimensionless]: instead of [rod] and [hole]."""
 
@@ -109,10 +154,12 @@ class Dimensionless(Section):
 
 
 class Load(Section):
-    """[load]: what is applied at the end s = 1 (in physical units)."""
+    """[load]: what is applied at the ends (in physical units)."""
 
     until: Force | None = None
     twist: Moment = 0.0
+    at: End | None = None
+    kind: ForceKind | None = None
 
 
 class DimensionlessLoad(Section):
@@ -120,6 +167,7 @@ class DimensionlessLoad(Section):
 
     until: Number | None = None
     twist: Number = 0.0
+    at: End | None = None
 
 
 class Analysis(Section):
@@ -139,3 +187,57 @@ class CaseFile(Section):
     dimensionless: Dimensionless | None = None
     load: dict[str, Any] = Field(default_factory=dict)
     analysis: Analysis = Analysis()
+    mud: Mud | None = None
+    pressure: PressureAtEnd | None = None
+    catalogue: CatalogueFiles | None = None
+    units: Units | None = None
+
+
+class Entry(Section):
+    """An entry of a catalogue."""
+
+    name: Name
+    source: str = Field(min_length=1)
+    note: str = ""
+
+
+class Pipe(Entry):
+    """[[pipe]]: diameters (inner, or wall; solid without), and what else is known of it."""
+
+    kind: str = "pipe"
+    outer_diameter: Length
+    inner_diameter: Length | None = None
+    wall: Length | None = None
+    weight_per_length: ForcePerLength | None = None
+    plain_end_weight: ForcePerLength | None = None
+    bending_stiffness: Stiffness | None = None
+    material: str | None = None
+
+    @model_validator(mode="after")
+    def _bore(self) -> Pipe:
+        if self.wall is not None and self.inner_diameter is not None:
+            raise ValueError("has both inner_diameter and wall: give only one of the two")
+        if self.bore is not None and not 0.0 < self.bore < self.outer_diameter:
+            raise ValueError("must have a bore below its outer diameter: check inner_diameter or wall")
+        return self
+
+    @property
+    def bore(self) -> float | None:
+        """Inner diameter in m; None where the catalogue has none."""
+        return self.inner_diameter if self.wall is None else self.outer_diameter - 2.0 * self.wall
+
+
+class Material(Entry):
+    """[[material]]: what follows from a material's name."""
+
+    youngs_modulus: Stress
+    density: Density
+    poisson: Number = 0.3
+    aliases: tuple[str, ...] = ()
+
+
+class Grade(Entry):
+    """[[grade]]: strength, and the material that has it."""
+
+    yield_strength: Stress
+    material: str | None = None

@@ -70,7 +70,7 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
             continue
         clean[section] = dict(values)
         for key, text in values.items():
-            parts = _PLUS_MINUS.fullmatch(text) if isinstance(text, str) else None
+            parts = _PLUS_MINUS.fullmatch(text.replace("−", "-")) if isinstance(text, str) else None
             if parts is None:
                 continue
             nominal, found[section, key] = _moved(f"{section}.{key}", text, parts[1], parts[2])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -13,6 +14,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "force": ("N", '"-20 kN", "-5000 lbf"'),
     "moment": ("N*m", '"1.2 kN m", "800 ft lbf"'),
     "stress": ("Pa", '"200 GPa", "30e6 psi"'),
+    "pressure": ("Pa", '"20 MPa", "3000 psi"'),
     "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal"'),
     "force per length": ("N/m", '"315 N/m", "19.5 lbf/ft"'),
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
@@ -27,7 +29,7 @@ LONGEST_TEXT = 60
 
 _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:nan|inf(?:inity)?))"  # the number
-    r"((?:\s*[*/]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
+    r"((?:\s*[*/·]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
     re.IGNORECASE,
 )
 
@@ -100,11 +102,11 @@ def in_unit_of(number: float, unit: str, other: str) -> float:
 
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
-    found = _QUANTITY.fullmatch(text) if len(text) <= LONGEST_TEXT else None
+    found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
     if found is None:
         comma = "a decimal point, not a comma, " if "," in text else ""
         raise ValueError(f"is not a number with a unit; write {comma}for example {examples}")
-    return float(found[1]), found[2].strip()
+    return float(found[1]), found[2].strip().replace("·", "*")
 
 
 def _hint(quantity: Any, kind: str) -> str:
@@ -132,3 +134,75 @@ def prefix_for(value: float) -> tuple[float, str]:
         if size >= scale * (1.0 - 1e-9):
             return scale, prefix
     return _PREFIXES[-1] if size > 0.0 else (1.0, "")
+
+
+LBF, FOOT, INCH, GALLON = 4.4482216152605, 0.3048, 0.0254, 231.0 * 0.0254**3
+"""Units of the field in SI, exact by definition: pound-force, foot, inch, US gallon."""
+
+POUND = 0.45359237
+
+_PREFIXED = ("N", "N/m", "N m", "J", "Pa", "m")
+
+_UNITS: dict[str, dict[str, tuple[tuple[str, float], ...]]] = {
+    "si": {
+        "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("m", 1.0),), "curvature": (("1/m", 1.0),),
+        "force": (("N", 1.0),), "force_per_length": (("N/m", 1.0),), "moment": (("N m", 1.0),),
+        "energy": (("J", 1.0),), "stress": (("Pa", 1.0),), "density": (("kg/m³", 1.0),),
+        "stiffness": (("N m²", 1.0),),
+    },
+    "field": {
+        "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("ft", FOOT), ("in", INCH)),
+        "curvature": (("1/ft", 1.0 / FOOT),), "force": (("lbf", LBF),), "force_per_length": (("lbf/ft", LBF / FOOT),),
+        "moment": (("ft·lbf", LBF * FOOT),), "energy": (("ft·lbf", LBF * FOOT),), "stress": (("psi", LBF / INCH**2),),
+        "density": (("lb/gal", POUND / GALLON),), "stiffness": (("lbf·in²", LBF * INCH**2),),
+    },
+    "mm": {
+        "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("mm", 1e-3),), "curvature": (("1/mm", 1e3),),
+        "force": (("N", 1.0),), "force_per_length": (("N/mm", 1e3),), "moment": (("N·mm", 1e-3),),
+        "energy": (("N·mm", 1e-3),), "stress": (("MPa", 1e6),), "density": (("kg/m³", 1.0),),
+        "stiffness": (("N·mm²", 1e-6),),
+    },
+}  # fmt: skip
+"""Units by system and dimension: text and SI value. The first is that of tables; a second is for small values."""
+
+SYSTEMS = tuple(_UNITS)
+"""Systems of units in which results can be had."""
+
+SMALL = 3.0
+"""Below this many of the first unit, the second is used: a rod has feet, its clearance inches."""
+
+
+@dataclass(frozen=True)
+class System:
+    """Units in which results are shown: "si" (with prefixes), "field" (lbf, ft, in, psi) or "mm" (N, mm, MPa)."""
+
+    name: str = "si"
+
+    def unit(self, dimension: str, size: float | None = None) -> tuple[float, str]:
+        """Return SI value and text of the unit for a dimension of the nomenclature.
+
+        ``size`` in SI units says for which numbers: the unit then suits them. Without it, the unit is that of tables.
+        """
+        text, value = _UNITS[self.name][dimension][0]
+        if size is None:
+            return value, text
+        if self.name == "si":
+            scale, prefix = prefix_for(size) if text in _PREFIXED else (1.0, "")
+            return scale, prefix + text
+        if abs(size) < SMALL * value:
+            text, value = _UNITS[self.name][dimension][-1]
+        return value, text
+
+    def text(self, value: float, dimension: str, digits: int = 4) -> str:
+        """Return an SI ``value`` as text in the unit that suits it: "−12.35 kN", "−2776 lbf"."""
+        if self.name == "si" and (text := _UNITS["si"][dimension][0][0]) in _PREFIXED:
+            return readable(value, text, digits)
+        unit, text = self.unit(dimension, value)
+        number = value / unit
+        if math.isfinite(number):
+            number = float(f"{number:.{digits}g}")
+        shown = f"{number:.{max(digits, 12)}g}"
+        return f"{shown} {text if text != '1' else ''}".rstrip().replace("-", "−")
+
+
+SI = System()
