@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.options import print_json, progress_bar
+from rodwell.cli.options import print_json, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.practice.audit import Audit, Comparison, Other, Row
@@ -31,6 +31,7 @@ SHORT = {
 @click.option("--build", type=float, help="Degrees that the hole builds over the rod's length, for curved holes.")
 @click.option("--turn", type=float, help="Degrees that the hole turns sideways over the rod's length.")
 @click.option("--chart/--no-chart", default=True, show_default=True, help="Draw the error over weight and inclination.")
+@units_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the tables.")
 def audit(
     case: Path,
@@ -39,6 +40,7 @@ def audit(
     build: float | None,
     turn: float | None,
     chart: bool,
+    units: str | None,
     as_json: bool,
 ) -> None:
     """Hold the formulas of practice against the exact loads of CASE, a TOML file.
@@ -50,7 +52,7 @@ def audit(
     from rodwell.practice.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    read = Case.read(case)
+    read = Case.read(case).in_units(units)
     folder = Path("results") / f"{case.stem}-audit" if out is None else out
     check_writable(folder)
     angles = {"build": build, "turn": turn}
@@ -158,11 +160,9 @@ def _percent(side: Comparison | None, bold: bool) -> str:
 
 
 def _force(audit: Audit, value: float, digits: int = 5) -> str:
-    """A force in SI for a physical case, else in B/L²."""
-    from rodwell.practice.units import readable  # noqa: PLC0415
-
+    """A force in the case's units for a case with dimensions, else in B/L²."""
     if audit.scales is not None:
-        return readable(value * audit.factor((1, 0)), "N", digits)
+        return audit.scales.text(value, "force", digits)
     return f"{value:.{digits}g}".replace("-", "−")
 
 
@@ -194,15 +194,17 @@ def _print_others(console: Any, audit: Audit) -> None:
 
 
 def _other_value(audit: Audit, other: Other) -> tuple[str, str]:
+    from rodwell.practice.formulas.record import NOMENCLATURE  # noqa: PLC0415
+
     assert other.value is not None
     dimension = other.formula.dimension
-    units = ("B", "L") if audit.scales is None else ("N", "m")
-    if audit.scales is None:
-        powers = {units[0]: dimension[0], units[1]: dimension[1] - 2 * dimension[0]}
-    else:
-        powers = {units[0]: dimension[0], units[1]: dimension[1]}
+    if audit.scales is not None:
+        size, unit = audit.scales.system.unit(NOMENCLATURE[dimension])
+        value = other.value * audit.factor(dimension) / size
+        return f"{value:.5g}".replace("-", "−"), "" if unit == "1" else unit
+    powers = {"B": dimension[0], "L": dimension[1] - 2 * dimension[0]}
     unit = " ".join(f"{name}{_power(power)}" for name, power in powers.items() if power)
-    return f"{other.value * audit.factor(dimension):.5g}".replace("-", "−"), unit
+    return f"{other.value:.5g}".replace("-", "−"), unit
 
 
 def _power(power: int) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import progress_bar
+from rodwell.cli.options import progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.analysis.solution import Solution
@@ -36,6 +36,7 @@ LIFT_OFF = "lift-off"
     help="Enlargement across the axis.  [default: 1 in .stl, .vtu, .csv; readable in the others]",
 )  # fmt: skip
 @click.option("--places", type=int, help="Places along the rod.  [default: 401 or more]")
+@units_option
 @click.option("--sides", type=int, default=24, show_default=True, help="Sides of the rod's cross-section.")
 def export(
     case: Path,
@@ -47,10 +48,12 @@ def export(
     radial_scale: float | None,
     places: int | None,
     sides: int,
+    units: str | None,
 ) -> None:
     """Write one state of CASE, a TOML file, in space: scene, surface, fields or centreline.
 
-    Lengths are in metres and forces in newtons where the case has dimensions, otherwise in units B = L = 1.
+    Lengths are in metres and forces in newtons where the case has dimensions, otherwise in units B = L = 1; --units is
+    for what is printed and drawn.
     """
     from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.practice.case import Case  # noqa: PLC0415
@@ -58,7 +61,7 @@ def export(
     from rodwell.report.export import export as write  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    read = Case.read(case)
+    read = Case.read(case).in_units(units)
     force = None if at == LIFT_OFF else _force(at, read)
     checked_files(files, "--to")
     for file in files:
@@ -119,8 +122,6 @@ def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution
 
 
 def _text(state: Solution, case: Case) -> str:
-    from rodwell.practice.units import readable  # noqa: PLC0415
-
-    physical = "" if case.scales is None else f" ({readable(state.force * case.scales.factor('force'), 'N', 6)})"
+    physical = "" if case.scales is None else f" ({case.scales.text(state.force, 'force', 6)})"
     index = "stable" if state.stable else f"stability index {state.stability_index}"
     return f"End force at s = 1: {state.force:.10g} B/L²{physical}, tension positive; {index}".replace(" -", " −")

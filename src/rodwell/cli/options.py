@@ -59,6 +59,12 @@ rtol_option = click.option("--rtol", default=1e-8, show_default=True, help="Rela
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 
 
+units_option = click.option(
+    "--units", type=click.Choice(["si", "field", "mm"]),
+    help="Units of summary, report and figures: SI; lbf, ft, in, psi; N, mm, MPa.  [default: the case's, or si]",
+)  # fmt: skip
+
+
 def make_problem(given: dict[str, Any]) -> Problem:
     """Return the problem that the options describe; what is not given keeps its default."""
     from rodwell.problem import Problem  # noqa: PLC0415

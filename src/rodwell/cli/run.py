@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import progress_bar
+from rodwell.cli.options import progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.practice.answer import Answer
@@ -21,14 +21,15 @@ if TYPE_CHECKING:
     type=click.Path(path_type=Path),
     help="Folder for the results.  [default: results/NAME-OF-THE-CASE]",
 )
+@units_option
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
-def run(case: Path, out: Path | None, as_json: bool, quiet: bool) -> None:
+def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: bool) -> None:
     """Compute CASE, a TOML file, and write report, figures and data."""
     from rodwell.practice.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    read = Case.read(case)
+    read = Case.read(case).in_units(units)
     folder = Path("results") / case.stem if out is None else out
     check_writable(folder)
 
@@ -64,12 +65,14 @@ def _summary(answer: Answer, folder: Path) -> None:
     problem = answer.case.problem
     console.print(
         f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
-        f"{ends_text(problem)}   forces at s = 1, tension positive"
+        f"{ends_text(problem)}   forces at s = 1, tension positive{', effective' if answer.case.with_fluids else ''}"
     )
+    scales = answer.case.scales
+    if scales is not None:
+        console.print(escape("; ".join(filter(None, (fact.short(scales.system) for fact in answer.case.facts)))))
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
-    physical = answer.case.scales is not None
-    if physical:
+    if scales is not None:
         table.add_column("physical", justify="right")
     table.add_column("B = L = 1", justify="right")
     table.add_column("± error", justify="right")
@@ -77,7 +80,7 @@ def _summary(answer: Answer, folder: Path) -> None:
     for row in rows(answer):
         cells = [
             row["label"],
-            *([row["physical"]] if physical else []),
+            *([row["physical"]] if scales is not None else []),
             row["plain"],
             row["error"],
             row["note"],

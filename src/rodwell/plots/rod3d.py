@@ -20,7 +20,6 @@ from rodwell.plots.style import RC, minus
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 from rodwell.practice.scene import NO_PULL, WALL, drawn, limits, palette, scene
-from rodwell.practice.units import readable
 
 ELEVATION, AZIMUTH = 20.0, -66.0
 LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])
@@ -136,11 +135,11 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
 
 def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     factor, unit = axis("force", scales, solution.force)
-    length = "" if scales is None else f", length {readable(scales.length, 'm')}"
+    length = "" if scales is None else f", length {scales.text(1.0, 'length')}"
     scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
     radius = f"{rod.rod_radius / rod.clearance:.3g} Δ"
     if scales is not None:
-        radius = readable(rod.rod_radius * scales.length, "m")
+        radius = scales.text(rod.rod_radius, "length")
     marks = "; red rings: lift-off" if rod.lift_off else ""
     load = minus(f"F = {solution.force * factor:.4g} {unit}")
     drawn_as = f"rod radius drawn {radius}; thin lines: material lines{marks}"

@@ -6,7 +6,6 @@ import numpy as np
 
 from rodwell.analysis.nomenclature import QUANTITIES, UNITS
 from rodwell.practice.scales import Scales
-from rodwell.practice.units import prefix_for
 
 _PRETTY = {"B/L^2": "B/L²", "B/L^3": "B/L³", "1/L": "1/L", "B/L": "B/L", "L": "L", "rad": "rad", "1": ""}
 
@@ -15,7 +14,7 @@ def axis(name: str, scales: Scales | None, largest: float) -> tuple[float, str]:
     """Return the factor from units B = L = 1 and the unit's text for an axis on which ``largest`` is the largest."""
     if scales is None:
         return 1.0, _PRETTY[UNITS[QUANTITIES[name].dimension]]
-    factor, unit = scales.of(name)
-    size = float(np.abs(largest)) * factor
-    scale, prefix = prefix_for(size) if unit not in ("1", "rad", "1/m") else (1.0, "")
-    return factor / scale, f"{prefix}{unit}".replace("N m", "N·m")
+    dimension = QUANTITIES[name].dimension
+    factor = scales.factor(dimension)
+    unit, text = scales.system.unit(dimension, float(np.abs(largest)) * factor)
+    return factor / unit, text.replace("N m", "N·m")

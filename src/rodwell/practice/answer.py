@@ -18,7 +18,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
-from rodwell.practice.figures import Figure, critical_figure, force_scale, state_figures, stress_figure
+from rodwell.practice.figures import Figure, critical_figure, critical_length, force_scale, state_figures, stress_figure
 from rodwell.practice.uncertainty import Spread, spread_of_load
 from rodwell.problem import ends_text
 
@@ -100,7 +100,7 @@ class Answer:
     @cached_property
     def figures(self) -> dict[str, Figure]:
         """The key figures by name."""
-        out = [critical_figure(mode) for mode in self.critical]
+        out = [critical_figure(mode) for mode in self.critical] + critical_length(self.case.problem)
         lift = self.lift_off
         if lift is not None:
             note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
@@ -125,7 +125,10 @@ class Answer:
         return {
             "title": case.title,
             "rodwell_version": __version__,
-            "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; " + ends_text(problem),
+            "conventions": "units B = L = 1 unless si, field or mm; end force at s = 1, tension positive"
+            + (", effective" if case.with_fluids else "")
+            + "; "
+            + ends_text(problem),
             "problem": {
                 "weight": problem.weight,
                 "alpha": problem.alpha,
@@ -144,6 +147,8 @@ class Answer:
                 "s": list(lift.s),
                 "coincides_with_buckling": self.first.lift_off_at_buckling,
             },
+            "conversions": [fact.as_dict() for fact in case.facts],
+            "yield_strength_Pa": case.yield_strength,
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
             "sensitivities": [load.as_dict() | _spread(spread) for load, spread in self._loads],
@@ -236,7 +241,8 @@ def _check_reached(case: Case, branch: Branch, until: float) -> None:
         return
     unit, factor = "B/L²", 1.0
     if case.scales is not None:
-        unit, factor = "N", case.scales.factor("force")
+        size, unit = case.scales.system.unit("force")
+        factor = case.scales.factor("force") / size
     raise NotConvergedError(
         f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
         f"{branch.reach[0] * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "

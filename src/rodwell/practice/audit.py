@@ -9,7 +9,6 @@ from typing import Any
 
 from rodwell.analysis.accuracy import RTOL
 from rodwell.errors import InputError, checked_number
-from rodwell.practice import schema
 from rodwell.practice.case import Case
 from rodwell.practice.exact_loads import PLACES, Load, exact_loads
 from rodwell.practice.formulas import FORMULAS, Formula, Rod
@@ -172,7 +171,7 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
-    known = {"build": 0.0, "turn": 0.0} | _extra(extra or {}) | _section(case)
+    known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra or {})
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = rod_of(problem, tuple(known.items()))
     order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
@@ -194,16 +193,15 @@ def _extra(extra: Mapping[str, float]) -> dict[str, float]:
 
 
 def _section(case: Case | Problem) -> dict[str, float]:
-    """Outer diameter, area and second moment of area in units of L, if the case gives the diameters."""
-    if not isinstance(case, Case) or case.scales is None:
+    """Outer diameter, area, second moment of area and yield stress in units B = L = 1: what the case gives."""
+    if not isinstance(case, Case) or case.scales is None or case.rod is None:
         return {}
-    rod = schema.Rod.model_validate(case.given["rod"])
-    if rod.outer_diameter is None:
-        return {}
-    outer = rod.outer_diameter / case.scales.length
-    inner = (rod.inner_diameter or 0.0) / case.scales.length
-    area, inertia = math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
-    return {"D": outer, "A": area, "I": inertia}
+    rod, length, out = case.rod, case.scales.length, {}
+    if rod.outer_diameter is not None:
+        out = {"D": rod.outer_diameter / length, "A": rod.area / length**2, "I": rod.inertia / length**4}
+    if rod.yield_strength is not None:
+        out["sigma_y"] = rod.yield_strength / case.scales.factor("stress")
+    return out
 
 
 def _value(formula: Formula, rod: Rod, missing: tuple[str, ...]) -> float | None:

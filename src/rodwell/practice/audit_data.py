@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from rodwell._version import __version__
 from rodwell.practice.exact_loads import PLACES
 from rodwell.practice.formulas import LEFT_OUT
-from rodwell.practice.formulas.record import NAMES
+from rodwell.practice.formulas.record import NAMES, NOMENCLATURE
+from rodwell.practice.units import SI
 from rodwell.problem import ends_text
 
 if TYPE_CHECKING:
@@ -23,8 +24,9 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
     return {
         "title": audit.title,
         "rodwell_version": __version__,
-        "conventions": "units B = L = 1 unless si; compression positive in formulas and at top (s = 1), middle, bottom "
-        f"(s = 0); force: end force at s = 1, tension positive; percent: formula/exact − 1; {ends_text(problem)}",
+        "conventions": "units B = L = 1 unless si, field or mm; compression positive in formulas and at top (s = 1), "
+        f"middle, bottom (s = 0); force: end force at s = 1, tension positive; percent: formula/exact − 1; "
+        f"{ends_text(problem)}",
         "problem": {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "ends": list(problem.ends), "on_top": problem.on_top, "outside": problem.outside,
@@ -48,7 +50,12 @@ def _si(audit: Audit, dimension: tuple[int, int], numbers: dict[str, float]) -> 
     if audit.scales is None:
         return {}
     factor = audit.factor(dimension)
-    return {"si": {name: value * factor for name, value in numbers.items()}}
+    out: dict[str, Any] = {"si": {name: value * factor for name, value in numbers.items()}}
+    system = audit.scales.system
+    if system != SI:
+        unit, text = system.unit(NOMENCLATURE[dimension])
+        out[system.name] = {name: value * factor / unit for name, value in numbers.items()} | {"unit": text}
+    return out
 
 
 def _formula(formula: Formula) -> dict[str, Any]:

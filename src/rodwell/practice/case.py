@@ -19,13 +19,14 @@ from rodwell.practice.capacity import Cylinder, cylinder_of
 from rodwell.practice.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.practice.explain import SECTIONS, explain
 from rodwell.practice.facts import Fact
-from rodwell.practice.fluids import Fluids
+from rodwell.practice.fluids import NO_FLUIDS, Fluids
 from rodwell.practice.physical import check_force_words, physical
 from rodwell.practice.scales import Scales
 from rodwell.practice.strings import PhysicalRod
 from rodwell.practice.uncertainty import Moved, UncertainInput, split
 from rodwell.practice.units import SYSTEMS, System
 from rodwell.problem import Problem, checked_ends
+
 __all__ = ["SECTIONS", "Case", "CaseError"]
 
 
@@ -88,13 +89,18 @@ class Case:
     cylinder: Cylinder | None = None
     uncertain: tuple[UncertainInput, ...] = ()
     rod: PhysicalRod | None = None
-    fluids: Fluids = Fluids()
+    fluids: Fluids = NO_FLUIDS
     facts: tuple[Fact, ...] = ()
 
     @property
     def yield_strength(self) -> float | None:
         """Yield strength of the rod in Pa, None where it is not given."""
         return None if self.rod is None else self.rod.yield_strength
+
+    @property
+    def with_fluids(self) -> bool:
+        """Whether mud or pressures make effective forces differ from real ones."""
+        return self.fluids != NO_FLUIDS
 
     def in_units(self, name: str | None) -> Case:
         """Return this case with results shown in "si", "field" or "mm" units; None leaves it as it is.
@@ -216,9 +222,7 @@ def _catalogue(parsed: schema.CaseFile, folder: Path) -> Catalogue:
     return package_catalogue() if parsed.catalogue is None else read_catalogue(parsed.catalogue.files, folder)
 
 
-def _assemble(
-    parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue
-) -> Case:
+def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
     with_dimensions = parsed.rod is not None or parsed.hole is not None
     if with_dimensions and parsed.dimensionless is not None:
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
@@ -284,9 +288,7 @@ def _named(field: str, compute: Any) -> Any:
         raise InputError(field, problem.value, problem.problem) from None
 
 
-def _dimensionless(
-    given: schema.Dimensionless | None, load: schema.DimensionlessLoad
-) -> tuple[Problem, float | None]:
+def _dimensionless(given: schema.Dimensionless | None, load: schema.DimensionlessLoad) -> tuple[Problem, float | None]:
     """Problem, and end force at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
     try:

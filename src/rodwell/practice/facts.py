@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
-from rodwell.practice.units import System
+from rodwell.practice.units import SI, System
 
 
 @dataclass(frozen=True)
@@ -20,3 +21,12 @@ class Fact:
         """Value in the units of ``system`` and note."""
         value = self.value if isinstance(self.value, str) else system.text(self.value, self.dimension, 6)
         return f"{value} ({self.note})" if self.note else value
+
+    def short(self, system: System) -> str:
+        """Label and number for a summary; nothing for text."""
+        return "" if isinstance(self.value, str) else f"{self.label} {system.text(self.value, self.dimension)}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything about it, for JSON: value in SI."""
+        unit = {} if isinstance(self.value, str) else {"unit": SI.unit(self.dimension)[1]}
+        return {"label": self.label, "value": self.value, **unit, "note": self.note}

@@ -13,6 +13,8 @@ from rodwell.analysis.wall import Peak
 from rodwell.practice.capacity import Cylinder, cylinder_stress
 from rodwell.practice.case import Case
 from rodwell.practice.scales import Scales
+from rodwell.practice.units import SI
+from rodwell.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,10 @@ class Figure:
         factor = case.scales.factor(self.dimension)
         return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
 
+    def text(self, case: Case, digits: int = 6) -> str:
+        """Value in the case's units, or nothing for a case without dimensions."""
+        return "" if case.scales is None else case.scales.text(self.value, self.dimension, digits)
+
     def as_dict(self, case: Case) -> dict[str, Any]:
         """Everything about the number, for JSON."""
         out: dict[str, Any] = {
@@ -45,6 +51,8 @@ class Figure:
         physical = self.physical(case)
         if physical is not None:
             out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
+        if case.scales is not None and case.scales.system != SI:
+            out[case.scales.system.name] = case.scales.shown(self.value, self.error, self.dimension)
         if self.note:
             out["note"] = self.note
         return out
@@ -56,6 +64,31 @@ def critical_figure(mode: Mode) -> Figure:
     label = f"Critical load of mode {mode.number}, end force at s = 1"
     scale = force_scale(mode.force) + mode.problem.axial_weight
     return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
+
+
+STANDING = {
+    ("clamped", "clamped"): 74.628569,
+    ("clamped", "guided"): 18.956266,
+    ("clamped", "free"): 7.837347,
+}
+"""γ at which a vertical rod buckles under its own weight, F = 0 at s = 1, by its ends; the last digit is rounded.
+
+Clamped at both ends: paper, section 4.2. Clamped and guided, and clamped and free (Greenhill 1881): 9/4 of the squares
+of the first zeros of the Bessel functions J of order 1/3 and −1/3.
+"""
+
+ROUNDED = 5e-7
+
+
+def critical_length(problem: Problem) -> list[Figure]:
+    """Length at which a vertical rod of this stiffness and weight just stands without end force, if it is known."""
+    number = STANDING.get(problem.ends)
+    if number is None or problem.axial_weight != problem.weight or problem.weight == 0.0:
+        return []
+    value = (number / problem.weight) ** (1.0 / 3.0)
+    note = f"L_cr = ({number:g} B/mg)^⅓: a longer rod buckles under its own weight, F = 0 at s = 1"
+    label = "Critical length under self-weight, vertical"
+    return [Figure("critical_length", label, value, value * ROUNDED / number / 3.0, "length", value, note)]
 
 
 def force_scale(force: float) -> float:

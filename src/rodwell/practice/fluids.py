@@ -29,8 +29,8 @@ class Fluids:
         """Weight per length in the fluids in N/m.
 
         Where the density of the material is known, what the rod displaces outside is its bore and its material,
-        Aᵢ + w_air/(ρ g): that of tool joints counts, and the same mud on both sides gives w_air (1 − ρ_mud/ρ). Elsewhere
-        it is the outer circle.
+        Aᵢ + w_air/(ρ g): that of tool joints counts, and the same mud on both sides gives w_air (1 − ρ_mud/ρ).
+        Elsewhere it is the outer circle.
         """
         displaced = rod.outer_area
         if rod.density is not None and gravity > 0.0:
@@ -42,6 +42,9 @@ class Fluids:
         inside = self.inside_pressure + self.inside * gravity * drop
         outside = self.outside_pressure + self.outside * gravity * drop
         return outside * rod.outer_area - inside * rod.bore_area
+
+
+NO_FLUIDS = Fluids()
 
 
 def fluids_of(mud: schema.Mud | None, pressure: schema.PressureAtEnd | None, rod: PhysicalRod) -> Fluids:
@@ -63,7 +66,7 @@ def fluids_of(mud: schema.Mud | None, pressure: schema.PressureAtEnd | None, rod
             raise InputError(f"{name}.inside", side.inside, what)
     densities = [mud.density if one is None else one for one in (mud.inside, mud.outside)]
     fluids = Fluids(densities[0] or 0.0, densities[1] or 0.0, pressure.inside, pressure.outside)
-    if fluids != Fluids() and rod.outer_diameter is None:
+    if fluids != NO_FLUIDS and rod.outer_diameter is None:
         reason = "with [mud]" if fluids.inside or fluids.outside else "with [pressure]"
         raise InputError("rod.outer_diameter", None, f"is missing: it is needed {reason}")
     return fluids
@@ -85,7 +88,7 @@ def checked_weight(fluids: Fluids, rod: PhysicalRod, gravity: float) -> float:
 
 def fluid_facts(fluids: Fluids, rod: PhysicalRod, gravity: float) -> list[Fact]:
     """What fluids do to weight and force."""
-    if fluids == Fluids():
+    if fluids == NO_FLUIDS:
         return [Fact("weight per length mg", rod.weight_in_air, "force_per_length", "no fluids given")]
     how = "w = w_air + ρᵢ g Aᵢ − ρₒ g Aₒ"
     if rod.density is not None:

@@ -6,7 +6,6 @@ import numpy as np
 
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
-from rodwell.practice.units import readable
 from rodwell.problem import ends_text
 
 ASSUMPTIONS = (
@@ -16,6 +15,11 @@ ASSUMPTIONS = (
     "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
 )
 
+EFFECTIVE = (
+    "forces are effective ones, N = N_real − pᵢ Aᵢ + pₒ Aₒ (tension positive), and the weight is the buoyed one: "
+    "fluids at rest"
+)
+"""What is assumed of mud and pressures."""
 
 SMALL_LOAD = 1.0
 """A load below this, in B/L², is near zero: percentages of it say nothing."""
@@ -30,7 +34,8 @@ ENDS_HOLD = {
 
 def assumptions(answer: Answer) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
-    return (ends_text(answer.case.problem, ENDS_HOLD), *ASSUMPTIONS)
+    fluids = (EFFECTIVE,) if answer.case.with_fluids else ()
+    return (ends_text(answer.case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
 
 
 def force_text(answer: Answer, value: float, error: float | None = None) -> str:
@@ -40,14 +45,14 @@ def force_text(answer: Answer, value: float, error: float | None = None) -> str:
         plain = f"{value:.10g} ± {error:.1e} B/L²".replace("-", "−")
     if answer.case.scales is None:
         return plain
-    return f"{readable(value * answer.case.scales.factor('force'), 'N')} ({plain})"
+    return f"{answer.case.scales.text(value, 'force')} ({plain})"
 
 
 def place_text(answer: Answer, s: float) -> str:
     """A place along the rod."""
     if answer.case.scales is None:
         return f"s/L = {s:.6g}"
-    return f"{s * answer.case.scales.length:.4g} m from the end s = 0 (s/L = {s:.6g})"
+    return f"{answer.case.scales.text(s, 'length')} from the end s = 0 (s/L = {s:.6g})"
 
 
 def sentences(answer: Answer) -> list[str]:
@@ -154,8 +159,8 @@ def _inputs(answer: Answer) -> str:
     text += f"{e['alpha']:+.2f} %."
     text = text.replace(" -", " −")
     if spread is not None:
-        unit = "B/L²" if answer.case.scales is None else "N"
-        size = f"{spread.total:.2g} {unit}" if unit != "N" else readable(spread.total, unit, 3)
+        scales = answer.case.scales
+        size = f"{spread.total:.2g} B/L²" if scales is None else scales.system.text(spread.total, "force", 3)
         text += f" The uncertainties given make it uncertain by ±{size}, most of it from {spread.largest}."
     return text
 
@@ -168,10 +173,9 @@ def _wall(answer: Answer) -> str:
 
     def text(name: str, unit: str) -> str:
         figure = figures[name]
-        physical = figure.physical(answer.case)
-        if physical is None or scales is None:
+        if scales is None:
             return f"{figure.value:.4g} {unit}".replace("-", "−")
-        return readable(physical[0], physical[2])
+        return figure.text(answer.case, 4)
 
     torque = figures["support_torque"]
     support = (
@@ -183,9 +187,7 @@ def _wall(answer: Answer) -> str:
     stress = ""
     if "cylinder_stress" in figures:
         figure = figures["cylinder_stress"]
-        physical = figure.physical(answer.case)
-        assert physical is not None
-        stress = f" Its equivalent stress is then {readable(physical[0], physical[2])}, {figure.note.split(',')[0]}."
+        stress = f" Its equivalent stress is then {figure.text(answer.case, 4)}, {figure.note.split(',')[0]}."
     return (
         f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
         f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "

@@ -18,7 +18,7 @@ from rodwell.problem import Problem, checked_ends
 
 @dataclass(frozen=True)
 class Physical:
-    """A case with dimensions: problem, scales, effective end force at s = 1 in B/L² (or None), and how it came about."""
+    """A case with dimensions: problem, scales, effective end force at s = 1 in B/L² (or None), and how."""
 
     problem: Problem
     scales: Scales
@@ -127,7 +127,9 @@ def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
     """Refuse words on load.until where it is not given."""
     for key in ("at", "kind"):
         if getattr(load, key, None) is not None:
-            raise InputError(f"load.{key}", getattr(load, key), "tells of load.until: give load.until too, or leave it out")
+            raise InputError(
+                f"load.{key}", getattr(load, key), "tells of load.until: give load.until too, or leave it out"
+            )
 
 
 def _clearance_from(hole: schema.Hole) -> str:

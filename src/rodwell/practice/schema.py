@@ -59,7 +59,6 @@ def _ends(text: object) -> str:
 Ends = Annotated[str, BeforeValidator(_ends)]
 
 
-
 def _one_of(*allowed: str) -> BeforeValidator:
     """Validator of text that must be one of a few words."""
 

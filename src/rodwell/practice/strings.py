@@ -127,13 +127,17 @@ def _material(rod: schema.Rod, pipe: schema.Pipe | None, catalogue: Catalogue) -
                 raise InputError(f"rod.{key}", getattr(rod, key), what)
         return catalogue.material(own, "rod.pipe")
     material = catalogue.material(rod.material)
-    if own is not None and key_of(own) not in map(key_of, (material.name, *material.aliases)):
+    if own is not None and not _is(material, own):
         what = f"contradicts rod.pipe, which is of {own}: leave it out, or give diameters instead of rod.pipe"
         raise InputError("rod.material", rod.material, what)
     for key in ("youngs_modulus", "density"):
         if getattr(rod, key) is not None:
             raise _only_one(f"rod.{key}", getattr(rod, key), "rod.material")
     return material
+
+
+def _is(material: schema.Material, name: str) -> bool:
+    return key_of(name) in map(key_of, (material.name, *material.aliases))
 
 
 def _stiffness(
@@ -146,7 +150,9 @@ def _stiffness(
             raise _only_one("rod.bending_stiffness", None, "rod.youngs_modulus")
         if pipe is not None and (pipe.material is not None or pipe.bending_stiffness is not None):
             raise InputError(
-                "rod.bending_stiffness", given, "contradicts rod.pipe, whose stiffness is in the catalogue: leave it out"
+                "rod.bending_stiffness",
+                given,
+                "contradicts rod.pipe, whose stiffness is in the catalogue: leave it out",
             )
         return given
     if pipe is not None and pipe.bending_stiffness is not None:
@@ -196,17 +202,14 @@ def _section(diameters: tuple[float | None, float], reason: str) -> tuple[float,
     return math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
 
 
-def _strength(
-    rod: schema.Rod, material: schema.Material | None, catalogue: Catalogue
-) -> tuple[float | None, str]:
+def _strength(rod: schema.Rod, material: schema.Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
     """Yield strength and where it is from."""
     if rod.grade is None:
         return rod.yield_strength, "as given"
     if rod.yield_strength is not None:
         raise _only_one("rod.yield_strength", rod.yield_strength, "rod.grade")
     grade = catalogue.grade(rod.grade)
-    if grade.material is not None and material is not None:
-        if key_of(grade.material) not in map(key_of, (material.name, *material.aliases)):
-            what = f"is a grade of {grade.material}, but the rod is of {material.name}: give the right grade, or "
-            raise InputError("rod.grade", rod.grade, what + "rod.yield_strength")
+    if grade.material is not None and material is not None and not _is(material, grade.material):
+        what = f"is a grade of {grade.material}, but the rod is of {material.name}: give the right grade, or "
+        raise InputError("rod.grade", rod.grade, what + "rod.yield_strength")
     return grade.yield_strength, f"{grade.name}: {_why(grade)}"

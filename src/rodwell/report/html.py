@@ -16,7 +16,6 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
-from rodwell.practice.units import readable
 from rodwell.report.viewer import viewer
 
 TEMPLATE = Path(__file__).with_name("report.html.j2")
@@ -39,11 +38,10 @@ def rows(answer: Answer) -> list[dict[str, str]]:
     """The table of key figures."""
     out = []
     for figure in answer.figures.values():
-        physical = figure.physical(answer.case)
         out.append(
             {
                 "label": figure.label,
-                "physical": "" if physical is None else readable(physical[0], physical[2], 6),
+                "physical": figure.text(answer.case),
                 "plain": f"{number(figure.value, figure.error)} {_unit(figure)}",
                 "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
                 "note": figure.note,
@@ -76,12 +74,13 @@ def derived(case: Case) -> list[tuple[str, str]]:
         ("end twisting moment T₁", f"{p.twist:g} B/L"),
     ]
     if case.scales is not None:
-        b, length = case.scales.stiffness, case.scales.length
+        scales = case.scales
         out += [
-            ("length L", f"{length:g} m"),
-            ("bending stiffness B", f"{b:.6g} N m²"),
-            ("unit of force B/L²", readable(case.scales.factor("force"), "N", 6)),
+            ("length L", scales.text(1.0, "length", 6)),
+            ("bending stiffness B", scales.system.text(scales.stiffness, "stiffness", 6)),
+            ("unit of force B/L²", scales.text(1.0, "force", 6)),
         ]
+        out += [(fact.label, fact.text(scales.system)) for fact in case.facts]
     return out
 
 
@@ -147,8 +146,9 @@ def _sensitivities(answer: Answer) -> list[dict[str, Any]]:
         cells = [f"{e[name][0]:+.3f} %".replace("-", "−") if e else "" for name in names]
         size = ""
         if spread is not None:
-            plain = answer.case.scales is None
-            size = f"±{spread.total:.2g} B/L²" if plain else f"±{readable(spread.total, 'N', 3)}"
+            scales = answer.case.scales
+            plain = f"{spread.total:.2g} B/L²"
+            size = "±" + (plain if scales is None else scales.system.text(spread.total, "force", 3))
         out.append({"name": load.name, "cells": cells, "spread": size})
     return out
 
@@ -193,7 +193,7 @@ def _special(answer: Answer) -> list[dict[str, Any]]:
                 {
                     "mode": branch.mode.number,
                     "kind": _KINDS[point.kind],
-                    "physical": "" if scales is None else readable(point.force * scales.factor("force"), "N", 6),
+                    "physical": "" if scales is None else scales.text(point.force, "force", 6),
                     "plain": number(point.force, point.error),
                     "error": "" if point.kind == "end" else f"{point.error:.0e}".replace("-", "−"),
                     "index": f"{point.index_before} → {point.index_after}"

@@ -22,7 +22,6 @@ from rodwell.numerics.spaces import FloatArray
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
-from rodwell.practice.units import readable
 
 HERE = Path(__file__).parent
 PLACES, SIDES = (321, 801), 16
@@ -86,9 +85,7 @@ def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     factor, unit = axis("force", scales, solution.force)
     load = f"F = {solution.force * factor:.4g} {unit}".replace("-", "−")
     scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
-    radius = (
-        f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else readable(rod.rod_radius * scales.length, "m")
-    )
+    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else scales.text(rod.rod_radius, "length")
     marks = " Red rings: places of lift-off." if rod.lift_off else ""
     return (
         f"{load} at s = 1 (tension positive); {scale}; rod radius drawn {radius}. Thin lines are material "

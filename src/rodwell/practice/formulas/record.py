@@ -59,6 +59,10 @@ SYMBOLS: dict[str, tuple[int, int, str]] = {
 NAMES = {(1, 0): "force", (1, -1): "force per length", (0, 1): "length", (0, -1): "1/length", (1, 1): "moment",
          (1, -2): "stress", (0, 0): "number", (1, 2): "bending stiffness"}  # fmt: skip
 
+NOMENCLATURE = {(1, 0): "force", (1, -1): "force_per_length", (0, 1): "length", (0, -1): "curvature", (1, 1): "moment",
+                (1, -2): "stress", (0, 0): "1", (1, 2): "stiffness"}  # fmt: skip
+"""The dimensions as the nomenclature and the units of output know them."""
+
 
 @dataclass(frozen=True)
 class Rod:
