@@ -13,6 +13,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.plots.style import GREY, MODES, SIZE, minus, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
+from rodwell.practice.units import plain
 
 PLACES = 601
 
@@ -31,7 +32,7 @@ def plot_cylinder_moments(state: Solution, scales: Scales | None = None, ax: Any
     ax.set_xlim(0.0, float(f["z"][-1]) * fz)
     ax.set_xlabel(f"distance along the cylinder from s = 0  [{uz}]")
     ax.set_ylabel(f"moment in the cylinder  [{um}]")
-    title = minus(f"F = {state.force * ff:.4g} {uf} at s = 1\n(tension positive)")
+    title = minus(f"F = {plain(state.force * ff, 4)} {uf} at s = 1\n(tension positive)")
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title=title)
     return ax
 
@@ -50,7 +51,7 @@ def plot_shapes(states: Branch | Sequence[Solution], scales: Scales | None = Non
         factor, unit = axis(name, scales, max(float(np.max(np.abs(f[name]))) for f in fields))
         for i, (f, color, state) in enumerate(zip(fields, colors, chosen, strict=True)):
             thick = i in (0, len(chosen) - 1)
-            text = minus(f"{state.force * ff:.5g} {uf}")
+            text = minus(f"{plain(state.force * ff, 5)} {uf}")
             ax.plot(s * fs, f[name] * factor, color=color, lw=2.6 if thick else 1.1, label=text)
         ax.axhline(0.0, color=GREY, lw=0.8)
         ax.set_ylabel(f"{label}  [{unit}]")

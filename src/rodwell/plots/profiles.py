@@ -14,6 +14,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, minus, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
+from rodwell.practice.units import plain
 
 SHOWN = 5
 """States between buckling and lift-off of which the contact pressure is drawn."""
@@ -29,7 +30,7 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
     for mode in critical[:most]:
         ax.plot(
             s * fs, mode.shape(s), color=MODES[mode.number - 1], lw=2.2 if mode.number == 1 else 1.3,
-            label=minus(f"mode {mode.number}: F = {mode.force * ff:.4g} {uf}"),
+            label=minus(f"mode {mode.number}: F = {plain(mode.force * ff, 4)} {uf}"),
         )  # fmt: skip
     ax.axhline(0.0, color=INK, lw=0.8)
     ax.set_xlim(0.0, fs)
@@ -64,7 +65,7 @@ def plot_contact_pressure(
     fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
-        label = minus(f"F = {state.force * ff:.4g} {uf}")
+        label = minus(f"F = {plain(state.force * ff, 4)} {uf}")
         ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
     _lift_off_marks(ax, branch, fs)
     low, high = ax.get_ylim()
@@ -114,7 +115,7 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
     for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
-        ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {state.force * ff:.4g} {uf}"))
+        ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {plain(state.force * ff, 4)} {uf}"))
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, fs)
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")

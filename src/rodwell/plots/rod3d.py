@@ -20,6 +20,7 @@ from rodwell.plots.style import RC, minus
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 from rodwell.practice.scene import NO_PULL, WALL, drawn, limits, palette, scene
+from rodwell.practice.units import plain
 
 ELEVATION, AZIMUTH = 20.0, -66.0
 LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])
@@ -141,7 +142,7 @@ def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     if scales is not None:
         radius = scales.text(rod.rod_radius, "length")
     marks = "; red rings: lift-off" if rod.lift_off else ""
-    load = minus(f"F = {solution.force * factor:.4g} {unit}")
+    load = minus(f"F = {plain(solution.force * factor, 4)} {unit}")
     drawn_as = f"rod radius drawn {radius}; thin lines: material lines{marks}"
     return f"{load} at s = 1 (tension positive){length}; {scale}\n{drawn_as}"
 

@@ -172,6 +172,13 @@ SMALL = 3.0
 """Below this many of the first unit, the second is used: a rod has feet, its clearance inches."""
 
 
+def plain(number: float, digits: int = 4) -> str:
+    """Return ``number`` rounded to ``digits`` significant digits, without an exponent where twelve places will do."""
+    if math.isfinite(number):
+        number = float(f"{number:.{digits}g}")
+    return f"{number:.{max(digits, 12)}g}"
+
+
 @dataclass(frozen=True)
 class System:
     """Units in which results are shown: "si" (with prefixes), "field" (lbf, ft, in, psi) or "mm" (N, mm, MPa)."""
@@ -198,11 +205,7 @@ class System:
         if self.name == "si" and (text := _UNITS["si"][dimension][0][0]) in _PREFIXED:
             return readable(value, text, digits)
         unit, text = self.unit(dimension, value)
-        number = value / unit
-        if math.isfinite(number):
-            number = float(f"{number:.{digits}g}")
-        shown = f"{number:.{max(digits, 12)}g}"
-        return f"{shown} {text if text != '1' else ''}".rstrip().replace("-", "−")
+        return f"{plain(value / unit, digits)} {text if text != '1' else ''}".rstrip().replace("-", "−")
 
 
 SI = System()

@@ -22,6 +22,7 @@ from rodwell.numerics.spaces import FloatArray
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
+from rodwell.practice.units import plain
 
 HERE = Path(__file__).parent
 PLACES, SIDES = (321, 801), 16
@@ -83,7 +84,7 @@ def write_viewer(path: Path, solution: Solution, rod: Geometry | None, scales: S
 def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     """What is shown, in which scale."""
     factor, unit = axis("force", scales, solution.force)
-    load = f"F = {solution.force * factor:.4g} {unit}".replace("-", "−")
+    load = f"F = {plain(solution.force * factor, 4)} {unit}".replace("-", "−")
     scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
     radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else scales.text(rod.rod_radius, "length")
     marks = " Red rings: places of lift-off." if rod.lift_off else ""
