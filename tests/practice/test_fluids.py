@@ -121,7 +121,9 @@ def test_effective_force_at_the_bottom() -> None:
     assert case.until is not None
     at_bottom = (case.until - case.problem.axial_weight) * case.scales.factor("force")
     assert at_bottom / LBF == pytest.approx(-60000.0, rel=1e-12)
-    plain = Case.from_dict({"dimensionless": {"weight": 50.0, "alpha": 60.0}, "load": {"until": -100.0, "at": "bottom"}})
+    plain = Case.from_dict(
+        {"dimensionless": {"weight": 50.0, "alpha": 60.0}, "load": {"until": -100.0, "at": "bottom"}}
+    )
     assert plain.until == pytest.approx(-75.0, rel=1e-12)
 
 
@@ -149,7 +151,9 @@ def test_audit_takes_section_and_strength_from_the_catalogue() -> None:
     load = next(row for row in result.others if row.formula.key == "coiled_tubing_yield").value
     area, inertia = math.pi / 4.0 * (5.0**2 - 4.276**2), math.pi / 64.0 * (5.0**4 - 4.276**4)
     assert load is not None
-    assert load * result.factor((1, 0)) / LBF == pytest.approx(135e3 / (1 / area + 1.75 * 5.0 / (4 * inertia)), rel=1e-9)
+    assert load * result.factor((1, 0)) / LBF == pytest.approx(
+        135e3 / (1 / area + 1.75 * 5.0 / (4 * inertia)), rel=1e-9
+    )
 
 
 def test_standing_lengths() -> None:
