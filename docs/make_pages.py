@@ -24,7 +24,8 @@ from rodwell.analysis import nomenclature
 from rodwell.cli.main import cli
 from rodwell.practice import schema
 from rodwell.practice.case import SECTIONS
-from rodwell.practice.units import KINDS, readable
+from rodwell.practice.catalogue import package_catalogue
+from rodwell.practice.units import KINDS, SI, System, readable
 
 HERE = Path(__file__).resolve().parent
 OUT = HERE / "_generated"
@@ -32,6 +33,7 @@ RESULTS = OUT / "results" / "drill-string"
 
 COMMANDS = {
     "run": "run examples/drill-string.toml",
+    "run-field": "run examples/field-drill-pipe.toml",
     "critical": "critical --weight 15 --alpha 90",
     "liftoff": "liftoff --weight 15 --alpha 90",
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
@@ -58,6 +60,7 @@ def build() -> dict[str, str]:
     shutil.copytree(HERE.parent / "examples", OUT / "examples", dirs_exist_ok=True)
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
+    _write("catalogue.md", catalogue_tables())
     _write("twist.md", twist_table())
     with contextlib.chdir(OUT):
         for name, line in COMMANDS.items():
@@ -131,14 +134,18 @@ def _branch_point(weight: float, mode: int, until: float) -> str:
 MEANINGS: dict[str, dict[str, str]] = {
     "rod": {
         "length": "length L between the ends; required",
-        "outer_diameter": "needed with `youngs_modulus`, `density` or `hole.diameter`",
+        "outer_diameter": "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids",
         "inner_diameter": "0 (solid) if not given",
         "youngs_modulus": "with the diameters gives the bending stiffness",
         "bending_stiffness": "B = EI, instead of `youngs_modulus`",
         "density": "of the material; with diameters and gravity gives the weight",
-        "weight_per_length": "mg, instead of `density` (may be zero)",
-        "poisson": "Poisson's ratio ν, from above −1 to 0.5",
+        "weight_per_length": "in air with `[mud]`, else mg itself; instead of `density` or a pipe's nominal weight",
+        "poisson": "Poisson's ratio ν, from above −1 to 0.5; that of the `material` if not given",
         "ends": "conditions at s = 0 and s = 1, two of `clamped`, `pinned`, `guided`, `free`",
+        "pipe": "name in the [catalogue](pipes-and-fluids.md), instead of diameters, modulus and weight",
+        "material": "name in the catalogue, instead of `youngs_modulus` and `density`",
+        "grade": "name in the catalogue: gives the yield strength",
+        "yield_strength": "of the rod, instead of `grade`",
     },
     "hole": {
         "diameter": "inner diameter of the hole; with the rod's outer diameter gives the clearance",
@@ -155,14 +162,29 @@ MEANINGS: dict[str, dict[str, str]] = {
         "ends": "as in [rod]",
     },
     "load": {
-        "until": "end force at s = 1 to which branches are followed, **tension positive** (compression negative); "
+        "until": "end force to which branches are followed, **tension positive** (compression negative); "
         "chosen from the loads found if not given",
-        "twist": "end twisting moment T₁, a dead load",
+        "twist": "end twisting moment T₁ at s = 1, a dead load",
+        "at": "where `until` acts: `top` (s = 1, the upper end) or `bottom` (s = 0)",
+        "kind": "what `until` is: the `effective` force, or the `real` one in the wall of the pipe; must be said "
+        "beside `[pressure]`",
     },
     "cylinder": {
         "outer_diameter": "outer diameter of the cylinder; the whole section, for its strength, may be left out",
         "inner_diameter": "inner diameter; that of the hole, if hole.diameter is given",
         "yield_strength": "strength against which the largest equivalent stress is set",
+    },
+    "mud": {
+        "density": "of the fluid on both sides of the pipe, instead of `inside` and `outside`",
+        "inside": "of the fluid in the bore; empty if not given",
+        "outside": "of the fluid around the rod; empty if not given",
+    },
+    "pressure": {
+        "inside": "in the bore at s = 1",
+        "outside": "around the rod at s = 1",
+    },
+    "catalogue": {
+        "files": "TOML files with pipes, materials and grades of your own, from the folder of the case file",
     },
     "analysis": {
         "modes": "how many buckling modes, 1 to 12",
@@ -174,7 +196,8 @@ MEANINGS: dict[str, dict[str, str]] = {
 def case_keys() -> str:
     """Every key of a case file: one table for each section; the schema says which keys there are."""
     kinds = {"Number": "number", "int": "whole number", "InnerLength": "length", "Stiffness": "bending stiffness"}
-    kinds |= {"ForcePerLength": "force per length", "Ends": "text"}
+    kinds |= {"ForcePerLength": "force per length", "Ends": "text", "Name": "text", "FluidDensity": "density"}
+    kinds |= {"End": "text", "ForceKind": "text", "list[str]": "list of text"}
     parts = []
     for section, model in SECTIONS.items():
         meanings = MEANINGS[section]
@@ -192,6 +215,39 @@ def case_keys() -> str:
         text = (model.__doc__ or "").partition("\n")[0].partition(": ")[2]
         parts.append(f"### `[{section}]`\n\n{text[:1].upper()}{text[1:]}\n")
         parts.append(make_howto.table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
+    return "\n".join(parts)
+
+
+def catalogue_tables() -> str:
+    """Every entry of the catalogue with its source."""
+    catalogue, system = package_catalogue(), System("field")
+
+    def cell(value: float | None, dimension: str, shown: System = system) -> str:
+        return "" if value is None else shown.text(value, dimension, 5)
+
+    groups: dict[tuple[str, str, str], list[tuple[str, ...]]] = {}
+    for pipe in map(catalogue.pipe, catalogue.names("pipe")):
+        medical = pipe.kind in ("guidewire", "catheter")
+        outer, bore = (
+            cell(length, "length", System("mm") if medical else system) for length in (pipe.outer_diameter, pipe.bore)
+        )
+        row = (f"`{pipe.name}`", outer, bore, cell(pipe.weight_per_length, "force_per_length"))
+        groups.setdefault((pipe.kind, pipe.source, pipe.note), []).append(row)
+    parts = []
+    for (kind, source, note), rows in groups.items():
+        parts.append(f"### {kind.capitalize()}\n\nSource: {source}. {note[:1].upper()}{note[1:]}.\n")
+        parts.append(make_howto.table(("Name", "Outer diameter", "Inner diameter", "Nominal weight"), rows))
+    rows = []
+    for m in map(catalogue.material, catalogue.names("material")):
+        numbers = (cell(m.youngs_modulus, "stress", SI), cell(m.density, "density", SI), f"{m.poisson:g}")
+        rows.append((f"`{m.name}`", *numbers, m.source, m.note))
+    parts.append("### Materials\n")
+    parts.append(make_howto.table(("Name", "E", "Density", "ν", "Source", "Note"), rows))
+    rows = []
+    for g in map(catalogue.grade, catalogue.names("grade")):
+        rows.append((f"`{g.name}`", cell(g.yield_strength, "stress"), cell(g.yield_strength, "stress", SI), g.source))
+    parts.append("### Grades\n")
+    parts.append(make_howto.table(("Name", "Yield strength", "SI", "Source"), rows))
     return "\n".join(parts)
 
 
@@ -223,4 +279,4 @@ def _numbers(answer: dict[str, Any]) -> dict[str, str]:
     return out
 
 
-assert {name for name in schema.CaseFile.model_fields if name != "title"} == set(SECTIONS)
+assert {name for name in schema.CaseFile.model_fields if name not in ("title", "units")} == set(SECTIONS)

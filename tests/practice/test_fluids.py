@@ -98,11 +98,13 @@ def until(**more: Any) -> float:
     st.integers(0, 10**8), st.integers(0, 10**8),
 )  # fmt: skip
 @settings(max_examples=60)
-def test_real_force_at_either_end(force: int, angle: int, ρi: int, ρo: int, pi: int, po: int) -> None:
-    """In the wall of the pipe, the force grows upwards by the weight in air: both ends must lead to the same problem."""
+def test_real_force_at_either_end(
+    force: int, angle: int, inner_density: int, outer_density: int, pi: int, po: int
+) -> None:
+    """In the wall of the pipe, the force grows upwards by the weight in air: both ends lead to one problem."""
     sections = {
         "hole": {"diameter": "100 mm", "angle_from_vertical": f"{angle!r} deg"},
-        "mud": {"inside": f"{ρi!r} kg/m^3", "outside": f"{ρo!r} kg/m^3"},
+        "mud": {"inside": f"{inner_density!r} kg/m^3", "outside": f"{outer_density!r} kg/m^3"},
         "pressure": {"inside": f"{pi!r} Pa", "outside": f"{po!r} Pa"},
     }
     outer, inner = math.pi / 4.0 * 0.06**2, math.pi / 4.0 * 0.05**2
