@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
 import pytest
 
 from rodwell import Case
+from rodwell.cli.main import main
 from rodwell.practice.catalogue import key_of, package_catalogue, read_catalogue
 
 INCH, FOOT, LBF = 0.0254, 0.3048, 4.4482216152605
@@ -111,6 +113,34 @@ def test_steel_is_that_of_the_buoyancy_factor() -> None:
     steel = CATALOGUE.material("steel")
     assert steel.density == pytest.approx(65.5 * 0.45359237 / (231.0 * INCH**3), rel=1e-12)
     assert steel.youngs_modulus == pytest.approx(30e6 * LBF / INCH**2, rel=1e-12)
+
+
+def listed(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *words: str) -> str:
+    monkeypatch.setattr("sys.argv", ["rodwell", "catalogue", *words])
+    main()
+    return capsys.readouterr().out
+
+
+def test_the_command_lists_names(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = listed(capsys, monkeypatch)
+    for kind in ("pipe", "material", "grade"):
+        assert all(name in text for name in CATALOGUE.names(kind))
+    text = listed(capsys, monkeypatch, "tubing", "2.875", "5CT", "--units", "mm")
+    assert "2-7/8 in 6.5 lb/ft tubing" in text
+    assert "OD 73.02 mm   ID 62 mm" in text
+    assert "drill" not in text
+    assert "Nothing in the catalogue holds rope" in listed(capsys, monkeypatch, "rope")
+    own = tmp_path / "mine.toml"
+    own.write_text(OWN, encoding="utf-8")
+    found = json.loads(listed(capsys, monkeypatch, "shaft", "--file", str(own), "--json"))
+    assert [pipe["name"] for pipe in found["pipe"]] == ["my shaft"]
+    assert found["pipe"][0]["source"] == "data sheet 17"
+    with pytest.raises(SystemExit) as stopped:
+        listed(capsys, monkeypatch, "--file", str(tmp_path / "none.toml"))
+    assert stopped.value.code == 2
+    assert "--file" in capsys.readouterr().err
 
 
 OWN = """

@@ -12,6 +12,7 @@ import click
 
 from rodwell._version import __version__
 from rodwell.cli.audit import audit
+from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
@@ -35,7 +36,7 @@ def cli() -> None:
 
 for command in (
     *(run, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export),
+    *(diagram, curve, twist, export, catalogue),
 ):
     cli.add_command(command)
 
