@@ -150,6 +150,8 @@ CONTRADICTORY = [
     ("guidewire-without-stiffness", f'{PIPE}\nlength = "300 ft"\n{GRADE}\n[mud]\n{MUD}\n{PRESSURE}',
      'pipe = "0.035 in guidewire"\nlength = "1 m"', "rod.bending_stiffness",
      ("no stiffness is standard", "as measured")),
+    ("catheter-without-bore", PIPE, 'pipe = "6 Fr catheter"\nmaterial = "peek"', "rod.inner_diameter",
+     ("is missing", "no bore is standard")),
     ("guidewire-without-weight", f'{PIPE}\nlength = "300 ft"\n{GRADE}\n[mud]\n{MUD}\n{PRESSURE}',
      'pipe = "0.035 in guidewire"\nlength = "1 m"\nbending_stiffness = "1400 N·mm²"', "rod.weight_per_length",
      ("no weight is standard", "rod.material")),

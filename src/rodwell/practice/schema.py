@@ -201,9 +201,10 @@ class Entry(Section):
 
 
 class Pipe(Entry):
-    """[[pipe]]: diameters (inner, or wall; solid without), and what else is known of it."""
+    """[[pipe]]: diameters (inner, or wall; solid without, unless hollow), and what else is known of it."""
 
     kind: str = "pipe"
+    hollow: bool = False
     outer_diameter: Length
     inner_diameter: Length | None = None
     wall: Length | None = None

@@ -109,6 +109,8 @@ def _diameters(rod: schema.Rod, pipe: schema.Pipe | None) -> tuple[float | None,
             raise InputError(
                 "rod.inner_diameter", inner, "contradicts rod.pipe, whose bore is in the catalogue: leave it out"
             )
+        if pipe.hollow and inner is None and pipe.bore is None:
+            raise InputError("rod.inner_diameter", None, f"is missing: no bore is standard for {pipe.name!r}; give it")
         outer, inner = pipe.outer_diameter, pipe.bore if inner is None else inner
     if outer is not None and inner is not None and inner >= outer:
         raise InputError("rod.inner_diameter", inner, f"must be below the outer diameter of {outer:g} m")
