@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.special import jv
 
-from rodwell import Case, Problem, critical_loads
+from rodwell import Case, Problem, answer, critical_loads
 from rodwell.practice.audit import audit, rod_of
 from rodwell.practice.figures import STANDING, critical_length
 from rodwell.practice.formulas import FORMULAS
@@ -143,6 +143,23 @@ def test_coiled_tubing_example() -> None:
     assert case.until is not None
     assert case.until * case.scales.factor("force") / LBF == pytest.approx(effective, rel=1e-12)
     assert case.scales.system.name == "field"
+
+
+def test_loads_as_real_forces() -> None:
+    """In the wall of the pipe: N + pᵢ Aᵢ − pₒ Aₒ, for the first critical load and the lift-off load."""
+    case = Case.from_dict({
+        "rod": {"pipe": "2 in x 0.156 in coiled tubing", "length": "40 ft"},
+        "pressure": {"inside": "2500 psi", "outside": "1500 psi"},
+        "hole": {"diameter": "4 in", "angle_from_vertical": "90 deg"},
+        "analysis": {"modes": 1, "rtol": 1e-5},
+    })  # fmt: skip
+    figures = answer(case).figures
+    assert case.scales is not None
+    less = (2500.0 * 1.688**2 - 1500.0 * 2.0**2) * math.pi / 4.0 * LBF / case.scales.factor("force")
+    for name in ("critical_load_1", "lift_off_load"):
+        assert figures[f"{name}_real"].value - figures[name].value == pytest.approx(less, rel=1e-9)
+    plain = Case.from_dict({"dimensionless": {"weight": 5.0}, "analysis": {"modes": 1, "rtol": 1e-5}})
+    assert not any(name.endswith("_real") for name in answer(plain).figures)
 
 
 def test_audit_takes_section_and_strength_from_the_catalogue() -> None:

@@ -18,7 +18,15 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
-from rodwell.practice.figures import Figure, critical_figure, critical_length, force_scale, state_figures, stress_figure
+from rodwell.practice.figures import (
+    Figure,
+    critical_figure,
+    critical_length,
+    force_scale,
+    real_force,
+    state_figures,
+    stress_figure,
+)
 from rodwell.practice.uncertainty import Spread, spread_of_load
 from rodwell.problem import ends_text
 
@@ -100,7 +108,8 @@ class Answer:
     @cached_property
     def figures(self) -> dict[str, Figure]:
         """The key figures by name."""
-        out = [critical_figure(mode) for mode in self.critical] + critical_length(self.case.problem)
+        out = [critical_figure(mode) for mode in self.critical]
+        out += real_force(out[0], self.case) + critical_length(self.case.problem)
         lift = self.lift_off
         if lift is not None:
             note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
@@ -108,6 +117,7 @@ class Answer:
                 note = "coincides with buckling: no lateral weight presses the rod to the wall"
             label = "Lift-off load, end force at s = 1"
             out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", force_scale(lift.force), note))
+            out += real_force(out[-1], self.case)
         if self.at_lift_off is not None:
             out += state_figures(self.at_lift_off)
             if self.case.cylinder is not None and self.case.scales is not None:

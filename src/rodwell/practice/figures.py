@@ -91,6 +91,19 @@ def critical_length(problem: Problem) -> list[Figure]:
     return [Figure("critical_length", label, value, value * ROUNDED / number / 3.0, "length", value, note)]
 
 
+def real_force(figure: Figure, case: Case) -> list[Figure]:
+    """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
+    if case.rod is None or case.scales is None:
+        return []
+    less = case.fluids.effective_minus_real(case.rod, 0.0) / case.scales.factor("force")
+    if less == 0.0:
+        return []
+    value = figure.value - less
+    label = f"{figure.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
+    scale = abs(figure.value) + abs(less) + EULER
+    return [Figure(f"{figure.name}_real", label, value, figure.error, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
+
+
 def force_scale(force: float) -> float:
     """Size against which the error of a force is judged."""
     return abs(force) + EULER
