@@ -163,6 +163,7 @@ def test_commands_show_the_units_asked_for(
     report = (tmp_path / "a" / "report.html").read_text(encoding="utf-8")
     body = re.sub(r"<script.*?</script>|data:[^\"]*", "", report, flags=re.DOTALL)
     assert "forces are effective ones" in body
+    assert re.search(r"buoyed weight per length mg</td><td>[\d.]+ lbf/ft</td>", body)
     assert "lbf/ft" in body
     assert not re.search(r"\d k?N\b", body)
     data = json.loads(command(monkeypatch, capsys, "run", str(file), "--units", "mm", "--out", str(tmp_path / "b"),

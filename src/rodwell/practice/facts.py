@@ -18,9 +18,8 @@ class Fact:
     note: str = ""
 
     def text(self, system: System) -> str:
-        """Value in the units of ``system`` and note."""
-        value = self.value if isinstance(self.value, str) else system.text(self.value, self.dimension, 6)
-        return f"{value} ({self.note})" if self.note else value
+        """Value in the units of ``system``."""
+        return self.value if isinstance(self.value, str) else system.text(self.value, self.dimension, 6)
 
     def short(self, system: System) -> str:
         """Label and number for a summary; nothing for text."""

@@ -92,7 +92,7 @@ def fluid_facts(fluids: Fluids, rod: PhysicalRod, gravity: float) -> list[Fact]:
         return [Fact("weight per length mg", rod.weight_in_air, "force_per_length", "no fluids given")]
     how = "w = w_air + ρᵢ g Aᵢ − ρₒ g Aₒ"
     if rod.density is not None:
-        how += ", Aₒ with the metal that the weight in air stands for"
+        how += "; Aₒ is Aᵢ and the metal that the weight in air stands for"
     return [
         Fact("weight per length in air", rod.weight_in_air, "force_per_length"),
         Fact("buoyed weight per length mg", fluids.buoyed_weight(rod, gravity), "force_per_length", how),

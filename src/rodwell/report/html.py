@@ -80,8 +80,14 @@ def derived(case: Case) -> list[tuple[str, str]]:
             ("bending stiffness B", scales.system.text(scales.stiffness, "stiffness", 6)),
             ("unit of force B/L²", scales.text(1.0, "force", 6)),
         ]
-        out += [(fact.label, fact.text(scales.system)) for fact in case.facts]
     return out
+
+
+def conversions(case: Case) -> list[tuple[str, str, str]]:
+    """What became of the inputs: label, value and where it comes from."""
+    if case.scales is None:
+        return []
+    return [(fact.label, fact.text(case.scales.system), fact.note) for fact in case.facts]
 
 
 def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
@@ -105,6 +111,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
         rows=rows(answer),
         inputs=inputs(answer.case),
         derived=derived(answer.case),
+        conversions=conversions(answer.case),
         special=_special(answer),
         pictures=embedded,
         rod=rod,
