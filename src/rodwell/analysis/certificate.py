@@ -30,7 +30,7 @@ LIMIT = 1e-7
 SLACK = 10.0
 """At coarser tolerances the certificate may be this many times the tolerance: it contains derivatives of the fields."""
 
-SMALL = 1e-3
+SMALL = 1e-2
 """Part of the moments it is the difference of, below which T₂ is not known to nine digits of itself."""
 
 _TINY = 1e-300
