@@ -36,9 +36,11 @@ _HOME = {
     "NotConvergedError": "rodwell.errors",
     "Problem": "rodwell.problem",
     "RodwellError": "rodwell.errors",
+    "Screening": "rodwell.practice.screening",
     "Solution": "rodwell.analysis.solution",
     "Sensitivity": "rodwell.analysis.sensitivity",
     "SpecialPoint": "rodwell.analysis.special",
+    "Survey": "rodwell.practice.survey",
     "Torsion": "rodwell.analysis.torsion",
     "branch_off": "rodwell.analysis.follow",
     "certify": "rodwell.analysis.certify",
@@ -50,6 +52,7 @@ _HOME = {
     "export": "rodwell.report.export",
     "follow": "rodwell.analysis.follow",
     "lift_off_curve": "rodwell.analysis.state_curves",
+    "screen": "rodwell.practice.screening",
     "sensitivities": "rodwell.analysis.sensitivity",
     "mode_pairs": "rodwell.analysis.modes",
     "paper_values": "rodwell.analysis.paper_values",
@@ -85,6 +88,8 @@ if TYPE_CHECKING:
     from rodwell.practice.answer import Answer, answer
     from rodwell.practice.audit import Audit, audit
     from rodwell.practice.case import Case
+    from rodwell.practice.screening import Screening, screen
+    from rodwell.practice.survey import Survey
     from rodwell.problem import Problem
     from rodwell.report.export import export
 

@@ -19,6 +19,7 @@ from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run
+from rodwell.cli.screen import screen
 from rodwell.errors import InputError, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
@@ -35,7 +36,7 @@ def cli() -> None:
 
 
 for command in (
-    *(run, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
     *(diagram, curve, twist, export, catalogue),
 ):
     cli.add_command(command)

@@ -1,0 +1,123 @@
+"""``rodwell screen``: a whole well, station by station."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rodwell.cli.options import print_json, progress_bar
+
+if TYPE_CHECKING:
+    from rodwell.practice.screening import Screening
+
+SHOWN = 12
+"""Stations in the table on the terminal."""
+
+
+@click.command()
+@click.argument("survey", type=click.Path(path_type=Path))
+@click.option("--case", required=True, type=click.Path(path_type=Path), help="Case file of string and hole.")
+@click.option("--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-screen]")
+@click.option("--bit-force", help='Effective force at the last station, tension positive: "-100 kN".')
+@click.option("--hook-force", help='Effective force at the first station, tension positive: "500 kN".')
+@click.option("--depth-unit", help="Unit of measured depth, m or ft, if the header does not say.")
+@click.option("--angle-unit", help="Unit of inclination and azimuth, deg or rad.  [default: the header's, or deg]")
+@click.option("--force-unit", help="Unit of the force column, if the header does not say.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the summary.")
+def screen(
+    survey: Path,
+    case: Path,
+    out: Path | None,
+    bit_force: str | None,
+    hook_force: str | None,
+    depth_unit: str | None,
+    angle_unit: str | None,
+    force_unit: str | None,
+    as_json: bool,
+) -> None:
+    """Screen the well of SURVEY, a CSV file of measured depth and inclination, station by station.
+
+    At every station: the exact load at which a long straight rod of the station's inclination buckles and leaves the
+    wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
+    Compression is positive, at the station. Length, inclination and loads of the case are not used.
+    """
+    from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.practice.survey import Survey  # noqa: PLC0415
+    from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+    read = Case.read(case)
+    well = Survey.read(survey, depth_unit=depth_unit, angle_unit=angle_unit, force_unit=force_unit)
+    folder = Path("results") / f"{survey.stem}-screen" if out is None else out
+    check_writable(folder)
+    forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
+
+    from rodwell.practice.screening import screen as compute  # noqa: PLC0415
+    from rodwell.practice.screening_data import screening_dict  # noqa: PLC0415
+    from rodwell.report.survey import write_screening  # noqa: PLC0415
+
+    with progress_bar(not as_json, "critical loads") as tell:
+        result = compute(read, well, **forces, progress=tell)
+        tell("figure and data", 1.0)
+        files = write_screening(result, folder)
+    if as_json:
+        print_json(screening_dict(result))
+        return
+    _print(result)
+    click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+
+
+def _force(option: str, text: str | None) -> float | None:
+    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.practice.units import to_si  # noqa: PLC0415
+
+    if text is None:
+        return None
+    try:
+        return to_si(text, "force")
+    except ValueError as problem:
+        raise InputError(option, text, str(problem)) from None
+
+
+def _print(screening: Screening) -> None:
+    """Verdict, a few stations from top to bottom with the worst among them, assumptions."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
+    from rich.panel import Panel  # noqa: PLC0415
+
+    from rodwell.practice.screening_data import assumptions, sentences  # noqa: PLC0415
+
+    console = Console(highlight=False)
+    text = sentences(screening)
+    body = f"[bold]{escape(text[0])}[/bold]" + "".join(f"\n• {escape(line)}" for line in text[1:])
+    console.print(Panel(body, title=escape(screening.case.title), title_align="left", border_style="blue"))
+    console.print(_stations(screening))
+    for line in assumptions(screening):
+        console.print(escape(line), style="dim")
+
+
+def _stations(screening: Screening) -> object:
+    import numpy as np  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+
+    from rodwell.practice.screening_data import units  # noqa: PLC0415
+
+    depth, metre, force, newton = units(screening)
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    heads = [f"MD [{depth}]", "incl.", f"buckles [{force}]", "lifts off", "Dawson–P.", "Chen", "He–K."]
+    used = screening.utilisation
+    heads += [] if used is None else ["the string", "used"]
+    for head in heads:
+        table.add_column(head, justify="right")
+    mark = screening.weakest if screening.worst is None else screening.worst
+    count = len(screening.survey)
+    shown = sorted({mark, *(int(i) for i in np.linspace(0, count - 1, min(SHOWN, count)).round())})
+    columns = [screening.critical.values, screening.lift_off.values, *screening.formulas.values()]
+    columns += [] if screening.compression is None else [screening.compression]
+    for i in shown:
+        cells = [f"{screening.survey.md[i] / metre:.6g}", f"{screening.survey.inclination[i]:.3g}°"]
+        cells += ["–" if np.isnan(c[i]) else f"{c[i] / newton:.4g}".replace("-", "−") for c in columns]
+        cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{100 * used[i]:.3g} %"]
+        table.add_row(*cells, style="bold red" if i == mark else None)
+    return table

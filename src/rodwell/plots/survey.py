@@ -1,0 +1,84 @@
+"""Limit lines of a well against depth, depth downwards."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from rodwell.plots.style import GREY, INK, MODES, RC, WARN
+from rodwell.practice.screening import Screening
+from rodwell.practice.screening_data import units
+
+EXACT, LIFT_OFF = MODES[0], MODES[3]
+LINES = {
+    "dawson_paslay": ("Dawson–Paslay, sinusoidal", MODES[1], (0, (4, 2))),
+    "chen_lin_cheatham": ("Chen–Lin–Cheatham, helical", MODES[2], (0, (4, 2))),
+    "he_kyllingstad": ("He–Kyllingstad, sinusoidal, curved", MODES[4], (0, (1, 1.3))),
+}
+"""Label, colour and dashes of each formula."""
+
+
+def plot_screening(screening: Screening) -> Figure:
+    """Draw inclination, and exact loads beside the formulas' and the string's force, against measured depth.
+
+    Compression grows to the right, depth downwards, in the survey's unit of depth. Returns the figure.
+    """
+    depth, metre, force, newton = units(screening)
+    md = screening.survey.md / metre
+    with mpl.rc_context(RC):
+        figure = Figure(figsize=(7.6, 7.0), layout="constrained")
+        FigureCanvasAgg(figure)
+        left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1, 3.4))
+        left.plot(screening.survey.inclination, md, color=INK, lw=1.5)
+        left.set_xlabel("inclination from\nthe vertical  [deg]")
+        left.set_ylabel(f"measured depth  [{depth}]")
+        left.set_xlim(left=0.0)
+        _limit_lines(right, screening, md, newton)
+        if screening.compression is not None:
+            right.plot(screening.compression / newton, md, color=WARN, lw=2.0, label="the string")
+            right.axvline(0.0, color=GREY, lw=0.8)
+        _mark(right, screening, md, newton)
+        right.set_xlabel(f"compression  [{force}]")
+        right.set_xlim(*_limits(screening, newton))
+        right.set_ylim(float(md[-1]), float(md[0]))
+        right.legend(loc="upper center", bbox_to_anchor=(0.38, -0.085), ncols=2)
+        figure.suptitle(screening.case.title, x=0.01, ha="left", fontsize=10)
+        return figure
+
+
+def _limit_lines(ax: Any, screening: Screening, md: Any, newton: float) -> None:
+    """Exact loads with bands of their errors, and the formulas."""
+    for loads, label, colour in (
+        (screening.critical, "exact: buckles", EXACT),
+        (screening.lift_off, "exact: leaves the wall", LIFT_OFF),
+    ):
+        values, errors = loads.values / newton, loads.errors / newton
+        ax.fill_betweenx(md, values - errors, values + errors, color=colour, alpha=0.25, lw=0)
+        ax.plot(values, md, color=colour, lw=2.0, label=label)
+    for key, (label, colour, dashes) in LINES.items():
+        ax.plot(screening.formulas[key] / newton, md, color=colour, lw=1.3, ls=dashes, label=label)
+
+
+def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:
+    """Mark the worst station: largest utilisation, or else the least critical load."""
+    worst = screening.worst
+    i, x, label = screening.weakest, screening.critical.values, "weakest station"
+    if worst is not None and screening.compression is not None and screening.utilisation is not None:
+        i, x = worst, screening.compression
+        label = f"largest utilisation, {100.0 * screening.utilisation[worst]:.3g} %"
+    ax.plot(x[i] / newton, md[i], "o", color=WARN, mec=INK, ms=7, zorder=6, clip_on=False, label=label)
+
+
+def _limits(screening: Screening, newton: float) -> tuple[float, float]:
+    """Range of compression: what decides fills it; far tension, and formulas far beyond, are cut."""
+    exact = np.concatenate([screening.critical.values, screening.lift_off.values])
+    high = 1.15 * float(np.nanmax(exact))
+    low = 0.0
+    if screening.compression is not None:
+        high = max(high, 1.05 * float(screening.compression.max()))
+        low = max(min(0.0, 1.05 * float(screening.compression.min())), -0.6 * high)
+    return low / newton, high / newton

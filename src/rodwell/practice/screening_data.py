@@ -1,0 +1,183 @@
+"""A screened well as table and as plain data, and what it means in sentences."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rodwell._version import __version__
+from rodwell.numerics.spaces import FloatArray
+from rodwell.practice.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
+from rodwell.practice.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
+from rodwell.practice.table import Cell, Table
+from rodwell.practice.units import in_unit_of
+
+FORCE_UNITS = {"m": "kN", "ft": "klbf"}
+"""Unit of forces in tables and figures, by the survey's unit of depth."""
+
+PER = {"m": 30.0, "ft": 100.0}
+"""Build rates are given per so many of the survey's unit of depth."""
+
+NOT_NEGLIGIBLE = 0.01
+"""Effect of the local rod's length that is worth a sentence."""
+
+
+def units(screening: Screening) -> tuple[str, float, str, float]:
+    """Unit of depth and its size in m, unit of force and its size in N."""
+    depth = screening.survey.depth_unit
+    force = FORCE_UNITS[depth]
+    return depth, in_unit_of(1.0, depth, "m"), force, in_unit_of(1.0, force, "N")
+
+
+def screening_table(screening: Screening) -> Table:
+    """One row for each station; the weakest station, and that of largest utilisation, are marked."""
+    survey = screening.survey
+    depth, metre, force, newton = units(screening)
+    rate = PER[depth] * metre
+    columns: dict[str, FloatArray] = {
+        f"measured depth [{depth}]": survey.md / metre,
+        f"vertical depth below the first station [{depth}]": survey.tvd / metre,
+        "inclination [deg]": survey.inclination,
+        f"build rate [deg/{PER[depth]:g} {depth}]": np.degrees(survey.build) * rate,
+        f"turn rate, sin α dφ/ds [deg/{PER[depth]:g} {depth}]": np.degrees(survey.turn) * rate,
+        f"exact critical compression [{force}]": screening.critical.values / newton,
+        f"± error [{force}]": screening.critical.errors / newton,
+        f"exact lift-off compression [{force}]": screening.lift_off.values / newton,
+        f"± error of lift-off [{force}]": screening.lift_off.errors / newton,
+    }
+    for key, name in BESIDE.items():
+        columns[f"{name} [{force}]"] = screening.formulas[key] / newton
+    columns[f"length of the local rod [{depth}]"] = screening.lengths / metre
+    if screening.compression is not None and screening.utilisation is not None:
+        columns[f"compression of the string [{force}]"] = screening.compression / newton
+        columns["utilisation, compression/critical"] = screening.utilisation
+    rows: list[tuple[Cell, ...]] = []
+    for i in range(len(survey)):
+        cells = [None if math.isnan(values[i]) else float(values[i]) for values in columns.values()]
+        rows.append((i + 1, *cells, screening.remarks(i)))
+    marked = frozenset({screening.weakest if screening.worst is None else screening.worst})
+    return Table("Stations", ("station", *columns, "remarks"), tuple(rows), marked, tuple(assumptions(screening)))
+
+
+def sentences(screening: Screening) -> list[str]:
+    """What was found, the verdict first."""
+    depth, metre, force, newton = units(screening)
+    survey, out = screening.survey, []
+
+    def at(i: int) -> str:
+        return f"{survey.md[i] / metre:.6g} {depth}, {survey.inclination[i]:.3g}° from the vertical"
+
+    def load(value: float) -> str:
+        return f"{value / newton:.4g} {force}".replace("-", "−")
+
+    worst, used = screening.worst, screening.utilisation
+    if used is not None and worst is not None and screening.compression is not None:
+        past = int(np.sum(used > 1.0))
+        bent = int(np.sum(screening.dropping & (screening.compression > screening.formulas["he_kyllingstad"])))
+        verdict = "The string buckles" if past else "By the straight-hole loads the string does not buckle"
+        out.append(
+            f"{verdict}: the largest utilisation is {100.0 * used[worst]:.3g} % at {at(worst)}, where it bears "
+            f"{load(screening.compression[worst])} and buckles at {load(screening.critical.values[worst])}."
+        )
+        if past:
+            over = np.nonzero(used > 1.0)[0]
+            first, last = int(over[0]), int(over[-1])
+            text = f"{past} of {len(survey)} stations are past buckling, from {at(first)} to {at(last)}"
+            lifted = int(np.sum(screening.compression > screening.lift_off.values))
+            out.append(f"{text}; {lifted} are past lift-off.")
+        if bent:
+            out.append(
+                f"At {bent} stations where the hole's curvature takes the pipe off the low side, the compression is above "
+                "He–Kyllingstad, which has the curvature: expect buckling there."
+            )
+    elif used is not None:
+        out.append("The string is in tension at every station: it does not buckle.")
+    weakest = screening.weakest
+    out.append(
+        f"Least compression buckles it at {at(weakest)}: {load(screening.critical.values[weakest])} there "
+        "(exact local load, compression positive)."
+    )
+    ratio = screening.formulas["dawson_paslay"] / screening.critical.values
+    inclined = screening.local > 0.0
+    if np.any(inclined):
+        low, high = float(np.nanmin(ratio[inclined])), float(np.nanmax(ratio[inclined]))
+        out.append(
+            f"Dawson–Paslay, which is 0 in a vertical hole, is {100 * low:.3g} % to {100 * high:.3g} % of the exact load "
+            "at the inclined stations."
+        )
+    dropping = int(np.sum(screening.dropping))
+    if dropping:
+        out.append(
+            f"At {dropping} stations the hole's curvature takes the pipe off the low side: the loads of a straight hole are "
+            "too high there; He–Kyllingstad says by how much, about."
+        )
+    missing = sorted({*screening.critical.reasons, *screening.lift_off.reasons})
+    if missing:
+        out.append(f"{len(missing)} stations lack an exact load; the table says why.")
+    return out
+
+
+def assumptions(screening: Screening) -> list[str]:
+    """What the loads are, and what is not in them."""
+    first, last = screening.string.ends
+    effects = ", ".join(f"{100 * v:.2g} % at {a:.3g}°" for a, v in screening.length_effect.items())
+    out = [
+        "Compression positive, at the station, which is the lower end of the local rod.",
+        f"Local rod: straight hole of the station's inclination, uphill from the station, {HALF_WAVES} half waves of the "
+        f"long-rod wave long ({LIFT_OFF_HALF_WAVES} for lift-off), ends {first} (at the station) and {last}.",
+        f"Estimated effect of its length on the critical load: {effects}; on the lift-off load about 1 %.",
+        "Friction, pressure, joints and curvature of the hole are not in the exact loads; He–Kyllingstad has the curvature.",
+    ]
+    if screening.critical.interpolated > 0.0 or screening.lift_off.interpolated > 0.0:
+        out.append(
+            f"Loads at {len(screening.survey)} stations from {screening.critical.solved} exact critical loads and "
+            f"{screening.lift_off.solved} exact lift-off loads; largest difference seen between interpolated and exact ones: "
+            f"{100 * screening.critical.interpolated:.2g} % and {100 * screening.lift_off.interpolated:.2g} %; errors are "
+            f"given as {100 * CRITICAL_PRECISION.tolerance:g} % and {100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
+        )
+    if any(value > NOT_NEGLIGIBLE for value in screening.length_effect.values()):
+        out.append("Near the vertical the load falls with the length of the rod, ever more slowly, without a foundation.")
+    return out
+
+
+def screening_dict(screening: Screening) -> dict[str, Any]:
+    """Everything as plain data in SI units (m, N, degrees), for JSON; null where there is no value."""
+    survey = screening.survey
+
+    def listed(values: FloatArray | None) -> list[float | None] | None:
+        return None if values is None else [None if math.isnan(v) else float(v) for v in values]
+
+    string = screening.string
+    return {
+        "title": screening.case.title,
+        "rodwell_version": __version__,
+        "conventions": "SI units, angles in degrees; compression positive, at the station",
+        "assumptions": assumptions(screening),
+        "summary": sentences(screening),
+        "survey": survey.source,
+        "ignored_columns": list(survey.ignored),
+        "string": {
+            "bending_stiffness": string.stiffness,
+            "weight_per_length": string.weight,
+            "clearance": string.clearance,
+            "ends": list(string.ends),
+        },
+        "measured_depth": listed(survey.md),
+        "vertical_depth": listed(survey.tvd),
+        "inclination": listed(survey.inclination),
+        "azimuth": listed(survey.azimuth),
+        "local_rod_length": listed(screening.lengths),
+        "critical_compression": listed(screening.critical.values),
+        "critical_error": listed(screening.critical.errors),
+        "lift_off_compression": listed(screening.lift_off.values),
+        "lift_off_error": listed(screening.lift_off.errors),
+        "formulas": {key: listed(values) for key, values in screening.formulas.items()},
+        "compression": listed(screening.compression),
+        "utilisation": listed(screening.utilisation),
+        "weakest_station": screening.weakest + 1,
+        "worst_station": None if screening.worst is None else screening.worst + 1,
+        "length_effect": [{"inclination": a, "relative": v} for a, v in screening.length_effect.items()],
+        "remarks": {str(i + 1): text for i in range(len(survey)) if (text := screening.remarks(i))},
+    }
