@@ -40,6 +40,7 @@ _HOME = {
     "Solution": "rodwell.analysis.solution",
     "Sensitivity": "rodwell.analysis.sensitivity",
     "SpecialPoint": "rodwell.analysis.special",
+    "Study": "rodwell.practice.study",
     "Survey": "rodwell.practice.survey",
     "Torsion": "rodwell.analysis.torsion",
     "branch_off": "rodwell.analysis.follow",
@@ -58,6 +59,7 @@ _HOME = {
     "paper_values": "rodwell.analysis.paper_values",
     "secondary_curve": "rodwell.analysis.state_curves",
     "switching_table": "rodwell.analysis.modes",
+    "study": "rodwell.practice.study",
     "torsion": "rodwell.analysis.torsion",
     "twist_curve": "rodwell.analysis.state_curves",
     "verify": "rodwell.analysis.verify",
@@ -89,6 +91,7 @@ if TYPE_CHECKING:
     from rodwell.practice.audit import Audit, audit
     from rodwell.practice.case import Case
     from rodwell.practice.screening import Screening, screen
+    from rodwell.practice.study import Study, study
     from rodwell.practice.survey import Survey
     from rodwell.problem import Problem
     from rodwell.report.export import export

@@ -25,12 +25,22 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
 def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: bool) -> None:
-    """Compute CASE, a TOML file, and write report, figures and data."""
+    """Compute CASE, a TOML file, and write report, figures and data.
+
+    If one or two of its inputs are lists or ranges ("30..90 deg in 13"), a parameter study is made.
+    """
     from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.practice.study import is_study  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    read = Case.read(case).in_units(units)
     folder = Path("results") / case.stem if out is None else out
+    if is_study(case):
+        from rodwell.cli.study import run_study  # noqa: PLC0415
+
+        check_writable(folder)
+        run_study(case, folder, as_json, quiet)
+        return
+    read = Case.read(case).in_units(units)
     check_writable(folder)
 
     from rodwell.practice.answer import answer  # noqa: PLC0415

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -37,7 +38,7 @@ class Loads:
 
 @dataclass(frozen=True)
 class Precision:
-    """How exact a table is to be: relative error ``tolerance``, and how often an interval may be halved (``levels``)."""
+    """How exact a table is: relative error ``tolerance``, and how often an interval may be halved (``levels``)."""
 
     tolerance: float
     levels: int
@@ -81,7 +82,7 @@ def place(alpha: float) -> float:
     (cos α)^⅔, by which axial weight raises the load of a rod that is clamped where it is compressed most.
     """
     angle = math.radians(alpha)
-    return math.sin(angle) ** 0.25 - max(math.cos(angle), 0.0) ** (2.0 / 3.0)
+    return float(math.sin(angle) ** 0.25 - max(math.cos(angle), 0.0) ** (2.0 / 3.0))
 
 
 def angle_at(where: float) -> float:
@@ -117,7 +118,7 @@ class _Table:
         for i, where in enumerate(first):
             self.nodes[where] = solve(angles.get(where, angle_at(where)))
             tell(0.4 * i / FIRST_NODES)
-        todo = list(zip(first[:-1], first[1:], strict=True))
+        todo = list(itertools.pairwise(first))
         for level in range(precision.levels):
             todo = self._refined(todo, last=level == precision.levels - 1)
             tell(0.4 + 0.6 * (level + 1) / precision.levels)

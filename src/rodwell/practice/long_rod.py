@@ -1,9 +1,9 @@
 """Exact loads of a long straight rod at an inclination: what decides locally, at a station of a well.
 
-The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With
-force at the lower end its loads tend to limits as it grows longer, since upwards the axial weight takes the compression
-away. The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole the approach is
-slowest: n half waves between clamped ends add 2/n² of the load.
+The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With force
+at the lower end its loads tend to limits as it grows longer, since upwards the axial weight takes the compression away.
+The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole, where the approach
+is slowest, n half waves between clamped ends add 2/n² of the load.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ class String:
         longest = LONGEST * (self.stiffness / self.weight) ** (1.0 / 3.0) * half_waves / HALF_WAVES
         lateral = self.weight * math.sin(math.radians(alpha))
         if lateral == 0.0:
-            return longest
-        return min(half_waves * math.pi * (self.stiffness * self.clearance / lateral) ** 0.25, longest)
+            return float(longest)
+        return float(min(half_waves * math.pi * (self.stiffness * self.clearance / lateral) ** 0.25, longest))
 
     def problem(self, alpha: float, half_waves: float = HALF_WAVES) -> tuple[Problem, float]:
         """The local rod at an inclination from 0 to 90 degrees, and its unit of force B/L² in N."""

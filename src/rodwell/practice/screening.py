@@ -63,7 +63,7 @@ class Screening:
 
     @property
     def local(self) -> FloatArray:
-        """Inclination of the local rods in degrees, (n,): of a hole that goes uphill, the angle to the horizontal counts."""
+        """Inclination of the local rods in degrees, (n,), 0 to 90; a hole of 91° is one of 89° that goes uphill."""
         return np.minimum(self.survey.inclination, 180.0 - self.survey.inclination)
 
     @property
@@ -73,14 +73,14 @@ class Screening:
 
     @property
     def utilisation(self) -> FloatArray | None:
-        """Compression as a part of the critical compression, (n,); 0 in tension, NaN where there is no critical load."""
+        """Compression as a part of the critical compression, (n,); 0 in tension, NaN without a critical load."""
         if self.compression is None:
             return None
         return np.asarray(np.maximum(self.compression, 0.0) / self.critical.values)
 
     @property
     def dropping(self) -> FloatArray:
-        """Whether the hole's curvature takes the pipe off the low side, (n,): the straight-hole loads are then too high.
+        """Whether the hole's curvature takes the pipe off the low side, (n,): straight-hole loads are then too high.
 
         Judged by He–Kyllingstad below Dawson–Paslay by more than one percent.
         """
@@ -102,7 +102,9 @@ class Screening:
         parts = [f"critical load: {self.critical.reasons[i]}"] if i in self.critical.reasons else []
         parts += [f"lift-off: {self.lift_off.reasons[i]}"] if i in self.lift_off.reasons else []
         if self.local[i] == 0.0:
-            parts.append("vertical: no lateral weight, lift-off coincides with buckling, and the load falls with length")
+            parts.append(
+                "vertical: no lateral weight, lift-off coincides with buckling, and the load falls with length"
+            )
         if self.dropping[i]:
             parts.append("hole curvature takes the pipe off the low side: the straight-hole loads are too high here")
         if self.survey.inclination[i] > 90.0:

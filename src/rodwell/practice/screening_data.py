@@ -75,7 +75,8 @@ def sentences(screening: Screening) -> list[str]:
     worst, used = screening.worst, screening.utilisation
     if used is not None and worst is not None and screening.compression is not None:
         past = int(np.sum(used > 1.0))
-        bent = int(np.sum(screening.dropping & (screening.compression > screening.formulas["he_kyllingstad"])))
+        above = screening.compression > screening.formulas["he_kyllingstad"]
+        bent = int(np.sum(np.logical_and(screening.dropping, above)))
         verdict = "The string buckles" if past else "By the straight-hole loads the string does not buckle"
         out.append(
             f"{verdict}: the largest utilisation is {100.0 * used[worst]:.3g} % at {at(worst)}, where it bears "
@@ -89,8 +90,8 @@ def sentences(screening: Screening) -> list[str]:
             out.append(f"{text}; {lifted} are past lift-off.")
         if bent:
             out.append(
-                f"At {bent} stations where the hole's curvature takes the pipe off the low side, the compression is above "
-                "He–Kyllingstad, which has the curvature: expect buckling there."
+                f"At {bent} stations where the hole's curvature takes the pipe off the low side, the compression is "
+                "above He–Kyllingstad, which has the curvature: expect buckling there."
             )
     elif used is not None:
         out.append("The string is in tension at every station: it does not buckle.")
@@ -104,14 +105,14 @@ def sentences(screening: Screening) -> list[str]:
     if np.any(inclined):
         low, high = float(np.nanmin(ratio[inclined])), float(np.nanmax(ratio[inclined]))
         out.append(
-            f"Dawson–Paslay, which is 0 in a vertical hole, is {100 * low:.3g} % to {100 * high:.3g} % of the exact load "
-            "at the inclined stations."
+            f"Dawson–Paslay, which is 0 in a vertical hole, is {100 * low:.3g} % to {100 * high:.3g} % of the exact "
+            "load at the inclined stations."
         )
     dropping = int(np.sum(screening.dropping))
     if dropping:
         out.append(
-            f"At {dropping} stations the hole's curvature takes the pipe off the low side: the loads of a straight hole are "
-            "too high there; He–Kyllingstad says by how much, about."
+            f"At {dropping} stations the hole's curvature takes the pipe off the low side: the loads of a "
+            "straight hole are too high there; He–Kyllingstad says by how much, about."
         )
     missing = sorted({*screening.critical.reasons, *screening.lift_off.reasons})
     if missing:
@@ -125,20 +126,23 @@ def assumptions(screening: Screening) -> list[str]:
     effects = ", ".join(f"{100 * v:.2g} % at {a:.3g}°" for a, v in screening.length_effect.items())
     out = [
         "Compression positive, at the station, which is the lower end of the local rod.",
-        f"Local rod: straight hole of the station's inclination, uphill from the station, {HALF_WAVES} half waves of the "
-        f"long-rod wave long ({LIFT_OFF_HALF_WAVES} for lift-off), ends {first} (at the station) and {last}.",
+        f"Local rod: straight hole of the station's inclination, uphill from the station, {HALF_WAVES} half waves "
+        f"of the long-rod wave long ({LIFT_OFF_HALF_WAVES} for lift-off), ends {first} (at the station) and {last}.",
         f"Estimated effect of its length on the critical load: {effects}; on the lift-off load about 1 %.",
-        "Friction, pressure, joints and curvature of the hole are not in the exact loads; He–Kyllingstad has the curvature.",
+        "Friction, pressure, joints and curvature of the hole are not in the exact loads; He–Kyllingstad has "
+        "the curvature.",
     ]
     if screening.critical.interpolated > 0.0 or screening.lift_off.interpolated > 0.0:
         out.append(
             f"Loads at {len(screening.survey)} stations from {screening.critical.solved} exact critical loads and "
-            f"{screening.lift_off.solved} exact lift-off loads; largest difference seen between interpolated and exact ones: "
-            f"{100 * screening.critical.interpolated:.2g} % and {100 * screening.lift_off.interpolated:.2g} %; errors are "
-            f"given as {100 * CRITICAL_PRECISION.tolerance:g} % and {100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
+            f"{screening.lift_off.solved} exact lift-off loads; largest difference seen between interpolated and exact "
+            f"ones: {100 * screening.critical.interpolated:.2g} % and {100 * screening.lift_off.interpolated:.2g} %; "
+            f"errors are given as {100 * CRITICAL_PRECISION.tolerance:g} % and {100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
         )
     if any(value > NOT_NEGLIGIBLE for value in screening.length_effect.values()):
-        out.append("Near the vertical the load falls with the length of the rod, ever more slowly, without a foundation.")
+        out.append(
+            "Near the vertical the load falls with the length of the rod, ever more slowly, without a foundation."
+        )
     return out
 
 

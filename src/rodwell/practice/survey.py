@@ -146,7 +146,9 @@ def _check(md: Sequence[float], inclination: Sequence[float], wheres: Sequence[s
         if depth < 0.0:
             raise InputError(f"{where}, measured depth", f"{depth:g} m", "must not be negative")
         if i and not depth > md[i - 1]:
-            what = f"must be larger than that of the station before, {md[i - 1]:g} m: sort stations, remove repeated ones"
+            what = (
+                f"must be larger than that of the station before, {md[i - 1]:g} m: sort stations, remove repeated ones"
+            )
             raise InputError(f"{where}, measured depth", f"{depth:g} m", what)
         if not 0.0 <= angle <= STEEPEST:
             what = f"must be from 0 to {STEEPEST:g} degrees from the vertical"

@@ -100,7 +100,9 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     rows = text.splitlines()
     first = next((row for row in rows if row.strip() and not row.lstrip().startswith("#")), "")
     if not first:
-        raise InputError("survey", str(path), "is empty: the first line names the columns, for example MD [m],Inc [deg]")
+        raise InputError(
+            "survey", str(path), "is empty: the first line names the columns, for example MD [m],Inc [deg]"
+        )
     delimiter = max(",;\t", key=first.count)
     out = []
     for number, row in enumerate(rows, start=1):

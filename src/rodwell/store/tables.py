@@ -45,7 +45,7 @@ def _write_sheet(sheet: Any, table: Table, styles: dict[str, Any]) -> None:
     for j, title in enumerate(table.columns):
         sheet.write_string(0, j, title, styles["head"])
         words = max((len(word) for word in title.split()), default=0)
-        texts = max((len(row[j]) for row in table.rows if isinstance(row[j], str)), default=0)
+        texts = max((len(str(row[j])) for row in table.rows if isinstance(row[j], str)), default=0)
         sheet.set_column(j, j, min(max(words + 2, texts, NARROWEST), WIDEST))
     for i, row in enumerate(table.rows):
         style = styles["marked" if i in table.marked else "plain"]

@@ -1,0 +1,56 @@
+"""A parameter study on the terminal: what ``rodwell run`` does with a case file that holds lists or ranges."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rodwell.cli.options import print_json, progress_bar
+
+if TYPE_CHECKING:
+    from rodwell.practice.study import Study
+
+
+def run_study(file: Path, folder: Path, as_json: bool, quiet: bool) -> None:
+    """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
+    from rodwell.practice.study import study as compute  # noqa: PLC0415
+    from rodwell.report.study import write_study  # noqa: PLC0415
+
+    with progress_bar(not quiet and not as_json, "reading") as tell:
+        result = compute(file, tell)
+        tell("figure, report and data", 1.0)
+        files = write_study(result, folder)
+    if as_json:
+        print_json(result.as_dict())
+    elif not quiet:
+        _summary(result)
+        click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+
+
+def _summary(study: Study) -> None:
+    """Worst cases, and the table."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
+    from rich.panel import Panel  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+
+    from rodwell.practice.study_data import cells, head, sentences  # noqa: PLC0415
+
+    console = Console(highlight=False)
+    text = sentences(study)
+    body = f"[bold]{escape(text[0])}[/bold]" + "".join(f"\n• {escape(line)}" for line in text[1:])
+    console.print(Panel(body, title=escape(study.title), title_align="left", border_style="blue"))
+    console.print("−F: compression at s = 1, positive. First mode; straight hole, no friction.")
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in head(study, short=True):
+        table.add_column(escape(title), justify="right")
+    worst = {point.number for name in ("critical", "lift_off") if (point := study.worst(name)) is not None}
+    for point in study.points:
+        style = "bold red" if point.number in worst else None
+        table.add_row(*(escape(cell) for cell in cells(study, point)), style=style)
+    console.print(table)
+    for point in study.incomplete:
+        for name, reason in (point.reasons or {}).items():
+            console.print(escape(f"{study.inputs(point)}: {name}: {reason}"), style="dim")

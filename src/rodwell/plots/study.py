@@ -1,0 +1,143 @@
+"""Curves of a parameter study."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from rodwell.plots.style import INK, MODES, RC, WARN
+from rodwell.practice.study import Point, Study
+from rodwell.practice.study_data import scales
+from rodwell.practice.varied import Varied
+
+DASHES = (0, (4, 2))
+
+MOST_CURVES = 8
+"""Curves in one panel; with more values of the second input, some are left out of the figure, and it says so."""
+
+
+def plot_study(study: Study) -> Figure:
+    """Draw compression at buckling and at lift-off, and the largest contact force at lift-off, over an input.
+
+    With two varied inputs the one with more values goes across, the other has a colour for each value. Compression
+    is positive, at s = 1; bars are errors where they can be seen. Worst cases are ringed. Returns the figure.
+    """
+    scale, force, per, per_length = scales(study)
+    across, other = _axes_of(study)
+    families = _families(study, across, other)
+    loads = {name: _scaled(study, name) for name in ("critical", "lift_off", "contact")}
+    with mpl.rc_context(RC):
+        figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+        FigureCanvasAgg(figure)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
+        for colour, (_label, points) in zip(MODES, families, strict=False):
+            _curve(upper, study, across, points, loads["critical"], scale, colour, "-")
+            _curve(upper, study, across, points, loads["lift_off"], scale, colour, DASHES)
+        _ring_worst(upper, study, across, loads, scale, {p.number for _, points in families for p in points})
+        upper.set_ylabel(f"end compression −F at s = 1  [{force}]")
+        if upper.get_ylim()[0] < 0.0:
+            upper.axhline(0.0, color=INK, lw=0.8)
+        for colour, (_label, points) in zip(MODES, families, strict=False):
+            _curve(lower, study, across, points, loads["contact"], per, colour, "-")
+        lower.set_ylabel(f"largest contact force\nat lift-off  [{per_length}]")
+        lower.set_ylim(bottom=0.0)
+        _label_across(lower, study.varied[across])
+        figure.legend(handles=_key(families), loc="outside lower center", ncols=3, handlelength=3.0)
+        left_out = 0 if other is None else len(study.varied[other].values) - len(families)
+        title = study.title + (
+            f"\n{left_out} values of {study.varied[other or 0].name} are in the table only" * (left_out > 0)
+        )
+        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        return figure
+
+
+def _axes_of(study: Study) -> tuple[int, int | None]:
+    """Which input goes across, and which makes the family of curves."""
+    if len(study.varied) == 1:
+        return 0, None
+    sizes = [len(v.values) if v.numbers is not None else 0 for v in study.varied]
+    across = 0 if sizes[0] >= sizes[1] else 1
+    return across, 1 - across
+
+
+def _families(study: Study, across: int, other: int | None) -> list[tuple[str, list[Point]]]:
+    """Points of each curve, in the order of the input across, with the label of the curve."""
+    key = _position(study.varied[across])
+    if other is None:
+        return [("", sorted(study.points, key=lambda point: key[point.at[0]]))]
+    count = len(study.varied[other].values)
+    shown = sorted({int(i) for i in np.linspace(0, count - 1, min(count, MOST_CURVES)).round()})
+    return [
+        (
+            f"{study.varied[other].key} = {study.varied[other].text(i)}",
+            sorted((p for p in study.points if p.at[other] == i), key=lambda point: key[point.at[across]]),
+        )
+        for i in shown
+    ]
+
+
+def _position(varied: Varied) -> tuple[float, ...]:
+    """Where the values lie across: themselves, or one after the other if they are no numbers."""
+    return varied.numbers or tuple(float(i) for i in range(len(varied.values)))
+
+
+def _scaled(study: Study, name: str) -> dict[int, tuple[float, float]]:
+    """Value and error by number of the point, in N or N/m (or B = L = 1); those that there are."""
+    out = {}
+    for point in study.points:
+        if name == "contact":
+            found, unit = point.contact, point.factor("force_per_length")
+            pair = None if found is None else (found.value * unit, found.error * unit)
+        else:
+            pair = point.compression(name)
+        if pair is not None:
+            out[point.number] = pair
+    return out
+
+
+def _curve(
+    ax: Any, study: Study, across: int, points: list[Point], values: dict[int, tuple[float, float]],
+    scale: float, colour: str, dashes: Any,
+) -> None:  # fmt: skip
+    """One curve with its points; it is interrupted where a point has no value."""
+    place = _position(study.varied[across])
+    x = [place[p.at[across]] for p in points]
+    pairs = [values.get(p.number, (math.nan, 0.0)) for p in points]
+    y, errors = np.array([v for v, _ in pairs]) / scale, np.array([e for _, e in pairs]) / scale
+    joined = dashes if study.varied[across].numbers is not None else "none"
+    ax.errorbar(x, y, yerr=errors, color=colour, ls=joined, lw=1.7, marker="o", ms=3.5, elinewidth=1.0)
+
+
+def _key(families: list[tuple[str, list[Point]]]) -> list[Line2D]:
+    """What lines, colours and rings mean."""
+    plain = MODES[0] if len(families) == 1 else INK
+    out = [
+        Line2D([], [], color=plain, lw=1.7, label="buckles"),
+        Line2D([], [], color=plain, lw=1.7, ls=DASHES, label="leaves the wall"),
+        Line2D([], [], ls="none", marker="o", ms=11, mfc="none", mec=WARN, mew=2.0, label="worst case"),
+    ]
+    return out + [Line2D([], [], color=c, lw=4.0, label=f[0]) for c, f in zip(MODES, families, strict=False) if f[0]]
+
+
+def _ring_worst(
+    ax: Any, study: Study, across: int, loads: dict[str, dict[int, tuple[float, float]]], scale: float, shown: set[int]
+) -> None:
+    """Ring the worst cases, as far as their curves are drawn."""
+    place = _position(study.varied[across])
+    for name in ("critical", "lift_off"):
+        worst = study.worst(name)
+        if worst is not None and worst.number in shown:
+            x, y = place[worst.at[across]], loads[name][worst.number][0] / scale
+            ax.plot(x, y, "o", ms=13, mfc="none", mec=WARN, mew=2.0, zorder=6, clip_on=False)
+
+
+def _label_across(ax: Any, varied: Varied) -> None:
+    ax.set_xlabel(f"{varied.name}  [{varied.unit}]" if varied.unit else varied.name)
+    if varied.numbers is None:
+        ax.set_xticks(range(len(varied.values)), [str(value) for value in varied.values], rotation=15)

@@ -1,0 +1,189 @@
+"""A study as table and as plain data, and what it means in sentences."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rodwell._version import __version__
+from rodwell.practice.study import Point, Study
+from rodwell.practice.table import Cell, Table
+from rodwell.practice.units import prefix_for, readable
+
+NOTES = (
+    "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
+    "First mode. Lift-off: the first load at which the rod leaves the wall somewhere; frictionless, straight hole.",
+    "± is the estimate of the numerical error, from two nested meshes.",
+)
+
+LOADS = {"critical": "buckles", "lift_off": "leaves the wall"}
+
+
+def units(study: Study) -> tuple[str, str]:
+    """Units of force and of force per length in tables."""
+    return ("N", "N/m") if study.physical else ("B/L²", "B/L³")
+
+
+def study_table(study: Study) -> Table:
+    """One row for each point; the worst cases at buckling and at lift-off are marked."""
+    force, per_length = units(study)
+    columns = ["point"]
+    columns += [f"{v.name} [{v.unit}]" if v.unit else v.name for v in study.varied]
+    columns += ["γ = mg L³/B", "α [deg]", "Δ/L"]
+    for what in LOADS.values():
+        columns += [f"{what}: compression at s = 1 [{force}]", f"± error [{force}]", f"{what}: at s = 0 [{force}]"]
+    columns += ["half waves of the mode", "leaves the wall at s/L", f"largest contact force at lift-off [{per_length}]"]
+    columns += [f"± error of it [{per_length}]", "remarks"]
+    marked = {worst.number for name in LOADS if (worst := study.worst(name)) is not None}
+    rows = tuple(_row(study, point) for point in study.points)
+    return Table("Points", tuple(columns), rows, frozenset(marked), NOTES)
+
+
+def _row(study: Study, point: Point) -> tuple[Cell, ...]:
+    cells: list[Cell] = [point.number + 1]
+    for varied, i in zip(study.varied, point.at, strict=True):
+        cells.append(str(varied.values[i]) if varied.numbers is None else varied.numbers[i])
+    problem = None if point.case is None else point.case.problem
+    cells += [None] * 3 if problem is None else [problem.weight, problem.alpha, problem.clearance]
+    for name in LOADS:
+        top, bottom = point.compression(name), point.compression(name, bottom=True)
+        cells += [
+            None if top is None else top[0],
+            None if top is None else top[1],
+            None if bottom is None else bottom[0],
+        ]
+    unit = point.factor("force_per_length")
+    contact = point.contact
+    cells += [point.half_waves, ", ".join(f"{s:.6g}" for s in point.places) or None]
+    cells += [None, None] if contact is None else [contact.value * unit, contact.error * unit]
+    return (*cells, remarks(study, point))
+
+
+def remarks(study: Study, point: Point) -> str:
+    """Worst case, and why results are missing."""
+    parts = [
+        f"worst case: least compression that {'buckles it' if name == 'critical' else 'lifts it off'}"
+        for name in LOADS
+        if (worst := study.worst(name)) is not None and worst.number == point.number
+    ]
+    names = {"case": "not computed", "critical": "critical load", "lift_off": "lift-off", "contact": "contact force"}
+    parts += [f"{names[name]}: {reason}" for name, reason in (point.reasons or {}).items()]
+    return "; ".join(parts)
+
+
+def load_text(study: Study, value: float) -> str:
+    """A force for reading."""
+    return readable(value, "N", 5) if study.physical else f"{value:.6g} B/L²".replace("-", "−")
+
+
+def scales(study: Study) -> tuple[float, str, float, str]:
+    """Divisor and unit of forces, and of contact forces, that suit the largest of the study, for reading."""
+    force, per_length = units(study)
+    if not study.physical:
+        return 1.0, force, 1.0, per_length
+    pairs = [found for point in study.points for name in LOADS if (found := point.compression(name)) is not None]
+    contacts = [p.contact.value * p.factor("force_per_length") for p in study.points if p.contact is not None]
+    scale, prefix = prefix_for(max((abs(value) for value, _ in pairs), default=1.0))
+    per, per_prefix = prefix_for(max(contacts, default=1.0))
+    return scale, prefix + force, per, per_prefix + per_length
+
+
+def head(study: Study, short: bool = False) -> list[str]:
+    """Columns of the table for reading; ``short`` for the terminal."""
+    _, force, _, per_length = scales(study)
+    inputs = [(v.key if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in study.varied]
+    if short:
+        return [*inputs, f"buckles [{force}]", "±", "at s = 0", "lifts off", "±", "s/L", f"contact [{per_length}]"]
+    return [
+        *inputs, f"buckles, −F at s = 1 [{force}]", "± error", f"at s = 0 [{force}]",
+        f"leaves the wall, −F at s = 1 [{force}]", "± error", "at s/L", f"largest contact force then [{per_length}]",
+    ]  # fmt: skip
+
+
+def cells(study: Study, point: Point) -> list[str]:
+    """One row of the table for reading; a dash where there is no result."""
+    scale, _, per, _ = scales(study)
+    out = []
+    for varied, i in zip(study.varied, point.at, strict=True):
+        out.append(str(varied.values[i]) if varied.numbers is None else f"{varied.numbers[i]:.6g}")
+    for name in LOADS:
+        found, bottom = point.compression(name), point.compression(name, bottom=True)
+        out += ["–", "–"] if found is None else [f"{found[0] / scale:.5g}", f"{found[1] / scale:.0e}"]
+        if name == "critical":
+            out.append("–" if bottom is None else f"{bottom[0] / scale:.5g}")
+    out.append(", ".join(f"{s:.3g}" for s in point.places) or "–")
+    unit = point.factor("force_per_length") / per
+    out.append("–" if point.contact is None else f"{point.contact.value * unit:.4g}")
+    names = len(study.varied)
+    return [*out[:names], *(cell.replace("-", "−") for cell in out[names:])]
+
+
+def sentences(study: Study) -> list[str]:
+    """What was found, worst cases first."""
+    out = []
+    for name, what in LOADS.items():
+        worst = study.worst(name)
+        load = None if worst is None else worst.compression(name)
+        if worst is None or load is None:
+            out.append(f"No point has a load at which it {what}.")
+            continue
+        others = [found[0] for point in study.points if (found := point.compression(name)) is not None]
+        text = (
+            f"least compression at which it {what} is {load_text(study, load[0])} at s = 1, for {study.inputs(worst)}"
+        )
+        out.append(f"Worst case: the {text}; the largest over the study is {load_text(study, max(others))}.")
+        if load[0] < 0.0:
+            out.append(
+                "Negative compression is tension: there the rod buckles under its own weight unless it is pulled."
+            )
+    lacking = [point for point in study.points if point.critical is None]
+    if lacking:
+        out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
+    partly = [p for p in study.points if p.critical is not None and p.lift_off is None]
+    if partly:
+        out.append(f"{len(partly)} points have no lift-off load; the table says why.")
+    return out
+
+
+def study_dict(study: Study) -> dict[str, Any]:
+    """Everything as plain data, for JSON."""
+    worst = {name: None if (p := study.worst(name)) is None else p.number + 1 for name in LOADS}
+    return {
+        "title": study.title,
+        "rodwell_version": __version__,
+        "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; points are numbered from 1",
+        "varied": [
+            {"key": v.name, "written": v.written, "unit": v.unit, "values": list(v.numbers or v.values)}
+            for v in study.varied
+        ],
+        "worst": worst,
+        "summary": sentences(study),
+        "points": [_point_dict(study, point) for point in study.points],
+    }
+
+
+def _point_dict(study: Study, point: Point) -> dict[str, Any]:
+    problem = None if point.case is None else point.case.problem
+    out: dict[str, Any] = {
+        "point": point.number + 1,
+        "inputs": {v.name: v.values[i] for v, i in zip(study.varied, point.at, strict=True)},
+        "problem": None
+        if problem is None
+        else {
+            "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
+            "poisson": problem.poisson, "twist": problem.twist, "ends": list(problem.ends),
+        },
+        "half_waves": point.half_waves,
+        "places": list(point.places),
+        "reasons": dict(point.reasons or {}),
+    }  # fmt: skip
+    for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
+        found = getattr(point, name)
+        if found is None:
+            out[name] = None
+            continue
+        out[name] = {"value": found.value, "error": found.error}
+        if point.case is not None and point.case.scales is not None:
+            unit = point.factor(dimension)
+            si = "N" if dimension == "force" else "N/m"
+            out[name]["si"] = {"value": found.value * unit, "error": found.error * unit, "unit": si}
+    return out

@@ -1,0 +1,154 @@
+"""Lists and ranges in case files: which inputs vary, and the values that they take."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rodwell.errors import InputError
+from rodwell.practice.units import in_unit_of
+
+MOST_POINTS = 400
+"""Points that one study may have."""
+
+FIXED = {
+    "analysis": "cannot vary: it says how the cases are computed",
+    "cylinder": "cannot vary: a study computes no stresses in the cylinder",
+    "load.until": "cannot vary: a study ends at lift-off",
+}
+"""Sections and keys that cannot vary, and why."""
+
+ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 deg in 13" or "10..40 in 7"'
+
+_RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
+
+
+@dataclass(frozen=True)
+class Varied:
+    """An input that varies.
+
+    Attributes
+    ----------
+    section, key
+        Where it stands in the case file.
+    written
+        What was written there.
+    values
+        What the case file would hold for each single case.
+    unit
+        Unit that all values share; "" for plain numbers and text.
+    numbers
+        The values as numbers in that unit, or None where they are no numbers (end conditions).
+    """
+
+    section: str
+    key: str
+    written: Any
+    values: tuple[Any, ...]
+    unit: str
+    numbers: tuple[float, ...] | None
+
+    @property
+    def name(self) -> str:
+        """Section and key."""
+        return f"{self.section}.{self.key}"
+
+    def text(self, i: int) -> str:
+        """Value number ``i`` for reading."""
+        if self.numbers is None:
+            return str(self.values[i])
+        return f"{self.numbers[i]:.6g} {self.unit}".strip().replace("-", "−").replace(" deg", "°")
+
+
+def is_varied(value: object) -> bool:
+    """Whether a value of a case file is a list or looks like a range."""
+    return isinstance(value, list | tuple) or (isinstance(value, str) and ".." in value)
+
+
+def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
+    """Return the inputs that vary, in the order of the file.
+
+    Raises
+    ------
+    InputError
+        For a list or range that cannot be read, one where nothing may vary, more than two, or too many points.
+    """
+    out = []
+    for section, values in data.items():
+        if not isinstance(values, Mapping):
+            if isinstance(values, list):
+                raise InputError(section, values, "cannot vary")
+            continue
+        for key, value in values.items():
+            if not is_varied(value):
+                continue
+            name = f"{section}.{key}"
+            why = FIXED.get(section) or FIXED.get(name)
+            if why is not None:
+                raise InputError(name, value, why)
+            out.append(_range(section, key, value) if isinstance(value, str) else _list(section, key, value))
+    if len(out) > 2:
+        names = ", ".join(varied.name for varied in out)
+        raise InputError(out[2].name, None, f"is the third input that varies ({names}); one or two can vary at a time")
+    count = math.prod(len(varied.values) for varied in out)
+    if count > MOST_POINTS:
+        sizes = " × ".join(str(len(varied.values)) for varied in out)
+        raise InputError(out[-1].name, None, f"makes {sizes} = {count} points; at most {MOST_POINTS}: use fewer values")
+    return tuple(out)
+
+
+def _range(section: str, key: str, text: str) -> Varied:
+    """A range "30..90 deg in 13": both ends included, evenly spaced."""
+    name = f"{section}.{key}"
+    parts = _RANGE.fullmatch(text)
+    found = None if parts is None else (_NUMBER.fullmatch(parts["first"]), _NUMBER.fullmatch(parts["last"]))
+    if parts is None or found is None or found[0] is None or found[1] is None:
+        raise InputError(name, text, f"is not a range; {ALLOWED}")
+    first, last, count = float(found[0][1]), float(found[1][1]), int(parts["count"][:9])
+    unit = found[1][2]
+    try:
+        first = _in(found[0][2] or unit, unit, first)
+    except ValueError as problem:
+        raise InputError(name, text, f"{problem}; {ALLOWED}") from None
+    if not 2 <= count <= MOST_POINTS:
+        raise InputError(name, text, f"must have from 2 to {MOST_POINTS} values")
+    if not (math.isfinite(first) and math.isfinite(last)) or first == last:
+        raise InputError(name, text, "must go from one finite value to another")
+    numbers = tuple(_tidy(first + (last - first) * i / (count - 1)) for i in range(count))
+    values = tuple(f"{number!r} {unit}" if unit else number for number in numbers)
+    return Varied(section, key, text, values, unit, numbers)
+
+
+def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
+    """A list of values as the case file would have them one by one."""
+    name = f"{section}.{key}"
+    if len(given) < 2:
+        raise InputError(name, given, f"must hold at least two values; {ALLOWED}")
+    if any(isinstance(value, list | tuple | Mapping | bool) or is_varied(value) for value in given):
+        raise InputError(name, given, f"must hold single values; {ALLOWED}")
+    if all(isinstance(value, int | float) for value in given):
+        return Varied(section, key, list(given), tuple(given), "", tuple(float(value) for value in given))
+    parsed = [_NUMBER.fullmatch(value.strip()) if isinstance(value, str) else None for value in given]
+    if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in given):
+        raise InputError(name, given, 'cannot hold values with "±"')
+    numbers: tuple[float, ...] | None = None
+    unit = parsed[0][2] if parsed[0] else ""
+    if all(part is not None for part in parsed):
+        try:
+            numbers = tuple(_in(part[2], unit, float(part[1])) for part in parsed if part)
+        except ValueError:  # names that begin with a number; a wrong unit is explained where the case is made
+            unit, numbers = "", None
+    return Varied(section, key, list(given), tuple(given), unit if numbers else "", numbers)
+
+
+def _in(unit: str, to: str, number: float) -> float:
+    return number if unit == to else in_unit_of(number, unit, to)
+
+
+def _tidy(value: float) -> float:
+    """The number without what round-off adds in the sixteenth digit: 0.3, not 0.30000000000000004."""
+    return float(f"{value:.13g}")
