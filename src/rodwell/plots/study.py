@@ -50,10 +50,8 @@ def plot_study(study: Study) -> Figure:
         _label_across(lower, study.varied[across])
         figure.legend(handles=_key(families), loc="outside lower center", ncols=3, handlelength=3.0)
         left_out = 0 if other is None else len(study.varied[other].values) - len(families)
-        title = study.title + (
-            f"\n{left_out} values of {study.varied[other or 0].name} are in the table only" * (left_out > 0)
-        )
-        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        note = f"\n{left_out} values of {study.varied[other or 0].name} are in the table only" if left_out else ""
+        figure.suptitle(study.title + note, x=0.01, ha="left", fontsize=10)
         return figure
 
 

@@ -1,7 +1,7 @@
 """Exact loads of a long straight rod at an inclination: what decides locally, at a station of a well.
 
-The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With force
-at the lower end its loads tend to limits as it grows longer, since upwards the axial weight takes the compression away.
+The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With
+force at the lower end its loads tend to limits as it grows longer: upwards the axial weight takes the compression away.
 The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole, where the approach
 is slowest, n half waves between clamped ends add 2/n² of the load.
 """

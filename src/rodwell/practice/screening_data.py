@@ -137,7 +137,8 @@ def assumptions(screening: Screening) -> list[str]:
             f"Loads at {len(screening.survey)} stations from {screening.critical.solved} exact critical loads and "
             f"{screening.lift_off.solved} exact lift-off loads; largest difference seen between interpolated and exact "
             f"ones: {100 * screening.critical.interpolated:.2g} % and {100 * screening.lift_off.interpolated:.2g} %; "
-            f"errors are given as {100 * CRITICAL_PRECISION.tolerance:g} % and {100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
+            f"errors are given as {100 * CRITICAL_PRECISION.tolerance:g} % and "
+            f"{100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
         )
     if any(value > NOT_NEGLIGIBLE for value in screening.length_effect.values()):
         out.append(

@@ -1,0 +1,271 @@
+"""Local loads of a long rod, the table between them, and a screened well, against limits and closed forms."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import openpyxl
+import pytest
+from click.testing import CliRunner
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.special import ai_zeros
+
+import rodwell
+from rodwell import Case, InputError, Survey
+from rodwell.cli.main import cli
+from rodwell.practice.load_table import Precision, angle_at, loads_at, place
+from rodwell.practice.long_rod import (
+    HALF_WAVES,
+    LocalLoad,
+    String,
+    critical_compression,
+    length_effect,
+    lift_off_compression,
+)
+from rodwell.practice.screening_data import screening_dict
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PIPE = String(1.228e6, 241.0, 0.04445)  # 5 in, 19.5 lb/ft in 10 ppg, 8.5 in hole
+DATA = {
+    "rod": {"length": "200 m", "bending_stiffness": "1.228e6 N m^2", "weight_per_length": "241 N/m"},
+    "hole": {"clearance": "44.45 mm", "angle_from_vertical": "90 deg"},
+}
+
+
+def dawson_paslay(alpha: float) -> float:
+    return 2.0 * math.sqrt(PIPE.stiffness * PIPE.weight * math.sin(math.radians(alpha)) / PIPE.clearance)
+
+
+def value(load: LocalLoad) -> float:
+    assert load.value is not None, load.reason
+    return load.value
+
+
+def test_horizontal_rod_is_within_one_percent_of_the_endless_rod() -> None:
+    """The limit is 2√(B w/r); between clamped ends n half waves add 2/n² to leading order."""
+    ratio = value(critical_compression(PIPE, 90.0)) / dawson_paslay(90.0)
+    assert 1.0 < ratio < 1.01
+    assert ratio - 1.0 == pytest.approx(2.0 / HALF_WAVES**2, rel=0.01)
+
+
+def test_pinned_horizontal_rod_is_the_endless_rod() -> None:
+    """n half waves exactly: Paslay and Bogy's load for a length that is a multiple of the half wave."""
+    pinned = String(PIPE.stiffness, PIPE.weight, PIPE.clearance, ("pinned", "pinned"))
+    assert value(critical_compression(pinned, 90.0)) == pytest.approx(dawson_paslay(90.0), rel=1e-6)
+
+
+@pytest.mark.parametrize("alpha", [0.05, 3.0, 45.0, 80.0, 88.0])
+def test_length_is_long_enough(alpha: float) -> None:
+    """Twice the length changes the load by less than 1 %, and no more than the effect that is reported says."""
+    load, longer = (value(critical_compression(PIPE, alpha, n)) for n in (HALF_WAVES, 2 * HALF_WAVES))
+    assert abs(load / longer - 1.0) < 0.01
+    assert abs(load / longer - 1.0) <= length_effect(PIPE, alpha) + 1e-9
+
+
+@pytest.mark.parametrize("ends", [("pinned", "free"), ("free", "clamped")])
+def test_vertical_rod_that_may_sway_at_one_end(ends: tuple[str, str]) -> None:
+    """1.018793 (B w²)^⅓, the first zero of Ai': a long string with a hinged bit, free sideways at the other end."""
+    string = String(PIPE.stiffness, PIPE.weight, PIPE.clearance, ends)
+    unit = (PIPE.stiffness * PIPE.weight**2) ** (1.0 / 3.0)
+    assert value(critical_compression(string, 0.0)) / unit == pytest.approx(-ai_zeros(1)[1][0], rel=1e-7)
+
+
+def test_vertical_rod_guided_at_the_bottom() -> None:
+    """y' = 0 at the bottom: the first zero of Ai."""
+    string = String(PIPE.stiffness, PIPE.weight, PIPE.clearance, ("guided", "clamped"))
+    unit = (PIPE.stiffness * PIPE.weight**2) ** (1.0 / 3.0)
+    assert value(critical_compression(string, 0.0)) / unit == pytest.approx(-ai_zeros(1)[0][0], rel=1e-7)
+
+
+@pytest.mark.parametrize("alpha", [20.0, 50.0, 74.0, 90.0])
+def test_lift_off_is_later_than_buckling_and_hardly_depends_on_length(alpha: float) -> None:
+    lift, longer = (value(lift_off_compression(PIPE, alpha, n)) for n in (12, 18))
+    assert lift > value(critical_compression(PIPE, alpha))
+    assert lift == pytest.approx(longer, rel=0.012)
+
+
+def test_lift_off_of_a_vertical_rod_is_buckling() -> None:
+    assert lift_off_compression(PIPE, 0.0).value == critical_compression(PIPE, 0.0).value
+
+
+@given(st.floats(0.0, 90.0))
+def test_places_of_the_table_are_inclinations(alpha: float) -> None:
+    assert angle_at(place(alpha)) == pytest.approx(alpha, abs=1e-9)
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.3, 90.0), (60.0, 90.0), (0.05, 5.0)])
+def test_interpolated_loads_are_as_exact_as_they_say(low: float, high: float) -> None:
+    alphas = np.random.default_rng(3).uniform(low, high, 100)
+    loads = loads_at(alphas.tolist(), lambda alpha: critical_compression(PIPE, alpha), Precision(1e-3, 6))
+    assert loads.solved < 45
+    assert not loads.reasons
+    assert np.all(loads.errors <= 1.1e-3 * loads.values)
+    for i in range(0, 100, 12):
+        assert abs(loads.values[i] - value(critical_compression(PIPE, alphas[i]))) <= loads.errors[i]
+
+
+def test_few_inclinations_are_all_solved_for() -> None:
+    asked = []
+
+    def solve(alpha: float) -> LocalLoad:
+        asked.append(alpha)
+        return LocalLoad(alpha + 1.0)
+
+    loads = loads_at([30.0, 10.0, 30.0, 0.0], solve, Precision(1e-3, 6))
+    assert sorted(asked) == [0.0, 10.0, 30.0]
+    assert loads.values.tolist() == [31.0, 11.0, 31.0, 1.0]
+    assert loads.interpolated == 0.0
+
+
+@settings(max_examples=30)
+@given(st.floats(5.0, 85.0), st.floats(0.02, 0.5))
+def test_a_jump_is_inside_the_error(at: float, size: float) -> None:
+    """Where the load jumps, the error covers it, at every inclination."""
+
+    def truth(alpha: float) -> float:
+        return 2.0 + math.sin(math.radians(alpha)) + (size if alpha > at else 0.0)
+
+    alphas = np.linspace(1.0, 90.0, 200)
+    loads = loads_at(alphas.tolist(), lambda alpha: LocalLoad(truth(alpha)), Precision(1e-2, 5))
+    off = np.abs(loads.values - [truth(alpha) for alpha in alphas])
+    assert np.all(off <= loads.errors)
+
+
+def test_a_load_that_is_not_found_is_said() -> None:
+    def solve(alpha: float) -> LocalLoad:
+        return LocalLoad(None, reason="no luck") if alpha > 60.0 else LocalLoad(1.0 + alpha)
+
+    alphas = np.linspace(1.0, 90.0, 60).tolist()
+    loads = loads_at(alphas, solve, Precision(1e-2, 4))
+    lost = {i for i, alpha in enumerate(alphas) if alpha > 60.0}
+    assert lost <= set(loads.reasons)
+    assert all("no luck" in reason for reason in loads.reasons.values())
+    assert set(np.nonzero(np.isnan(loads.values))[0]) == set(loads.reasons)
+
+
+@pytest.fixture(scope="module")
+def well() -> rodwell.Screening:
+    """Vertical, built, dropped, horizontal, a little uphill: 90 stations of a well in a plane."""
+    md = np.linspace(0.0, 2670.0, 90)
+    alpha = np.interp(md, [0.0, 500.0, 1200.0, 1500.0, 2200.0, 2670.0], [0.0, 0.0, 50.0, 40.0, 90.0, 92.0])
+    return rodwell.screen(Case.from_dict(DATA), Survey.of(md, alpha), bit_force=-1.2e5)
+
+
+def test_loads_of_the_well(well: rodwell.Screening) -> None:
+    vertical = well.local == 0.0
+    assert np.all(well.lift_off.values[vertical] == well.critical.values[vertical])
+    assert np.all(well.lift_off.values[~vertical] > well.critical.values[~vertical])
+    assert np.all(well.critical.values > 0.99 * well.formulas["dawson_paslay"])
+    steep = [dawson_paslay(alpha) for alpha in well.survey.inclination]
+    assert well.formulas["dawson_paslay"] == pytest.approx(np.array(steep), rel=1e-9)
+    assert well.formulas["chen_lin_cheatham"] == pytest.approx(math.sqrt(2.0) * np.array(steep), rel=1e-9)
+
+
+def test_curvature_of_the_well(well: rodwell.Screening) -> None:
+    """In a build section F = (2B b/r)[1 + √(1 + w sin α r/(B b²))]; the drop, and only that, is pointed out."""
+    i = 30  # in the first build
+    b, w_lateral = float(well.survey.build[i]), PIPE.weight * math.sin(math.radians(well.survey.inclination[i]))
+    root = math.sqrt(1.0 + w_lateral * PIPE.clearance / (PIPE.stiffness * b * b))
+    closed = 2.0 * PIPE.stiffness * b / PIPE.clearance * (1.0 + root)
+    assert well.formulas["he_kyllingstad"][i] == pytest.approx(closed, rel=1e-9)
+    assert np.array_equal(well.dropping, well.survey.build < -1e-9)
+    assert "curvature" in well.remarks(int(np.nonzero(well.dropping)[0][0]))
+
+
+def test_forces_of_the_well(well: rodwell.Screening) -> None:
+    """Force at the bit and force at the hook describe the same string; weight acts along the vertical."""
+    assert well.compression is not None
+    assert well.compression[-1] == pytest.approx(1.2e5)
+    hook = -float(well.compression[0])
+    assert hook == pytest.approx(PIPE.weight * well.survey.tvd[-1] - 1.2e5, rel=1e-9)
+    other = rodwell.screen(Case.from_dict(DATA), Survey.of(well.survey.md[::30], well.survey.inclination[::30]))
+    assert other.compression is None
+    assert other.utilisation is None
+    assert other.worst is None
+    used = well.utilisation
+    assert used is not None
+    assert well.worst == int(np.argmax(used))
+    assert np.all((used == 0.0) == (well.compression <= 0.0))
+
+
+def test_uphill_is_the_mirror_image(well: rodwell.Screening) -> None:
+    mirror = rodwell.screen(Case.from_dict(DATA), Survey.of([0.0, 30.0], [88.0, 92.0]))
+    assert mirror.critical.values[0] == mirror.critical.values[1]
+    assert "uphill" in mirror.remarks(1)
+    assert "uphill" in well.remarks(89)
+
+
+def test_forces_in_the_survey_and_twice() -> None:
+    survey = Survey.of([0.0, 30.0], [40.0, 41.0], force=[1e4, -2e4])
+    result = rodwell.screen(Case.from_dict(DATA), survey)
+    assert result.compression is not None
+    assert result.compression.tolist() == [-1e4, 2e4]
+    with pytest.raises(InputError, match="twice"):
+        rodwell.screen(Case.from_dict(DATA), survey, bit_force=0.0)
+    with pytest.raises(InputError, match="finite"):
+        rodwell.screen(Case.from_dict(DATA), Survey.of([0.0, 1.0], [3.0, 3.0]), hook_force=math.nan)
+
+
+def test_cases_that_cannot_be_set_into_a_well() -> None:
+    survey = Survey.of([0.0, 30.0], [40.0, 41.0])
+    with pytest.raises(InputError, match="dimensions"):
+        rodwell.screen(Case.from_dict({"dimensionless": {"weight": 15}}), survey)
+    weightless = {**DATA, "rod": {**DATA["rod"], "weight_per_length": "0 N/m"}}
+    with pytest.raises(InputError, match="weightless"):
+        rodwell.screen(Case.from_dict(weightless), survey)
+
+
+def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
+    (tmp_path / "well.csv").write_text("MD [ft],Inc\n0,0\n100,0\n2000,30\n4000,80\n", encoding="utf-8")
+    line = [str(tmp_path / "well.csv"), "--case", str(EXAMPLES / "well-string.toml"), "--bit-force", "-20 klbf"]
+    result = CliRunner().invoke(
+        cli, ["screen", *line, "--out", str(tmp_path / "out"), "--json"], catch_exceptions=False
+    )
+    assert result.exit_code == 0
+    data = json.loads(result.stdout)
+    files = {file.name for file in (tmp_path / "out").iterdir()}
+    assert files == {"limits.png", "limits.svg", "screening.json", "stations.csv", "stations.xlsx"}
+    ElementTree.parse(tmp_path / "out" / "limits.svg")
+    with (tmp_path / "out" / "stations.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    klbf = 4448.2216152605
+    column = [float(row["exact critical compression [klbf]"]) * klbf for row in rows]
+    assert column == pytest.approx(data["critical_compression"], rel=1e-12)
+    assert [float(row["measured depth [ft]"]) for row in rows] == pytest.approx([0.0, 100.0, 2000.0, 4000.0])
+    assert data["compression"][-1] == pytest.approx(20.0 * klbf)
+    sheet = openpyxl.load_workbook(tmp_path / "out" / "stations.xlsx")["Stations"]
+    read = list(sheet.iter_rows(values_only=True))
+    assert list(read[0]) == list(rows[0])
+    at = read[0].index("exact critical compression [klbf]")
+    assert [row[at] * klbf for row in read[1:5]] == pytest.approx(data["critical_compression"], rel=1e-12)
+    worst = read[0].index("measured depth [ft]")
+    assert sheet.cell(data["worst_station"] + 1, worst + 1).font.bold
+    assert not sheet.cell(2, worst + 1).font.bold
+
+
+def test_command_says_what_is_wrong(tmp_path: Path) -> None:
+    (tmp_path / "well.csv").write_text("MD [m],Inc\n0,0\n100,10\n", encoding="utf-8")
+    line = [
+        "screen",
+        str(tmp_path / "well.csv"),
+        "--case",
+        str(EXAMPLES / "well-string.toml"),
+        "--out",
+        str(tmp_path / "o"),
+    ]
+    with pytest.raises(InputError, match="--bit-force"):
+        CliRunner().invoke(cli, [*line, "--bit-force", "100 kg"], catch_exceptions=False)
+    assert not (tmp_path / "o").exists()
+
+
+def test_plain_data_hold_no_nan(well: rodwell.Screening) -> None:
+    data = screening_dict(well)
+    json.dumps(data, allow_nan=False)
+    assert len(data["critical_compression"]) == len(data["critical_error"]) == 90
+    assert data["summary"][0].startswith("By the straight-hole loads the string does not buckle")
