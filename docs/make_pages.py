@@ -17,6 +17,7 @@ from typing import Any
 
 import make_formulas
 import make_howto
+import make_wells
 from click.testing import CliRunner
 
 import rodwell
@@ -39,6 +40,7 @@ COMMANDS = {
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
+    **make_wells.COMMANDS,
 }
 
 PRETTY = {
@@ -70,10 +72,13 @@ def build() -> dict[str, str]:
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
-    for name, text in (make_howto.pages(OUT) | make_formulas.pages(OUT)).items():
+    for name, text in (make_howto.pages(OUT) | make_formulas.pages(OUT) | make_wells.pages()).items():
         _write(name, text)
+    with contextlib.chdir(OUT):
+        wells = make_wells.numbers()
     return (
-        _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+        wells
+        | _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
         | make_howto.numbers()
         | make_formulas.numbers()
     )

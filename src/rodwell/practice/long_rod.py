@@ -29,6 +29,10 @@ RTOL_CRITICAL, RTOL_LIFT_OFF = 1e-6, 1e-4
 """Relative tolerances of the two exact loads."""
 
 
+STEP = 0.15
+"""Longest step of the branch that is followed to lift-off, which is located exactly whatever the steps."""
+
+
 @dataclass(frozen=True)
 class String:
     """The pipe and its clearance: B in N m², w in N/m (in its fluid), r in m; end conditions of the local rod."""
@@ -78,7 +82,7 @@ def lift_off_compression(string: String, alpha: float, half_waves: float = LIFT_
     if problem.lateral_weight == 0.0:
         return critical_compression(string, alpha)
     try:
-        branch = follow(problem, 1, rtol=RTOL_LIFT_OFF)
+        branch = follow(problem, 1, rtol=RTOL_LIFT_OFF, largest_step=STEP)
     except (InputError, NotConvergedError) as found:
         return LocalLoad(None, reason=str(found))
     lift = branch.lift_off
@@ -87,13 +91,15 @@ def lift_off_compression(string: String, alpha: float, half_waves: float = LIFT_
     return LocalLoad((problem.axial_weight - lift.force) * unit, lift.error * unit)
 
 
-def length_effect(string: String, alpha: float) -> float:
+def length_effect(string: String, alpha: float, whole: LocalLoad | None = None) -> float:
     """How far the critical load of this length is from that of an endless rod, relative: an estimate.
 
-    From the load at half the length. The gap falls with the square of the length in a horizontal hole and faster in
-    an inclined one; in a vertical hole it falls with the length itself, or slower.
+    From the load at half the length, and that at the ``whole`` length if it is known. The gap falls with the square of
+    the length in a horizontal hole and faster in an inclined one; in a vertical hole it falls with the length itself, or
+    slower.
     """
-    half, whole = (critical_compression(string, alpha, n) for n in (0.5 * HALF_WAVES, HALF_WAVES))
+    whole = critical_compression(string, alpha) if whole is None else whole
+    half = critical_compression(string, alpha, 0.5 * HALF_WAVES)
     if half.value is None or whole.value is None or whole.value == 0.0:
         return math.nan
     at_longest = string.length(alpha) >= 0.999 * string.length(0.0)

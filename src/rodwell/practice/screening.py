@@ -13,7 +13,7 @@ from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.case import Case
 from rodwell.practice.formulas import FORMULAS
 from rodwell.practice.load_table import Loads, Precision, loads_at
-from rodwell.practice.long_rod import String, critical_compression, length_effect, lift_off_compression
+from rodwell.practice.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 from rodwell.practice.survey import Survey
 
 CRITICAL_PRECISION = Precision(1e-3, 6)
@@ -147,20 +147,27 @@ def screen(
     string = _string(case)
     compression = _compression(string, survey, bit_force, hook_force)
     local = [float(a) for a in np.minimum(survey.inclination, 180.0 - survey.inclination)]
+    known: dict[float, LocalLoad] = {}
+
+    def buckles(alpha: float) -> LocalLoad:
+        if alpha not in known:
+            known[alpha] = critical_compression(string, alpha)
+        return known[alpha]
+
     critical = loads_at(
         local,
-        lambda alpha: critical_compression(string, alpha),
+        buckles,
         CRITICAL_PRECISION,
         lambda done: tell("critical loads", 0.3 * done),
     )
     lift_off = loads_at(
         local,
-        lambda alpha: lift_off_compression(string, alpha),
+        lambda alpha: buckles(alpha) if alpha == 0.0 else lift_off_compression(string, alpha),
         LIFT_OFF_PRECISION,
         lambda done: tell("lift-off loads", 0.3 + 0.6 * done),
     )
     tell("formulas", 0.95)
-    effect = {alpha: length_effect(string, alpha) for alpha in (min(local), max(local))}
+    effect = {alpha: length_effect(string, alpha, buckles(alpha)) for alpha in (min(local), max(local))}
     return Screening(case, survey, string, critical, lift_off, _formulas(string, survey), compression, effect)
 
 
