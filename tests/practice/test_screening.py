@@ -184,7 +184,12 @@ def test_forces_of_the_well(well: rodwell.Screening) -> None:
     assert well.compression[-1] == pytest.approx(1.2e5)
     hook = -float(well.compression[0])
     assert hook == pytest.approx(PIPE.weight * well.survey.tvd[-1] - 1.2e5, rel=1e-9)
-    other = rodwell.screen(Case.from_dict(DATA), Survey.of(well.survey.md[::30], well.survey.inclination[::30]))
+    few = Survey.of(well.survey.md[[30, 50, 80]], well.survey.inclination[[30, 50, 80]])
+    pulled = rodwell.screen(Case.from_dict(DATA), few, hook_force=5e4)
+    assert pulled.compression is not None
+    assert pulled.compression == pytest.approx(PIPE.weight * few.tvd - 5e4, rel=1e-9)
+    assert pulled.compression[-1] > 0.0
+    other = rodwell.screen(Case.from_dict(DATA), few)
     assert other.compression is None
     assert other.utilisation is None
     assert other.worst is None
@@ -237,6 +242,9 @@ def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
     klbf = 4448.2216152605
     column = [float(row["exact critical compression [klbf]"]) * klbf for row in rows]
     assert column == pytest.approx(data["critical_compression"], rel=1e-12)
+    lifts = [float(row["exact lift-off compression [klbf]"]) * klbf for row in rows]
+    assert lifts == pytest.approx(data["lift_off_compression"], rel=1e-12)
+    assert lifts[3] > column[3]
     assert [float(row["measured depth [ft]"]) for row in rows] == pytest.approx([0.0, 100.0, 2000.0, 4000.0])
     assert data["compression"][-1] == pytest.approx(20.0 * klbf)
     sheet = openpyxl.load_workbook(tmp_path / "out" / "stations.xlsx")["Stations"]

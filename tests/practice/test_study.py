@@ -140,6 +140,9 @@ def test_points_are_the_single_cases(inclined: Study) -> None:
         assert point.contact is not None
         assert point.contact.value == pytest.approx(lift.solution.wall.contact.value, rel=1e-6)
         assert point.reasons is None
+        table = study_table(inclined)
+        (at,) = (i for i, title in enumerate(table.columns) if title.startswith("largest contact force"))
+        assert table.rows[point.number][at] == pytest.approx(point.contact.value * unit / length, rel=1e-12)
 
 
 def test_worst_case_is_that_of_physical_forces() -> None:

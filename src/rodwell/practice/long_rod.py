@@ -95,8 +95,7 @@ def length_effect(string: String, alpha: float, whole: LocalLoad | None = None) 
     """How far the critical load of this length is from that of an endless rod, relative: an estimate.
 
     From the load at half the length, and that at the ``whole`` length if it is known. The gap falls with the square of
-    the length in a horizontal hole and faster in an inclined one; in a vertical hole it falls with the length itself, or
-    slower.
+    the length in a horizontal hole and faster in an inclined one; in a vertical hole with the length, or slower.
     """
     whole = critical_compression(string, alpha) if whole is None else whole
     half = critical_compression(string, alpha, 0.5 * HALF_WAVES)
