@@ -37,14 +37,14 @@ def length_table() -> str:
 
 
 def numbers() -> dict[str, str]:
-    """Time for 500 stations, and what the table between exact loads costs."""
+    """Processor time for 500 stations, and what the table between exact loads costs."""
     case = rodwell.Case.read("examples/well-string.toml")
     md = np.linspace(0.0, 4990.0, 500)
     alpha = np.interp(md, [0.0, 600.0, 1500.0, 2500.0, 3600.0, 4990.0], [0.0, 0.0, 45.0, 60.0, 88.0, 91.0])
-    start = time.perf_counter()
+    start = time.process_time()
     found = rodwell.screen(case, rodwell.Survey.of(md, alpha), bit_force=-1e5)
     return {
-        "screen_seconds": f"{time.perf_counter() - start:.1f}",
+        "screen_seconds": f"{time.process_time() - start:.1f}",
         "screen_critical": str(found.critical.solved),
         "screen_lift_off": str(found.lift_off.solved),
     }

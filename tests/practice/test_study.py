@@ -63,6 +63,11 @@ def test_lists_and_ranges(written: Any, numbers: list[float], unit: str, second:
     assert found.values[1] == second
 
 
+@pytest.mark.parametrize("text", ["../pipes.toml", "5 in", "wait ..", "clamped-clamped", "1.5 m", "a..b"])
+def test_texts_that_are_no_ranges(text: str) -> None:
+    assert varied_inputs({"rod": {"x": text}}) == ()
+
+
 @given(st.floats(-1e6, 1e6), st.floats(1e-3, 1e6), st.integers(2, 50))
 def test_ranges_are_even_and_include_both_ends(first: float, width: float, count: int) -> None:
     (found,) = varied_inputs({"load": {"twist": f"{first!r}..{first + width!r} N m in {count}"}})

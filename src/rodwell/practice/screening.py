@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.errors import InputError
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.case import Case
 from rodwell.practice.formulas import FORMULAS
@@ -142,6 +142,8 @@ def screen(
     ------
     InputError
         If the case has no dimensions or no weight, or forces are given twice.
+    NotConvergedError
+        If no station at all has a critical load; single ones that lack a load say why in ``reasons``.
     """
     tell = progress or (lambda _what, _done: None)
     string = _string(case)
@@ -160,6 +162,8 @@ def screen(
         CRITICAL_PRECISION,
         lambda done: tell("critical loads", 0.3 * done),
     )
+    if len(critical.reasons) == len(survey):
+        raise NotConvergedError(f"no station has a critical load: {critical.reasons[0]}")
     lift_off = loads_at(
         local,
         lambda alpha: buckles(alpha) if alpha == 0.0 else lift_off_compression(string, alpha),

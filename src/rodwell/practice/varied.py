@@ -24,6 +24,9 @@ FIXED = {
 ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 deg in 13" or "10..40 in 7"'
 
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
+_RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
+"""What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
+
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
 
 
@@ -66,7 +69,7 @@ class Varied:
 
 def is_varied(value: object) -> bool:
     """Whether a value of a case file is a list or looks like a range."""
-    return isinstance(value, list | tuple) or (isinstance(value, str) and ".." in value)
+    return isinstance(value, list | tuple) or (isinstance(value, str) and _RANGE_LIKE.search(value) is not None)
 
 
 def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
