@@ -38,7 +38,7 @@ def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: b
         from rodwell.cli.study import run_study  # noqa: PLC0415
 
         check_writable(folder)
-        run_study(case, folder, as_json, quiet)
+        run_study(case, folder, units, as_json, quiet)
         return
     read = Case.read(case).in_units(units)
     check_writable(folder)

@@ -15,7 +15,8 @@ from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.follow import follow
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.case import Case, CaseError
-from rodwell.practice.varied import Varied, is_varied, varied_inputs
+from rodwell.practice.units import SI, System
+from rodwell.practice.varied import LISTS, Varied, is_varied, varied_inputs
 
 Progress = Callable[[str, float], None]
 
@@ -107,6 +108,12 @@ class Study:
     points: tuple[Point, ...]
 
     @property
+    def system(self) -> System:
+        """The units in which results are shown."""
+        found = (p.case.scales for p in self.points if p.case is not None and p.case.scales is not None)
+        return next((scales.system for scales in found), SI)
+
+    @property
     def physical(self) -> bool:
         """Whether the cases have dimensions."""
         return any(point.case is not None and point.case.scales is not None for point in self.points)
@@ -135,7 +142,7 @@ class Study:
         return study_dict(self)
 
 
-def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None) -> Study:
+def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None) -> Study:
     """Compute a parameter study: a case in which one or two inputs are lists or ranges.
 
     Parameters
@@ -146,6 +153,9 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         included). Two inputs make a grid.
     progress
         Called with what is being done and how much is done.
+    units
+        "si", "field" or "mm": the units in which results are shown; by default those of the case. Tables as files are
+        in SI.
 
     Raises
     ------
@@ -164,7 +174,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         )
     tell = progress or (lambda _what, _done: None)
     grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
-    cases = [_case(data, varied, at, source) for at in grid]
+    folder = Path.cwd() if isinstance(case, Mapping) else Path(case).parent
+    cases = [_case(data, varied, at, source, folder, units) for at in grid]
     if all(isinstance(found, InputError) for found in cases):
         raise cases[0]  # type: ignore[misc]
     points = []
@@ -185,7 +196,8 @@ def is_study(path: Path) -> bool:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return False
-    return any(is_varied(value) for section in data.values() if isinstance(section, dict) for value in section.values())
+    sections = (section for name, section in data.items() if isinstance(section, dict) and name not in LISTS)
+    return any(is_varied(value) for section in sections for value in section.values())
 
 
 def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:
@@ -202,13 +214,20 @@ def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str,
         raise
 
 
-def _case(data: Mapping[str, Any], varied: tuple[Varied, ...], at: tuple[int, ...], source: str) -> Case | InputError:
+def _case(
+    data: Mapping[str, Any],
+    varied: tuple[Varied, ...],
+    at: tuple[int, ...],
+    source: str,
+    folder: Path,
+    units: str | None,
+) -> Case | InputError:
     """The case of one point, or what is wrong with it."""
     single: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in data.items()}
     for one, i in zip(varied, at, strict=True):
         single[one.section][one.key] = one.values[i]
     try:
-        return Case.from_dict(single, source=source)
+        return Case.from_dict(single, source=source, folder=folder).in_units(units)
     except InputError as problem:
         return problem
 

@@ -7,7 +7,6 @@ from typing import Any
 from rodwell._version import __version__
 from rodwell.practice.study import Point, Study
 from rodwell.practice.table import Cell, Table
-from rodwell.practice.units import prefix_for, readable
 
 NOTES = (
     "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
@@ -72,7 +71,7 @@ def remarks(study: Study, point: Point) -> str:
 
 def load_text(study: Study, value: float) -> str:
     """A force for reading."""
-    return readable(value, "N", 5) if study.physical else f"{value:.6g} B/L²".replace("-", "−")
+    return study.system.text(value, "force", 5) if study.physical else f"{value:.6g} B/L²".replace("-", "−")
 
 
 def scales(study: Study) -> tuple[float, str, float, str]:
@@ -82,9 +81,9 @@ def scales(study: Study) -> tuple[float, str, float, str]:
         return 1.0, force, 1.0, per_length
     pairs = [found for point in study.points for name in LOADS if (found := point.compression(name)) is not None]
     contacts = [p.contact.value * p.factor("force_per_length") for p in study.points if p.contact is not None]
-    scale, prefix = prefix_for(max((abs(value) for value, _ in pairs), default=1.0))
-    per, per_prefix = prefix_for(max(contacts, default=1.0))
-    return scale, prefix + force, per, per_prefix + per_length
+    scale, force = study.system.unit("force", max((abs(value) for value, _ in pairs), default=1.0))
+    per, per_length = study.system.unit("force_per_length", max(contacts, default=1.0))
+    return scale, force, per, per_length
 
 
 def head(study: Study, short: bool = False) -> list[str]:

@@ -14,6 +14,9 @@ from rodwell.practice.units import in_unit_of
 MOST_POINTS = 400
 """Points that one study may have."""
 
+LISTS = ("catalogue",)
+"""Sections in which a list is a list, not an input that varies."""
+
 FIXED = {
     "analysis": "cannot vary: it says how the cases are computed",
     "cylinder": "cannot vary: a study computes no stresses in the cylinder",
@@ -87,7 +90,7 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
                 raise InputError(section, values, "cannot vary")
             continue
         for key, value in values.items():
-            if not is_varied(value):
+            if section in LISTS or not is_varied(value):
                 continue
             name = f"{section}.{key}"
             why = FIXED.get(section) or FIXED.get(name)
