@@ -48,16 +48,7 @@ def plot_rod(
     with mpl.rc_context(RC):
         if ax is None:
             ax = _wide_axes()
-        length, width = float(rod.centreline[-1, 2]), _reach(rod)
-        ax.set_proj_type("persp", focal_length=2.0)
-        ax.view_init(elev=ELEVATION, azim=AZIMUTH)
-        ax.set_box_aspect((length, 2.0 * width, 2.0 * width), zoom=0.8)
-        ax.set_xlim(0.0, length)
-        ax.set_ylim(-width, width)
-        ax.set_zlim(-width, width)
-        ax.set_axis_off()
-        _bodies(ax, rod)
-        _wall(ax, rod)
+        length, width = draw_rod(ax, rod)
         for place in (0.0, 1.0):
             ax.text(
                 place * length,
@@ -70,6 +61,21 @@ def plot_rod(
         _colour_bar(ax, rod, scales)
         ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax
+
+
+def draw_rod(ax: Any, rod: Geometry, zoom: float = 0.8) -> tuple[float, float]:
+    """Draw rod, rings and wall on axes in three dimensions, without words; return length and half width drawn."""
+    length, width = float(rod.centreline[-1, 2]), _reach(rod)
+    ax.set_proj_type("persp", focal_length=2.0)
+    ax.view_init(elev=ELEVATION, azim=AZIMUTH)
+    ax.set_box_aspect((length, 2.0 * width, 2.0 * width), zoom=zoom)
+    ax.set_xlim(0.0, length)
+    ax.set_ylim(-width, width)
+    ax.set_zlim(-width, width)
+    ax.set_axis_off()
+    _bodies(ax, rod)
+    _wall(ax, rod)
+    return length, width
 
 
 def _axes_of(points: FloatArray) -> FloatArray:

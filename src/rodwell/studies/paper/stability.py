@@ -1,0 +1,174 @@
+"""Stability diagrams: Fig. 5, 6, 12(b) and 13, loads against weight."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.critical_curves import critical_curves
+from rodwell.analysis.curves import Curve
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.special import SpecialPoint
+from rodwell.analysis.state_curves import lift_off_curve
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.spaces import FloatArray
+from rodwell.problem import Problem
+from rodwell.studies.paper.work import CLEARANCE, Work, rod
+
+FIG5_WEIGHTS = (5.0, 40.0, 140.0, 280.0)
+"""γ of the panels of Fig. 5, marked by diamonds."""
+
+STEPS = (0.15, 0.5, 1.0, 1.35)
+"""Compressions of these panels, as parts of the way from buckling to lift-off."""
+
+INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150.0), (0.0, 350.0))
+"""Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
+
+VEERING = 60.0
+"""At this α the lift-off curve turns so sharply near γ = 10.55 that it is traced from both sides."""
+
+SEAM = (20.0, 10.0)
+"""γ from and to which the second piece goes back, and where the first piece is traced to."""
+
+GRID = 601
+"""Weights at which curves are drawn."""
+
+
+@dataclass(frozen=True)
+class Stability:
+    """A stability diagram.
+
+    Attributes
+    ----------
+    label
+        What tells the panel from the others.
+    problem
+        The rod.
+    until
+        γ up to which it goes.
+    critical
+        Curves of critical loads, in the order of compression at the start.
+    lift_off
+        Pieces of the lift-off curve of the first mode: γ and F, (n,) each; empty where lift-off coincides with buckling.
+    """
+
+    label: str
+    problem: Problem
+    until: float
+    critical: tuple[Curve, ...]
+    lift_off: tuple[tuple[FloatArray, FloatArray], ...]
+
+    @property
+    def weights(self) -> FloatArray:
+        """γ at which the curves are drawn, double points among them."""
+        marks = [mark.x for curve in self.critical for mark in curve.marks]
+        return np.unique(np.concatenate([np.linspace(0.0, self.until, GRID), marks]))
+
+    def load(self, number: int) -> FloatArray:
+        """F of one curve at :attr:`weights`, by a cubic spline through its points."""
+        from scipy.interpolate import CubicSpline  # noqa: PLC0415 - slow to import
+
+        curve = self.critical[number]
+        return np.asarray(CubicSpline(curve.x, curve.values)(self.weights))
+
+    @property
+    def first(self) -> FloatArray:
+        """F of the first critical load at :attr:`weights`."""
+        return np.max([self.load(i) for i in range(len(self.critical))], axis=0)
+
+
+@dataclass(frozen=True)
+class Row:
+    """States of one weight under growing compression, Fig. 5: the one at lift-off and its place among them."""
+
+    weight: float
+    states: tuple[Solution, ...]
+    lift: SpecialPoint
+    at_lift: int
+
+
+@dataclass(frozen=True)
+class Fig5:
+    """Fig. 5: the diagram, and the panels below it."""
+
+    diagram: Stability
+    rows: tuple[Row, ...]
+
+
+def fig5(work: Work) -> Fig5:
+    """Stability diagram of the horizontal rod, and states at γ = 5, 40, 140, 280."""
+    problem, until = rod(0.0), 300.0
+    critical = critical_curves(problem, "weight", (0.0, until), modes=4, rtol=work.rtol)
+    lifts = [lift_off_curve(problem, "weight", (0.0, until), mode=mode, rtol=work.rtol) for mode in (1, 2)]
+    switches = sorted(mark.x for mark in critical[0].marks if mark.note == "modes 1 and 2 switch")
+    edges = [0.0, *switches, until]
+    pieces = [_piece(lifts[i % 2], low, high) for i, (low, high) in enumerate(zip(edges, edges[1:], strict=False))]
+    diagram = Stability("", problem, until, critical, tuple(pieces))
+    return Fig5(diagram, tuple(_row(work, weight) for weight in FIG5_WEIGHTS))
+
+
+def _piece(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray]:
+    """A lift-off curve between two weights."""
+    if np.any(np.diff(curve.x) <= 0.0):
+        raise NotConvergedError("the lift-off curve of the horizontal rod turns back: it has no value at each weight")
+    inside = (curve.x > low) & (curve.x < high)
+    x = np.concatenate([[low], curve.x[inside], [high]])
+    return x, np.interp(x, curve.x, curve.values)
+
+
+def _row(work: Work, weight: float) -> Row:
+    problem = rod(weight)
+    lift = work.branch(problem).lift_off
+    if lift is None:
+        raise NotConvergedError(f"γ = {weight:g}: no lift-off")
+    start = work.critical(problem, 1)[0].force
+    forces = [start + part * (lift.force - start) for part in STEPS]
+    branch = work.branch(problem, 1, forces[-1])
+    at_lift = STEPS.index(1.0)
+    states = tuple(lift.solution if i == at_lift else branch.at(force) for i, force in enumerate(forces))
+    return Row(weight, states, lift, at_lift)
+
+
+def fig6(work: Work) -> tuple[Stability, ...]:
+    """Stability diagrams of inclined rods, Fig. 6(a) to (f)."""
+    return tuple(
+        _inclined(work, f"({letter})", alpha, until) for letter, (alpha, until) in zip("abcdef", INCLINED, strict=True)
+    )
+
+
+def _inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
+    problem = rod(0.0, alpha)
+    critical = critical_curves(problem, "weight", (0.0, until), modes=3, rtol=work.rtol)
+    if alpha == 0.0:
+        return Stability(label, problem, until, critical, ())
+    ranges = [(0.0, SEAM[0]), (SEAM[0], SEAM[1]), (SEAM[0], until)] if alpha == VEERING else [(0.0, until)]
+    curves = [lift_off_curve(problem, "weight", limits, rtol=work.rtol) for limits in ranges]
+    return Stability(label, problem, until, critical, tuple((curve.x, curve.values) for curve in curves))
+
+
+def fig12b(work: Work) -> Stability:
+    """Critical loads of the rod on top, Fig. 12(b)."""
+    problem, until = rod(0.0, on_top=True), 160.0
+    return Stability("(b)", problem, until, critical_curves(problem, "weight", (0.0, until), rtol=work.rtol), ())
+
+
+@dataclass(frozen=True)
+class Fit:
+    """First critical load and Dellinger's fit (89) against weight; Fig. 13."""
+
+    exact: Stability
+    fit: FloatArray
+
+
+def fig13(work: Work) -> tuple[Fit, ...]:
+    """Fig. 13(a) and (b): α = π/2 and π/3."""
+    from rodwell.practice.formulas import FORMULAS  # noqa: PLC0415
+
+    out = []
+    for label, alpha in (("(a)", 90.0), ("(b)", 60.0)):
+        problem, until = rod(0.0, alpha), 300.0
+        exact = Stability(label, problem, until, critical_curves(problem, "weight", (0.0, until), modes=2, rtol=work.rtol), ())
+        formula = FORMULAS["dellinger"].function
+        out.append(Fit(exact, np.array([formula(1.0, w, alpha, CLEARANCE) for w in exact.weights])))
+    return tuple(out)
