@@ -17,6 +17,7 @@ from rodwell.cli.check import verify
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
+from rodwell.cli.paper import paper
 from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
@@ -37,7 +38,7 @@ def cli() -> None:
 
 for command in (
     *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, catalogue),
+    *(diagram, curve, twist, export, catalogue, paper),
 ):
     cli.add_command(command)
 

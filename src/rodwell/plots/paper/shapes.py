@@ -85,9 +85,9 @@ def draw_fig10(data: Determinant) -> Figure:
         ax = figure.subplots()
         ax.plot(data.weights, data.values, color=INK, lw=1.6)
         ax.axhline(0.0, color=INK, lw=0.6)
-        for root in data.roots:
+        for root, place, side in zip(data.roots, ((5, 6), (6, -12), (-5, -12)), ("left", "left", "right"), strict=True):
             ax.plot(root, 0.0, "D", ms=5, color="white", mec=INK)
-            ax.annotate(f"{root:.6f}", (root, 0.0), xytext=(0, -14), textcoords="offset points", ha="center", fontsize=7.5)
+            ax.annotate(f"{root:.6f}", (root, 0.0), xytext=place, textcoords="offset points", ha=side, fontsize=7.5)
         ax.set_xlim(0.0, 350.0)
         ax.set_xlabel(WEIGHT)
         ax.set_ylabel("$D(0, mg)$")

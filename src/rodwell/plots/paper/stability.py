@@ -25,6 +25,10 @@ from rodwell.plots.paper.space import shape_in_space
 from rodwell.plots.style import GREY, INK, MODES, WARN
 from rodwell.studies.paper.diagrams import Panel
 from rodwell.studies.paper.stability import Fig5, Fit, Row, Stability
+from rodwell.studies.paper.work import CLEARANCE
+
+SECOND_SWITCH = 64.0 * np.pi**4 * CLEARANCE
+"""Weight at which the first two modes switch for the second time, (78)."""
 
 DOTS = {"color": GREY, "lw": 1.0, "ls": (0, (1, 1.6))}
 DASHES: Any = {"color": WARN, "lw": 1.4, "ls": (0, (5, 2))}
@@ -35,7 +39,8 @@ def draw_fig5(data: Fig5) -> Figure:
     """Draw Fig. 5: the stability diagram, and below it y, p and the shape at lift-off for four weights."""
     with context():
         figure = new_figure(7.4, 11.0)
-        upper, lower = figure.subfigures(2, 1, height_ratios=(1.0, 1.55))
+        upper, lower = figure.subfigures(2, 1, height_ratios=(1.0, 1.5))
+        lower.set_facecolor("none")
         ax = upper.subplots()
         stability(ax, data.diagram)
         for curve in data.diagram.critical:
@@ -62,7 +67,10 @@ def _words(ax: Any, diagram: Stability) -> None:
 
 def _row(part: Any, row: Row, *, last: bool) -> None:
     """y and p of one weight under growing compression, and the rod in space at lift-off."""
-    left, right = part.subfigures(1, 2, width_ratios=(1.55, 1.0))
+    part.set_facecolor("none")
+    left, right = part.subfigures(1, 2, width_ratios=(1.9, 1.0))
+    left.set_facecolor("none")
+    right.set_facecolor("none")
     ax_y, ax_p = left.subplots(1, 2)
     s = np.linspace(0.0, 1.0, PLACES)
     greys = np.linspace(0.72, 0.3, len(row.states))
@@ -78,9 +86,7 @@ def _row(part: Any, row: Row, *, last: bool) -> None:
         if last:
             ax.set_xlabel(ALONG)
     letter(ax_y, f"$mg$ = {row.weight:g}")
-    ax_p.legend(title="$-F$  [$B/L^2$]", title_fontsize=7, fontsize=6.5, loc="lower center", ncols=2, borderpad=0.1)
-    low, high = ax_p.get_ylim()
-    ax_p.set_ylim(low - 0.45 * (high - low), high)
+    ax_p.legend(title="$-F$  [$B/L^2$]", title_fontsize=7, fontsize=6.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
     shape_in_space(right, row.lift.solution, f"lift-off, $-F$ = {-row.lift.force:.5g}")
 
 
@@ -127,7 +133,7 @@ def draw_fig11(curves: Sequence[Curve]) -> Figure:
         ax = figure.subplots()
         ax.plot(first.x, first.values, **FIRST)
         ax.plot(beyond.x, beyond.values, color=INK, lw=1.2, ls=(0, (5, 2)))
-        ax.axvspan(62.3418, 130.0, color="#eef1f4", zorder=0, lw=0)
+        ax.axvspan(SECOND_SWITCH, 130.0, color="#eef1f4", zorder=0, lw=0)
         ax.text(64.5, 33.0, "the other mode\nbuckles first", fontsize=8, color=GREY, va="top")
         ax.text(30.0, 10.0, "pressed to the wall", ha="center", fontsize=8)
         ax.text(42.0, 24.0, "lifted off again", ha="center", fontsize=8)
@@ -155,7 +161,7 @@ def draw_fig12(data: tuple[Panel, Stability]) -> Figure:
         right.set_ylim(-400.0, 260.0)
         right.set_xlabel(WEIGHT)
         right.set_ylabel(COMPRESSION)
-        right.legend(loc="lower left")
+        right.legend(loc="lower right")
         letter(right, loads.label)
         return figure
 

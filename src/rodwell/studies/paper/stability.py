@@ -25,11 +25,9 @@ STEPS = (0.15, 0.5, 1.0, 1.35)
 INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150.0), (0.0, 350.0))
 """Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
 
-VEERING = 60.0
-"""At this α the lift-off curve turns so sharply near γ = 10.55 that it is traced from both sides."""
-
-SEAM = (20.0, 10.0)
-"""γ from and to which the second piece goes back, and where the first piece is traced to."""
+VEERING = {60.0: ((0.0, 20.0), (20.0, 10.0), (20.0, 100.0), (300.0, 60.0))}
+"""Ranges over which lift-off curves are traced where they turn so sharply, next to a veering of the critical loads, that
+a curve must be reached from both sides: at α = π/3 near γ = 10.55 and γ = 71."""
 
 GRID = 601
 """Weights at which curves are drawn."""
@@ -142,7 +140,7 @@ def _inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
     critical = critical_curves(problem, "weight", (0.0, until), modes=3, rtol=work.rtol)
     if alpha == 0.0:
         return Stability(label, problem, until, critical, ())
-    ranges = [(0.0, SEAM[0]), (SEAM[0], SEAM[1]), (SEAM[0], until)] if alpha == VEERING else [(0.0, until)]
+    ranges = VEERING.get(alpha, ((0.0, until),))
     curves = [lift_off_curve(problem, "weight", limits, rtol=work.rtol) for limits in ranges]
     return Stability(label, problem, until, critical, tuple((curve.x, curve.values) for curve in curves))
 

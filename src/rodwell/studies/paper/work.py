@@ -37,6 +37,9 @@ class Work:
         Relative tolerance of every computed number.
     """
 
+    WARM = rod(15.0)
+    """A rod whose branch takes every compiled kernel."""
+
     def __init__(self, rtol: float = RTOL) -> None:
         self.rtol = checked_rtol(rtol)
         self._kept: dict[Any, Any] = {}
