@@ -83,10 +83,14 @@ def _table(findings: list[Finding]) -> Any:
     from rodwell.report.paper import HEAD, cells  # noqa: PLC0415
 
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for i, name in enumerate(HEAD):
-        table.add_column(name, justify="right" if name in HEAD[2:5] else "left", overflow="fold", no_wrap=2 < i < 5)
+    for i, name in enumerate(HEAD[1:]):
+        right = 0 < i < 4
+        table.add_column(name, justify="right" if right else "left", overflow="fold", no_wrap=right)
+    place = ""
     for finding in findings:
-        *plain, verdict = (escape(cell) for cell in cells(finding))
-        colour = COLOURS[finding.verdict]
-        table.add_row(*plain, f"[{colour}]{verdict}[/{colour}]")
+        where, quantity, *numbers, verdict = (escape(cell) for cell in cells(finding))
+        if where != place:
+            table.add_row(f"[bold]{where}[/bold]")
+        place, colour = where, COLOURS[finding.verdict]
+        table.add_row(f"  {quantity}", *numbers, f"[{colour}]{verdict}[/{colour}]")
     return table

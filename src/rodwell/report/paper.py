@@ -165,7 +165,8 @@ def page(table: Agreement) -> str:
 def remarks(table: Agreement) -> list[tuple[str, list[Finding]]]:
     """Findings that need words, under their titles: differences, then notes; each remark once."""
     differing = [finding for finding in table if not finding.agrees]
-    notes = list({finding.remark: finding for finding in table if finding.agrees and finding.remark}.values())
+    noted = [finding for finding in table if finding.agrees and finding.remark]
+    notes = [f for i, f in enumerate(noted) if f.remark not in {other.remark for other in noted[:i]}]
     return [(title, found) for title, found in (("Differences", differing), ("Notes", notes)) if found]
 
 

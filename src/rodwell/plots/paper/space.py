@@ -39,5 +39,6 @@ def draw_fig8(shapes: Sequence[Shape]) -> Figure:
         for part, shape in zip(figure.subfigures(1, len(shapes)), shapes, strict=True):
             part.set_facecolor("none")
             shape_in_space(part, shape.state, f"{names[shape.label]}\n$-F$ = {-shape.state.force:.6g} $B/L^2$", -0.06)
-        figure.text(0.5, 0.03, "Enlarged across the axis; seen with the lateral part of gravity downwards.", ha="center", fontsize=7.5)
+        words = "Enlarged across the axis; lateral part of gravity downwards. Red: the wall would have to pull; rings: lift-off."
+        figure.text(0.5, 0.03, words, ha="center", fontsize=7.5)
         return figure

@@ -49,9 +49,16 @@ def draw_fig5(data: Fig5) -> Figure:
             ax.plot(row.weight, -row.lift.force, "D", ms=6, color=WARN, mec=INK, zorder=6)
         ax.set_ylim(0.0, 540.0)
         _words(ax, data.diagram)
-        rows = lower.subfigures(len(data.rows), 1)
-        for number, (part, row) in enumerate(zip(rows, data.rows, strict=True)):
-            _row(part, row, last=number == len(data.rows) - 1)
+        left, right = lower.subfigures(1, 2, width_ratios=(1.9, 1.0))
+        axes = left.subplots(len(data.rows), 2, sharex=True)
+        for part, line, row in zip(right.subfigures(len(data.rows), 1), axes, data.rows, strict=True):
+            _row(line, row)
+            part.set_facecolor("none")
+            shape_in_space(part, row.lift.solution, f"lift-off, $-F$ = {-row.lift.force:.5g}")
+        for ax in axes[-1]:
+            ax.set_xlabel(ALONG)
+        for part in (left, right):
+            part.set_facecolor("none")
         return figure
 
 
@@ -65,13 +72,9 @@ def _words(ax: Any, diagram: Stability) -> None:
     ax.annotate("$F_{lift}$", (235.0, load), xytext=(-30, 10), textcoords="offset points", fontsize=11, color=WARN)
 
 
-def _row(part: Any, row: Row, *, last: bool) -> None:
-    """y and p of one weight under growing compression, and the rod in space at lift-off."""
-    part.set_facecolor("none")
-    left, right = part.subfigures(1, 2, width_ratios=(1.9, 1.0))
-    left.set_facecolor("none")
-    right.set_facecolor("none")
-    ax_y, ax_p = left.subplots(1, 2)
+def _row(axes: Any, row: Row) -> None:
+    """Draw y and p of one weight under growing compression, the state at lift-off thick."""
+    ax_y, ax_p = axes
     s = np.linspace(0.0, 1.0, PLACES)
     greys = np.linspace(0.72, 0.3, len(row.states))
     for number, state in enumerate(row.states):
@@ -83,11 +86,8 @@ def _row(part: Any, row: Row, *, last: bool) -> None:
         ax.axhline(0.0, color=INK, lw=0.6)
         ax.set_xlim(0.0, 1.0)
         ax.set_ylabel(name)
-        if last:
-            ax.set_xlabel(ALONG)
     letter(ax_y, f"$mg$ = {row.weight:g}")
     ax_p.legend(title="$-F$  [$B/L^2$]", title_fontsize=7, fontsize=6.5, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    shape_in_space(right, row.lift.solution, f"lift-off, $-F$ = {-row.lift.force:.5g}")
 
 
 def stability(ax: Any, panel: Stability) -> None:
@@ -114,6 +114,8 @@ def draw_fig6(panels: Sequence[Stability]) -> Figure:
             ax.set_ylim(min(0.0, 1.15 * float(np.min(-panel.first))), 1.06 * top)
             alpha = {90.0: "π/2", 60.0: "π/3", 30.0: "π/6", 10.0: "π/18", 5.0: "π/36", 2.0: "π/90", 0.0: "0"}
             letter(ax, f"{panel.label}  α = {alpha[panel.problem.alpha]}")
+            if not panel.lift_off:
+                ax.text(0.04, 0.06, "lift-off coincides with buckling", transform=ax.transAxes, fontsize=7.5)
         _key(figure)
         return figure
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -125,7 +126,7 @@ class Finding:
         """Explanation and evidence of a difference, else the note."""
         if self.agrees or self.claim.known is None:
             return self.claim.note
-        return f"{self.claim.known.explanation} {self.evidence}".strip()
+        return typeset(f"{self.claim.known.explanation} {self.evidence}".strip())
 
     def as_dict(self) -> dict[str, Any]:
         """Return the finding as plain data, for JSON."""
@@ -159,6 +160,11 @@ def matches(printed: str, found: Value, rule: str = DIGITS, formula: float | Non
     half = 0.5 * 10.0 ** -decimals(printed)
     close = abs(found.value - float(printed)) <= half * (1.0 + 1e-9) + found.error
     return close and found.error < half
+
+
+def typeset(text: str) -> str:
+    """Typographic minus signs before numbers, hyphens elsewhere."""
+    return re.sub(r"(?<![\w^])-(?=\d)|(?<=\de)-(?=\d)", "−", text)
 
 
 def decimals(printed: str) -> int:

@@ -34,7 +34,7 @@ ROWS = (
 )
 """n, m, k₁, k₃, γ_c, −F_c as printed, and the modal pair affected."""
 
-AWAY = 0.01
+AWAY = 0.002
 """The search starts this part below the printed weight."""
 
 MOST_STEPS = 30
