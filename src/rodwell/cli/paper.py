@@ -22,7 +22,7 @@ COLOURS = {"agrees": "green", "differs, documented": "yellow", "differs": "bold 
 @click.option("--only", help="Items, separated by commas: for example table1,fig5.  [default: all; --list names them]")
 @click.option("--figures/--no-figures", default=True, show_default=True, help="Draw the figures (PDF and PNG).")
 @click.option("--list", "as_list", is_flag=True, help="List the items and stop.")
-@click.option("--jobs", type=int, help="Processes that draw figures.  [default: 2, or 1 on one processor]")
+@click.option("--jobs", type=int, help="Processes that draw figures.  [default: 2 for more than two figures]")
 @rtol_option
 @json_option
 @out_option("paper")

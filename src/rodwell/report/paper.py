@@ -51,8 +51,8 @@ def write_paper(
     rtol
         Relative tolerance of every computed number.
     jobs
-        Processes that compute and draw figures; None: two, where there are two processors. With 1 all is done in this
-        process.
+        Processes that compute and draw figures; None: two, where there are two processors and more than two figures.
+        With 1 all is done in this process.
     progress
         Called with what is being done and the part done.
 
@@ -69,8 +69,9 @@ def write_paper(
         If something cannot be computed to the tolerance.
     """
     work, items = Work(rtol), chosen(only)
-    jobs = checked_whole("jobs", min(2, os.cpu_count() or 1) if jobs is None else jobs, 1, MOST_JOBS)
     drawn = [item for item in items if figures and item.figure is not None]
+    usual = min(2, os.cpu_count() or 1) if len(drawn) > 2 else 1
+    jobs = checked_whole("jobs", usual if jobs is None else jobs, 1, MOST_JOBS)
     tell = progress or (lambda _what, _done: None)
     share = 1.0 / (1.0 + 2.0 * len(drawn))
     if jobs > 1 and drawn and not compiling.on_disk(correct):  # first run of all: let one process compile
@@ -87,7 +88,7 @@ def write_paper(
 def _drawing(items: Sequence[Item], rtol: float, folder: Path, jobs: int) -> Iterator[Iterator[str]]:
     """Yield the names of figures as they are finished; with several processes they are begun at once."""
     slowest_first = sorted(items, key=lambda item: item.name not in ("fig6", "fig5", "fig3", "fig11"))
-    if jobs == 1 or len(items) < 2:
+    if jobs == 1 or not items:
         yield (draw_item(item.name, rtol, folder) for item in items)
         return
     pool = ProcessPoolExecutor(min(jobs, len(items)), mp_context=get_context("spawn"))

@@ -97,7 +97,5 @@ def _legend(figure: Figure, modes: int, secondary: Sequence[str]) -> None:
     marks += [Line2D([], [], lw=1.5, color=c, label=t) for c, t in zip((ORANGE, CYAN), secondary, strict=False)]
     marks.append(Line2D([], [], marker="D", ls="none", ms=4.2, color=INK, label="critical load"))
     if secondary:
-        marks.append(
-            Line2D([], [], marker="^", ls="none", ms=5, color="white", mec=INK, label="secondary bifurcation")
-        )
+        marks.append(Line2D([], [], marker="^", ls="none", ms=5, color="white", mec=INK, label="secondary bifurcation"))
     figure.legend(handles=marks, loc="outside lower center", ncols=5)

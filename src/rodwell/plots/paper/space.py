@@ -15,10 +15,12 @@ from rodwell.studies.paper.shapes import Shape
 PLACES = 181
 """Places along the rod; faces of these small pictures are not counted in files, since they are drawn as an image."""
 
+
 def shape_in_space(part: Any, state: Solution, title: str, lift: float = 0.0) -> None:
     """Draw a state on a whole (sub)figure, enlarged across the axis; the surfaces as an image.
 
-    The scene is square, so a square as wide as the part is laid behind it, ``lift`` of the part's height above its middle.
+    The scene is square, so a square as wide as the part is laid behind it, ``lift`` of the part's height above its
+    middle.
     """
     box = part.bbox
     side = box.width / box.height
@@ -36,9 +38,11 @@ def draw_fig8(shapes: Sequence[Shape]) -> Figure:
     with context():
         figure = new_figure(7.4, 1.75)
         figure.set_layout_engine("none")
-        for part, shape in zip(figure.subfigures(1, len(shapes)), shapes, strict=True):
+        parts: Any = figure.subfigures(1, len(shapes))
+        for part, shape in zip(parts, shapes, strict=True):
             part.set_facecolor("none")
             shape_in_space(part, shape.state, f"{names[shape.label]}\n$-F$ = {-shape.state.force:.6g} $B/L^2$", -0.06)
-        words = "Enlarged across the axis; lateral part of gravity downwards. Red: the wall would have to pull; rings: lift-off."
+        words = "Enlarged across the axis; lateral part of gravity downwards. "
+        words += "Red: the wall would have to pull; rings: lift-off."
         figure.text(0.5, 0.03, words, ha="center", fontsize=7.5)
         return figure

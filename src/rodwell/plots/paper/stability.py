@@ -39,7 +39,8 @@ def draw_fig5(data: Fig5) -> Figure:
     """Draw Fig. 5: the stability diagram, and below it y, p and the shape at lift-off for four weights."""
     with context():
         figure = new_figure(7.4, 11.0)
-        upper, lower = figure.subfigures(2, 1, height_ratios=(1.0, 1.5))
+        halves: Any = figure.subfigures(2, 1, height_ratios=(1.0, 1.5))
+        upper, lower = halves
         lower.set_facecolor("none")
         ax = upper.subplots()
         stability(ax, data.diagram)
@@ -66,7 +67,9 @@ def _words(ax: Any, diagram: Stability) -> None:
     """Labels on the curves themselves, as in the paper."""
     x = diagram.weights
     where = int(np.argmin(np.abs(x - 250.0)))
-    ax.annotate("$F_{c,1}$", (x[where], -diagram.first[where]), xytext=(8, -16), textcoords="offset points", fontsize=11)
+    ax.annotate(
+        "$F_{c,1}$", (x[where], -diagram.first[where]), xytext=(8, -16), textcoords="offset points", fontsize=11
+    )
     piece_x, piece = diagram.lift_off[-1]
     load = float(np.interp(235.0, piece_x, -piece))
     ax.annotate("$F_{lift}$", (235.0, load), xytext=(-30, 10), textcoords="offset points", fontsize=11, color=WARN)
@@ -79,7 +82,9 @@ def _row(axes: Any, row: Row) -> None:
     greys = np.linspace(0.72, 0.3, len(row.states))
     for number, state in enumerate(row.states):
         at_lift = number == row.at_lift
-        look: dict[str, Any] = {"color": WARN, "lw": 2.0, "zorder": 5} if at_lift else {"color": str(greys[number]), "lw": 1.0}
+        look: dict[str, Any] = (
+            {"color": WARN, "lw": 2.0, "zorder": 5} if at_lift else {"color": str(greys[number]), "lw": 1.0}
+        )
         ax_y.plot(s, circumferential(state, s), **look)
         ax_p.plot(s, state.fields(s)["contact_pressure"], label=f"{-state.force:.4g}", **look)
     for ax, name in ((ax_y, "$y$  [$L$]"), (ax_p, "$p$  [$B/L^3$]")):
@@ -124,7 +129,9 @@ def _key(figure: Figure) -> None:
     from matplotlib.lines import Line2D  # noqa: PLC0415
 
     looks = ((FIRST, "buckling, first critical load"), (DASHES, "lift-off"), (DOTS, "further critical loads"))
-    figure.legend(handles=[Line2D([], [], **look, label=text) for look, text in looks], loc="outside lower center", ncols=3)
+    figure.legend(
+        handles=[Line2D([], [], **look, label=text) for look, text in looks], loc="outside lower center", ncols=3
+    )
 
 
 def draw_fig11(curves: Sequence[Curve]) -> Figure:

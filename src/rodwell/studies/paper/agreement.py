@@ -14,8 +14,8 @@ from rodwell.studies.paper.work import Work
 Progress = Callable[[str, float], None]
 
 CONVENTION = (
-    "Units B = L = 1; end force F at s = 1, tension positive, −F compression; Δ/L = 0.01, ν = 0.3; both ends clamped unless "
-    "said otherwise; α from the vertical; dead loads."
+    "Units B = L = 1; end force F at s = 1, tension positive, −F compression; Δ/L = 0.01, ν = 0.3; both ends clamped "
+    "unless said otherwise; α from the vertical; dead loads."
 )
 
 
@@ -61,7 +61,9 @@ class Agreement:
         }
 
 
-def agreement(only: Sequence[str] | None = None, *, work: Work | None = None, progress: Progress | None = None) -> Agreement:
+def agreement(
+    only: Sequence[str] | None = None, *, work: Work | None = None, progress: Progress | None = None
+) -> Agreement:
     """Recompute the printed numbers of the paper, or of the items named in ``only``, and compare.
 
     Parameters

@@ -96,8 +96,8 @@ def claims_3() -> list[Claim]:
 
     third = Known(
         "-1899.765516",
-        "Not reproduced. The branch of the third mode at γ = 30 does lose its symmetry well outside the plotted range, and "
-        "the branch that leaves there and the fourth mode's bifurcation are found as described, but at another load.",
+        "Not reproduced: the third mode at γ = 30 does lose its symmetry well outside the plotted range, but at "
+        "another load.",
         _third_mode,
     )
     return [
@@ -137,8 +137,9 @@ def _third_mode(work: Work) -> str:
     at = branch.at(PRINTED_THIRD)
     curvature, error = at.number(Measured.OMEGA2_1)
     return (
-        f"Down to F = {FAR:g} this branch has one secondary bifurcation, at {point.force:.6f} ± {point.error:.0e}, where the "
-        f"number of negative eigenvalues goes from {point.index_before} to {point.index_after}. At F = {PRINTED_THIRD:g} it is "
-        f"{at.stability_index} on both sides and ω₂(1) = {curvature:.4f} ± {error:.0e}, so neither kind of bifurcation is near; "
-        f"the paper's own equations hold there to {at.certificate.worst:.0e}. The same search gives −362.63 and −164.78 at γ = 15."
+        f"Down to F = {FAR:g} this branch has one secondary bifurcation, at {point.force:.6f} ± {point.error:.0e}, "
+        f"where the number of negative eigenvalues goes from {point.index_before} to {point.index_after}. At F = "
+        f"{PRINTED_THIRD:g} it is {at.stability_index} on both sides and ω₂(1) = {curvature:.4f} ± {error:.0e}, so "
+        f"neither kind of bifurcation is near; the paper's own equations hold there to {at.certificate.worst:.0e}. The "
+        "same search gives −362.63 and −164.78 at γ = 15."
     )

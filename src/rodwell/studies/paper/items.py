@@ -34,6 +34,10 @@ class Item:
     figure: Callable[[Work], Any] | None = None
 
 
+def _fig12(work: Work) -> tuple[diagrams.Panel, stability.Stability]:
+    return diagrams.fig12a(work), stability.fig12b(work)
+
+
 ITEMS = {
     item.name: item
     for item in (
@@ -52,7 +56,7 @@ ITEMS = {
         Item("fig10", "determinant (86)", None, lambda _work: scorer.data()),
         Item("eq88", "column free to sway, (88), and the factor 1.58", linear.claims_88),
         Item("fig11", "twist at lift-off", twisting.claims, twisting.fig11),
-        Item("fig12", "rod on top of the cylinder", linear.claims_12, lambda w: (diagrams.fig12a(w), stability.fig12b(w))),
+        Item("fig12", "rod on top of the cylinder", linear.claims_12, _fig12),
         Item("fig13", "Dellinger's fit (89)", None, stability.fig13),
     )
 }  # fmt: skip

@@ -69,8 +69,8 @@ def _second_root(work: Work) -> str:
     root, error = scorer.root(2)
     value, own = work.buckling_weight(COLUMN, 2)
     return (
-        f"Two independent computations agree: the eigenproblem (64) gives {value:.8f} ± {own:.0e}, the zero of the determinant "
-        f"(86), with the Scorer function (84), lies at {root:.8f} ± {error:.0e}."
+        f"Two independent computations agree: the eigenproblem (64) gives {value:.8f} ± {own:.0e}, the zero of the "
+        f"determinant (86), with the Scorer function (84), lies at {root:.8f} ± {error:.0e}."
     )
 
 
@@ -78,9 +78,10 @@ def _wrong_sign(_work: Work) -> str:
     """What the determinant does with t₁ as printed."""
     signs = {math.copysign(1.0, scorer.determinant(w, printed=True)) for w in range(10, 401, 10)}
     roots = ", ".join(f"{scorer.root(k)[0]:.6f}" for k in (1, 2, 3))
+    kinds = "one sign" if len(signs) == 1 else "both signs"
     return (
-        f"With t₁ as printed the determinant (86) at F = 0 has {'one sign' if len(signs) == 1 else 'both signs'} at γ = 10, 20, "
-        f"…, 400; with t₁ = (F/mg − 1)(mg)^(1/3), from the definition of t at s = 0, its roots are {roots}, those of (87)."
+        f"With t₁ as printed the determinant (86) at F = 0 has {kinds} at γ = 10, 20, …, 400; with "
+        f"t₁ = (F/mg − 1)(mg)^(1/3), from the definition of t at s = 0, its roots are {roots}, those of (87)."
     )
 
 
@@ -93,9 +94,11 @@ def claims_text() -> list[Claim]:
     """Loads of the rod without weight, and of the pinned rod."""
     place = "text after (77)"
     out = [
-        Claim("text.k3.1", place, "√(−F_c) of the weightless rod, n = 1", "k₃ = 2π", wavenumber(1), FORMULA, 2.0 * math.pi),
+        Claim("text.k3.1", place, "√(−F_c) of the weightless rod, n = 1", "k₃ = 2π", wavenumber(1), FORMULA,
+              2.0 * math.pi),
         Claim("text.k3.2", place, "√(−F_c) of the weightless rod, second mode", "8.9868", wavenumber(2)),
-        Claim("text.k3.3", place, "√(−F_c) of the weightless rod, n = 2", "k₃ = 4π", wavenumber(3), FORMULA, 4.0 * math.pi),
+        Claim("text.k3.3", place, "√(−F_c) of the weightless rod, n = 2", "k₃ = 4π", wavenumber(3), FORMULA,
+              4.0 * math.pi),
         Claim("text.k3.4", place, "√(−F_c) of the weightless rod, fourth mode", "15.4505", wavenumber(4)),
     ]  # fmt: skip
     for n in (1, 2, 3):
@@ -132,9 +135,7 @@ def claims_79() -> list[Claim]:
 
 def claims_87() -> list[Claim]:
     """Weights of buckling of the vertical column under its own weight."""
-    second = Known(
-        "157.032780", "The last printed digit is off by 3: 157.032783 should read 157.032780.", _second_root
-    )
+    second = Known("157.032780", "The last printed digit is off by 3: 157.032783 should read 157.032780.", _second_root)
     sign = Known("-1", "t₁ below (86) is printed with the wrong sign.", _wrong_sign)
     return [
         Claim("eq87.1", "(87)", "mg of self-weight buckling, first mode", "74.628569", self_weight(1)),
@@ -142,7 +143,8 @@ def claims_87() -> list[Claim]:
         Claim("eq87.3", "(87)", "mg of self-weight buckling, third mode", "325.513452", self_weight(3)),
         Claim("eq87.engelhardt", "text after (87), Engelhardt 1954", "mg of self-weight buckling, first mode",
               "74.6285 ± 0.0005", self_weight(1), INTERVAL),
-        Claim("eq86.t1", "below (86)", "t₁/(mg)^(1/3) at F = 0", "1", lambda _work: Value(scorer.start(1.0), 0.0), known=sign),
+        Claim("eq86.t1", "below (86)", "t₁/(mg)^(1/3) at F = 0", "1",
+              lambda _work: Value(scorer.start(1.0), 0.0), known=sign),
     ]  # fmt: skip
 
 

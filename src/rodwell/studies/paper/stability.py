@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -26,8 +27,8 @@ INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150
 """Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
 
 VEERING = {60.0: ((0.0, 20.0), (20.0, 10.0), (20.0, 100.0), (300.0, 60.0))}
-"""Ranges over which lift-off curves are traced where they turn so sharply, next to a veering of the critical loads, that
-a curve must be reached from both sides: at α = π/3 near γ = 10.55 and γ = 71."""
+"""Ranges over which lift-off curves are traced where they turn so sharply, next to a veering of the critical loads,
+that a curve must be reached from both sides: at α = π/3 near γ = 10.55 and γ = 71."""
 
 GRID = 601
 """Weights at which curves are drawn."""
@@ -48,7 +49,8 @@ class Stability:
     critical
         Curves of critical loads, in the order of compression at the start.
     lift_off
-        Pieces of the lift-off curve of the first mode: γ and F, (n,) each; empty where lift-off coincides with buckling.
+        Pieces of the lift-off curve of the first mode: γ and F, (n,) each; empty where lift-off coincides with
+        buckling.
     """
 
     label: str
@@ -73,7 +75,7 @@ class Stability:
     @property
     def first(self) -> FloatArray:
         """F of the first critical load at :attr:`weights`."""
-        return np.max([self.load(i) for i in range(len(self.critical))], axis=0)
+        return np.asarray(np.max([self.load(i) for i in range(len(self.critical))], axis=0))
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,7 @@ def fig5(work: Work) -> Fig5:
     lifts = [lift_off_curve(problem, "weight", (0.0, until), mode=mode, rtol=work.rtol) for mode in (1, 2)]
     switches = sorted(mark.x for mark in critical[0].marks if mark.note == "modes 1 and 2 switch")
     edges = [0.0, *switches, until]
-    pieces = [_piece(lifts[i % 2], low, high) for i, (low, high) in enumerate(zip(edges, edges[1:], strict=False))]
+    pieces = [_piece(lifts[i % 2], low, high) for i, (low, high) in enumerate(pairwise(edges))]
     diagram = Stability("", problem, until, critical, tuple(pieces))
     return Fig5(diagram, tuple(_row(work, weight) for weight in FIG5_WEIGHTS))
 
@@ -153,7 +155,7 @@ def fig12b(work: Work) -> Stability:
 
 @dataclass(frozen=True)
 class Fit:
-    """First critical load and Dellinger's fit (89) against weight; Fig. 13."""
+    """First critical load, and Dellinger's fit (89) at the same weights, (n,)."""
 
     exact: Stability
     fit: FloatArray
@@ -166,7 +168,9 @@ def fig13(work: Work) -> tuple[Fit, ...]:
     out = []
     for label, alpha in (("(a)", 90.0), ("(b)", 60.0)):
         problem, until = rod(0.0, alpha), 300.0
-        exact = Stability(label, problem, until, critical_curves(problem, "weight", (0.0, until), modes=2, rtol=work.rtol), ())
+        exact = Stability(
+            label, problem, until, critical_curves(problem, "weight", (0.0, until), modes=2, rtol=work.rtol), ()
+        )
         formula = FORMULAS["dellinger"].function
         out.append(Fit(exact, np.array([formula(1.0, w, alpha, CLEARANCE) for w in exact.weights])))
     return tuple(out)

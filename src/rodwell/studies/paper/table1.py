@@ -43,8 +43,9 @@ MOST_STEPS = 30
 class DoublePoint:
     """The weight at which an even and an odd critical load of one rank are equal, found by the secant method.
 
-    Even and odd modes are those of half the rod, guided or pinned at mid-length: with half the length loads are a quarter
-    in number and the foundation a sixteenth. Each half has simple loads only, so the double point is a plain crossing.
+    Even and odd modes are those of half the rod, guided or pinned at mid-length: with half the length loads are a
+    quarter in number and the foundation a sixteenth. Each half has simple loads only, so the double point is a plain
+    crossing.
 
     Attributes
     ----------
@@ -107,8 +108,7 @@ def _pair(weight: float, force: Value, rank: int, rtol: float) -> int:
 def double_point(work: Work, n: int, m: int) -> DoublePoint:
     """Return the double point of a row, computed once."""
     near = next(float(row[4]) for row in ROWS if row[:2] == (n, m))
-    point: DoublePoint = work.once(("double", n, m), lambda: DoublePoint(near, (m - n) // 2, work.rtol))
-    return point
+    return work.once(("double", n, m), lambda: DoublePoint(near, (m - n) // 2, work.rtol))
 
 
 def claims() -> list[Claim]:

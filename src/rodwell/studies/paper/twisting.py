@@ -8,7 +8,7 @@ from rodwell.studies.paper.claims import Claim, Known, Value
 from rodwell.studies.paper.work import Work, rod
 
 FIG11 = ((62.0, 17.8), (62.0, 110.0))
-"""γ from and to which the curve is traced: back to where twist no longer lifts the rod off, and beyond the switching."""
+"""γ from and to which the curve is traced: back to where twist no longer lifts the rod off; beyond the switching."""
 
 ODD = 30.0
 """A weight at which the first mode is antisymmetric."""
@@ -24,14 +24,15 @@ def claims() -> list[Claim]:
     place = "section 4.2"
     arm = Known(
         "-1",
-        "The paper leaves open on which of the two mirror arms T₁ > 0 stabilises. For the first mode at this weight it is the "
-        "arm ω₂(1) > 0; on the arm ω₂(1) < 0, along which the paper takes its other solutions, it is T₁ < 0.",
+        "The paper leaves open on which of the two mirror arms T₁ > 0 stabilises. For the first mode at this weight it "
+        "is the arm ω₂(1) > 0; on the arm ω₂(1) < 0, along which the paper takes its other solutions, it is T₁ < 0.",
         _reflection,
     )
     return [
-        Claim("fig11.upper", place, "sign of T₁ that stabilises, γ = 30, arm ω₂(1) > 0", "1", lambda work: _sense(work, True)),
-        Claim("fig11.lower", place, "sign of T₁ that stabilises, γ = 30, arm ω₂(1) < 0", "1", lambda work: _sense(work, False),
-              known=arm),
+        Claim("fig11.upper", place, "sign of T₁ that stabilises, γ = 30, arm ω₂(1) > 0", "1",
+              lambda work: _sense(work, True)),
+        Claim("fig11.lower", place, "sign of T₁ that stabilises, γ = 30, arm ω₂(1) < 0", "1",
+              lambda work: _sense(work, False), known=arm),
         Claim("text.twist", place, "F_c,1 at T₁ = 5 less F_c,1 at T₁ = 0, γ = 30 [B/L²]", "0.0000000", _shift),
     ]  # fmt: skip
 
@@ -46,10 +47,13 @@ def _shift(work: Work) -> Value:
 
 
 def _reflection(work: Work) -> str:
-    parts = []
+    parts: list[str] = []
     for mirror, arm in ((True, "ω₂(1) > 0"), (False, "ω₂(1) < 0")):
         found = work.twisted(rod(ODD), mirror=mirror)
-        rates = ", ".join(f"{rate:.6f} ± {error:.0e}" for rate, error in zip(found.rates, found.rate_errors, strict=True))
+        rates = ", ".join(
+            f"{rate:.6f} ± {error:.0e}" for rate, error in zip(found.rates, found.rate_errors, strict=True)
+        )
         again = "none" if found.again is None else f"{found.again.value:.6f}"
         parts.append(f"on the arm {arm} dp/dT₁ = {rates} at the places that lift off, second lift-off at T₁ = {again}")
-    return "; ".join(parts) + ". Reflection y → −y turns T₁ round, so this must be so."
+    text = "; ".join(parts)
+    return f"{text[0].upper()}{text[1:]}. Reflection y → −y turns T₁ round, so this must be so."

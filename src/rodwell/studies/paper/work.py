@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
 
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.branches import Branch
@@ -12,6 +13,8 @@ from rodwell.analysis.special import BRANCH_POINT, SpecialPoint
 from rodwell.analysis.torsion import Torsion, torsion
 from rodwell.errors import NotConvergedError
 from rodwell.problem import Problem
+
+T = TypeVar("T")
 
 CLEARANCE, POISSON = 0.01, 0.3
 """Δ/L and ν of all calculations in the paper (section 4)."""
@@ -50,9 +53,7 @@ class Work:
 
     def branch(self, problem: Problem, mode: int = 1, until: float | None = None) -> Branch:
         """Branch of a mode, ω₂(1) < 0, to an end force or to lift-off."""
-        return self.once(
-            ("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol)
-        )
+        return self.once(("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol))
 
     def twisted(self, problem: Problem, mode: int = 1, *, mirror: bool = False) -> Torsion:
         """What twist does to the rod at its lift-off load."""
@@ -88,7 +89,9 @@ class Work:
         slope = (load(root + step)[0] - load(root - step)[0]) / (2.0 * step)
         return root, float((abs(force) + error) / abs(slope) + 4e-14 * root)
 
-    def once(self, key: Any, compute: Any) -> Any:
+    def once(self, key: Hashable, compute: Callable[[], T]) -> T:
+        """Return what is kept under ``key``, computed when it is first asked for."""
         if key not in self._kept:
             self._kept[key] = compute()
-        return self._kept[key]
+        found: T = self._kept[key]
+        return found
