@@ -180,13 +180,12 @@ def draw_fig13(fits: Sequence[Fit]) -> Figure:
     with context():
         figure = new_figure(7.4, 3.2)
         for ax, item in zip(figure.subplots(1, 2, sharey=True), fits, strict=True):
-            panel = item.exact
-            ax.plot(panel.weights, -panel.first, color=MODES[0], lw=1.8, label="exact")
-            ax.plot(panel.weights, item.fit, color=MODES[1], lw=1.5, ls=(0, (5, 2)), label="(89), Dellinger et al.")
-            ax.set_xlim(0.0, panel.until)
+            ax.plot(item.weights, -item.exact, color=MODES[0], lw=1.8, label="exact")
+            ax.plot(item.weights, item.fit, color=MODES[1], lw=1.5, ls=(0, (5, 2)), label="(89), Dellinger et al.")
+            ax.set_xlim(0.0, float(item.weights[-1]))
             ax.set_ylim(0.0, None)
             ax.set_xlabel(WEIGHT)
-            letter(ax, f"{panel.label}  α = {'π/2' if panel.problem.alpha == 90.0 else 'π/3'}")
+            letter(ax, f"{item.label}  α = {'π/2' if item.alpha == 90.0 else 'π/3'}")
             ax.legend(loc="lower right")
             ax.yaxis.set_tick_params(labelleft=True)
             ax.set_ylabel("first critical load $-F_{c,1}$  [$B/L^2$]")

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.critical_curves import critical_curves
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.solution import Solution
@@ -155,9 +156,20 @@ def fig12b(work: Work) -> Stability:
 
 @dataclass(frozen=True)
 class Fit:
-    """First critical load, and Dellinger's fit (89) at the same weights, (n,)."""
+    """First critical load and Dellinger's fit (89); Fig. 13.
 
-    exact: Stability
+    Attributes
+    ----------
+    label, alpha
+        The panel, and α in degrees.
+    weights, exact, fit
+        γ, critical end force F (tension positive) and compression −F by the fit, (n,) each.
+    """
+
+    label: str
+    alpha: float
+    weights: FloatArray
+    exact: FloatArray
     fit: FloatArray
 
 
@@ -165,12 +177,11 @@ def fig13(work: Work) -> tuple[Fit, ...]:
     """Fig. 13(a) and (b): α = π/2 and π/3."""
     from rodwell.practice.formulas import FORMULAS  # noqa: PLC0415
 
+    formula, switches = FORMULAS["dellinger"].function, [n * n * (n + 2) ** 2 * np.pi**4 * CLEARANCE for n in (1, 2, 3)]
+    weights = np.unique([*np.linspace(0.0, 300.0, 101), *switches])
     out = []
     for label, alpha in (("(a)", 90.0), ("(b)", 60.0)):
-        problem, until = rod(0.0, alpha), 300.0
-        exact = Stability(
-            label, problem, until, critical_curves(problem, "weight", (0.0, until), modes=2, rtol=work.rtol), ()
-        )
-        formula = FORMULAS["dellinger"].function
-        out.append(Fit(exact, np.array([formula(1.0, w, alpha, CLEARANCE) for w in exact.weights])))
+        exact = [critical_loads(rod(weight, alpha), 1, rtol=work.rtol)[0].force for weight in weights]
+        fit = [formula(1.0, weight, alpha, CLEARANCE) for weight in weights]
+        out.append(Fit(label, alpha, weights, np.array(exact), np.array(fit)))
     return tuple(out)

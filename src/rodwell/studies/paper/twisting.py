@@ -7,7 +7,7 @@ from rodwell.analysis.state_curves import twist_curve
 from rodwell.studies.paper.claims import Claim, Known, Value
 from rodwell.studies.paper.work import Work, rod
 
-FIG11 = ((62.0, 17.8), (62.0, 110.0))
+FIG11 = ((62.0, 17.8), (62.0, 90.0))
 """γ from and to which the curve is traced: back to where twist no longer lifts the rod off; beyond the switching."""
 
 ODD = 30.0
