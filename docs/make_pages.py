@@ -1,7 +1,8 @@
 """Parts of the pages that come from the program itself, written to ``_generated`` before each build.
 
 Tables (nomenclature, case file), the output of the commands and of the examples that the pages show, and the
-pictures of the drill-string case; what the other how-to pages show comes from ``make_howto``. Nothing of it is kept
+pictures of the drill-string case; what the other pages show comes from ``make_howto``, ``make_formulas`` and
+``make_paper``. Nothing of it is kept
 under version control.
 """
 
@@ -17,6 +18,7 @@ from typing import Any
 
 import make_formulas
 import make_howto
+import make_paper
 import make_wells
 from click.testing import CliRunner
 
@@ -41,6 +43,7 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_paper.COMMANDS,
 }
 
 PRETTY = {
@@ -72,7 +75,8 @@ def build() -> dict[str, str]:
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
-    for name, text in (make_howto.pages(OUT) | make_formulas.pages(OUT) | make_wells.pages()).items():
+    pages = make_howto.pages(OUT) | make_formulas.pages(OUT) | make_wells.pages() | make_paper.pages(OUT)
+    for name, text in pages.items():
         _write(name, text)
     with contextlib.chdir(OUT):
         wells = make_wells.numbers()
@@ -81,6 +85,7 @@ def build() -> dict[str, str]:
         | _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
         | make_howto.numbers()
         | make_formulas.numbers()
+        | make_paper.numbers()
     )
 
 
