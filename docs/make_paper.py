@@ -1,4 +1,4 @@
-"""Table and figures of the page on validation, called by ``make_pages``: the paper recomputed while the pages are built."""
+"""Table and figures of the page on validation, called by ``make_pages``: everything is computed here."""
 
 from __future__ import annotations
 
