@@ -195,3 +195,12 @@ def test_modes_solve_the_boundary_conditions() -> None:
         assert np.max(np.abs(ends[:2])) < 1e-12
         assert ends[2, 1] > 0.0
         assert np.max(np.abs(mode.shape(np.linspace(0, 1, 101)))) == pytest.approx(1.0, abs=1e-2)
+
+
+def test_close_loads_that_the_meshes_count_differently() -> None:
+    """Next to the double point n = 2, m = 8 of Table 1 coarse and fine mesh return different numbers of loads."""
+    problem = Problem(249.36727304704394)
+    loads = critical_loads(problem, 7)
+    assert len(loads) == 7
+    assert loads[5].force == pytest.approx(-68.0 * np.pi**2, rel=1e-9)  # −(n² + m²)π²
+    assert loads[4].force == pytest.approx(loads[5].force, rel=1e-9)
