@@ -148,9 +148,10 @@ def draw_fig11(curves: Sequence[Curve]) -> Figure:
         ax.text(42.0, 24.0, "lifted off again", ha="center", fontsize=8)
         for mark in first.marks:
             ax.plot(mark.x, mark.value, "o", ms=5, color="white", mec=INK, zorder=5)
-        ax.set_xlim(0.0, 100.0)
+        ax.set_xlim(0.0, 90.0)
         ax.set_ylim(0.0, 36.0)
         ax.set_xlabel(WEIGHT)
+        letter(ax, r"first mode at $F = F_{lift}$, arm $\omega_2(1) > 0$")
         ax.set_ylabel("end twist $T_1$ at lift-off  [$B/L$]")
         return figure
 
@@ -167,7 +168,7 @@ def draw_fig12(data: tuple[Panel, Stability]) -> Figure:
             right.plot(x, -loads.load(number), lw=1.4, **style(number + 1), label=f"mode {number + 1}")
         right.axhline(0.0, color=INK, lw=0.6)
         right.set_xlim(0.0, loads.until)
-        right.set_ylim(-400.0, 260.0)
+        right.set_ylim(-480.0, 260.0)
         right.set_xlabel(WEIGHT)
         right.set_ylabel(COMPRESSION)
         right.legend(loc="lower right")
