@@ -47,10 +47,10 @@ def fig4(work: Work) -> tuple[Solution, ...]:
 
 
 def _evenly(branch: Branch, count: int) -> list[int]:
-    """Points about evenly spaced in the angle at mid-length, which falls from the even shape's or grows from 0."""
-    angle = branch.numbers(Measured.OMEGA2_1)
-    wanted = np.linspace(angle[0], angle[-1], count)
-    chosen = sorted({int(np.argmin(np.abs(angle - value))) for value in wanted})
+    """Points about evenly spaced in ω₂(1), which goes to 0 along the branch; the first and the last among them."""
+    curvature = branch.numbers(Measured.OMEGA2_1)
+    wanted = np.linspace(curvature[0], curvature[-1], count)
+    chosen = {int(np.argmin(np.abs(curvature - value))) for value in wanted}
     return sorted({0, *chosen, len(branch) - 1})
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -27,9 +28,9 @@ STEPS = (0.15, 0.5, 1.0, 1.35)
 INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150.0), (0.0, 350.0))
 """Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
 
-VEERING = {60.0: ((0.0, 20.0), (20.0, 10.0), (20.0, 100.0), (300.0, 60.0))}
-"""Ranges over which lift-off curves are traced where they turn so sharply, next to a veering of the critical loads,
-that a curve must be reached from both sides: at α = π/3 near γ = 10.55 and γ = 71."""
+VEERING = {60.0: ((0.0, 10.4), (20.0, 10.7), (20.0, 70.5), (300.0, 73.0))}
+"""Ranges over which lift-off curves are traced where they turn back on themselves next to a veering of the critical
+loads: at α = π/3 near γ = 10.55 and γ = 71. What lies in these narrow gaps is left out."""
 
 GRID = 601
 """Weights at which curves are drawn."""
@@ -101,12 +102,21 @@ def fig5(work: Work) -> Fig5:
     """Stability diagram of the horizontal rod, and states at γ = 5, 40, 140, 280."""
     problem, until = rod(0.0), 300.0
     critical = critical_curves(problem, "weight", (0.0, until), modes=4, rtol=work.rtol)
-    lifts = [lift_off_curve(problem, "weight", (0.0, until), mode=mode, rtol=work.rtol) for mode in (1, 2)]
+    lifts = sound(lift_off_curve(problem, "weight", (0.0, until), mode=mode, rtol=work.rtol) for mode in (1, 2))
     switches = sorted(mark.x for mark in critical[0].marks if mark.note == "modes 1 and 2 switch")
     edges = [0.0, *switches, until]
     pieces = [_piece(lifts[i % 2], low, high) for i, (low, high) in enumerate(pairwise(edges))]
     diagram = Stability("", problem, until, critical, tuple(pieces))
     return Fig5(diagram, tuple(_row(work, weight) for weight in FIG5_WEIGHTS))
+
+
+def sound(curves: Iterable[Curve]) -> tuple[Curve, ...]:
+    """Return the curves, or raise if a point misses the tolerance, or if one does not reach the end of its range."""
+    found = tuple(curves)
+    for curve in found:
+        if not curve.converged or curve.ended_because != "end":
+            raise NotConvergedError(f"{curve!r} at α = {curve.problem.alpha:g}: {curve.ended_because}")
+    return found
 
 
 def _piece(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray]:
@@ -144,7 +154,7 @@ def _inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
     if alpha == 0.0:
         return Stability(label, problem, until, critical, ())
     ranges = VEERING.get(alpha, ((0.0, until),))
-    curves = [lift_off_curve(problem, "weight", limits, rtol=work.rtol) for limits in ranges]
+    curves = sound(lift_off_curve(problem, "weight", limits, rtol=work.rtol) for limits in ranges)
     return Stability(label, problem, until, critical, tuple((curve.x, curve.values) for curve in curves))
 
 

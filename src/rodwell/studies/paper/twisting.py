@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.state_curves import twist_curve
 from rodwell.studies.paper.claims import Claim, Known, Value
+from rodwell.studies.paper.stability import sound
 from rodwell.studies.paper.work import Work, rod
 
 FIG11 = ((62.0, 17.8), (62.0, 90.0))
@@ -16,7 +17,7 @@ ODD = 30.0
 
 def fig11(work: Work) -> tuple[Curve, ...]:
     """Twist at which the rod lifts off again, T₁ > 0, on the arm where that sense presses the rod to the wall."""
-    return tuple(twist_curve(rod(0.0), limits, mirror=True, rtol=work.rtol) for limits in FIG11)
+    return sound(twist_curve(rod(0.0), limits, mirror=True, rtol=work.rtol) for limits in FIG11)
 
 
 def claims() -> list[Claim]:

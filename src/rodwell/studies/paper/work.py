@@ -53,7 +53,12 @@ class Work:
 
     def branch(self, problem: Problem, mode: int = 1, until: float | None = None) -> Branch:
         """Branch of a mode, ω₂(1) < 0, to an end force or to lift-off."""
-        return self.once(("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol))
+        found = self.once(("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol))
+        if not found.reached_end:
+            raise NotConvergedError(
+                f"γ = {problem.weight:g}, α = {problem.alpha:g}, mode {mode}: {found.ended_because}"
+            )
+        return found
 
     def twisted(self, problem: Problem, mode: int = 1, *, mirror: bool = False) -> Torsion:
         """What twist does to the rod at its lift-off load."""
