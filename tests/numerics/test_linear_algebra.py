@@ -52,7 +52,7 @@ def test_factorisation_gives_solution_and_inertia(sizes: tuple[int, int, int]) -
 def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
     gradient, mixed = np.empty(space.size), np.empty(space.size)
     band = np.empty((space.size, space.degree + 1))
-    rates = np.array([1.0, 0.0, 0.0, 0.0, 0.0])
+    rates = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     energy = assembly.assemble(
         RodOnCylinder(), space.local_tag, space.table, space.points, space.weights, c, p, rates, gradient, mixed, band
     )
@@ -62,7 +62,7 @@ def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float,
 def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences() -> None:
     space = SplineSpace(np.array([0.0, 0.2, 0.45, 0.5, 0.9, 1.0]), 6)
     rng = np.random.default_rng(3)
-    p = np.array([-120.0, 25.0, 15.0, 0.05, 1.3])
+    p = np.array([-120.0, 25.0, 15.0, 0.05, 1.3, 1.0, 0.0])
     c = 0.004 * rng.standard_normal(space.size)
     _, gradient, mixed, hessian = rod_system(c, space, p)
     h = 1e-6
@@ -72,7 +72,7 @@ def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences() -> None
         above, below = rod_system(c + shift, space, p), rod_system(c - shift, space, p)
         assert gradient[i] == pytest.approx((above[0] - below[0]) / (2 * h), rel=1e-5, abs=1e-6)
         assert hessian[i] == pytest.approx((above[1] - below[1]) / (2 * h), rel=1e-5, abs=1e-4)
-    step = np.array([1e-4, 0, 0, 0, 0])
+    step = np.array([1e-4, 0, 0, 0, 0, 0, 0])
     slope = (rod_system(c, space, p + step)[1] - rod_system(c, space, p - step)[1]) / 2e-4
     assert mixed == pytest.approx(slope, rel=1e-7, abs=1e-9)
 
@@ -81,10 +81,20 @@ def test_variation_along_a_direction_is_that_of_the_hessian() -> None:
     space = SplineSpace(np.linspace(0.0, 1.0, 7), 7)
     rng = np.random.default_rng(4)
     c, v = 0.004 * rng.standard_normal(space.size), rng.standard_normal(space.size)
-    p, rates = np.array([-90.0, 10.0, 15.0, 0.05, 0.4]), np.zeros(5)
+    p, rates = np.array([-90.0, 10.0, 15.0, 0.05, 0.4, 1.0, 0.0]), np.zeros(7)
     above, below = assembly.variation(RodOnCylinder(), space.table, space.points, space.weights, c, p, rates, v)
     assert above == pytest.approx(v @ rod_system(c, space, p)[3] @ v, rel=1e-9)
     assert below == pytest.approx(v @ dense(space.slope_gram) @ v, rel=1e-11)
+
+
+def test_a_ramp_beside_the_spline_is_the_spline_of_the_sum() -> None:
+    space = SplineSpace(np.linspace(0.0, 1.0, 7), 7)
+    c = 0.004 * np.random.default_rng(8).standard_normal(space.size)
+    p = np.array([-90.0, 10.0, 15.0, 0.05, 0.4, 1.0, 0.1])
+    split = rod_system(c, space, p)
+    whole = rod_system(c + 0.1 * space.greville, space, np.append(p[:6], 0.0))
+    for one, other in zip(split, whole, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9)
 
 
 class TwoBeams(NamedTuple):
