@@ -54,7 +54,7 @@ def test_every_derivative_is_that_of_finite_differences(name: str) -> None:
             expected = difference(problem, sensitivity.name, parameter)
             size = abs(getattr(problem, parameter)) or 1.0
             scale = max(abs(expected), 1e-3 * abs(sensitivity.force) / size)
-            assert abs(value - expected) <= 2e-6 * scale + 10.0 * error, (sensitivity.name, parameter)
+            assert abs(value - expected) <= 1e-6 * scale, (sensitivity.name, parameter)
 
 
 def test_twist_counts_for_lift_off_of_a_twisted_rod_only() -> None:

@@ -12,9 +12,9 @@ from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
 from rodwell.physics.strand import towards_lift_off
 
-STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-6, "twist": 1e-4}
+STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along
-tangents. In units of the parameter; that of weight and force is relative, that of clearance a part of it."""
+tangents. Of α in degrees, of T₁ in B/L, of the others relative."""
 
 
 def pressure_rates(
@@ -26,7 +26,7 @@ def pressure_rates(
     meshes and from twice the step.
     """
     here = parameter_value(solution, parameter)
-    size = 1.0 if parameter in ("alpha", "twist") else max(abs(here), 1e-3)
+    size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size
     ladder, point = at_state(solution.problem, solution, parameter, here + size, solution.ladder.rtol)
     at = np.array(places)
