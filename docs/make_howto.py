@@ -43,7 +43,7 @@ COMMANDS = {
     "certify": "certify --weight 60 --alpha 35 --modes 3",
     "modes": "modes --weight 15 --pairs 2 --table 4",
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
-    "verify": "verify examples/drill-string.toml --at -140 --rtol 1e-6",
+    "verify": "verify examples/drill-string.toml --at -140kN --rtol 1e-6",
     "sensitivity": "sensitivity --weight 15 --alpha 90",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import json_option, print_json, progress_bar
+from rodwell.cli.options import force_at, json_option, print_json, progress_bar
 
 if TYPE_CHECKING:
     from rodwell.analysis.verify import Verification
@@ -18,29 +18,35 @@ if TYPE_CHECKING:
 @click.option("--mode", default=1, show_default=True, help="Buckling mode whose branch is verified.")
 @click.option(
     "--at",
-    "forces",
-    type=float,
+    "at",
     multiple=True,
-    help="End force at s = 1 in B/L², tension positive, at which to compare; may be given several times.  "
+    help='End force at s = 1, tension positive, at which to compare, with its unit ("-130 kN"; a plain number in B/L² '
+    "without dimensions); may be given several times.  "
     "[default: half way from buckling to lift-off, and 1.3 times that way]",
 )
 @click.option(
     "--rtol", default=1e-8, show_default=True, help="Relative tolerance of the other program and of agreement."
 )
 @json_option
-def verify(case: Path, mode: int, forces: tuple[float, ...], rtol: float, as_json: bool) -> None:
+def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: bool) -> None:
     """Solve CASE, a TOML file, once more as the paper's fifteen equations with SciPy's solve_bvp, and compare.
 
     Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
     is 1 if the two do not agree.
     """
     from rodwell.analysis.verify import verify as solve_again  # noqa: PLC0415
+    from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.practice.case import Case  # noqa: PLC0415
     from rodwell.practice.check import branch_to_verify  # noqa: PLC0415
 
     read = Case.read(case)
+    forces = [force_at(text, read) for text in at]
     with progress_bar(not as_json, "the engine's branch") as tell:
-        branch = branch_to_verify(read, mode, forces)
+        try:
+            branch = branch_to_verify(read, mode, forces)
+        except InputError as problem:
+            name = "--at" if problem.field == "until" else problem.field
+            raise InputError(name, ", ".join(at) if name == "--at" else problem.value, problem.problem) from None
         count = [0]
 
         def report(force: float) -> None:

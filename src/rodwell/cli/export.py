@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import progress_bar, units_option
+from rodwell.cli.options import force_at, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.analysis.solution import Solution
@@ -62,7 +62,7 @@ def export(
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     read = Case.read(case).in_units(units)
-    force = None if at == LIFT_OFF else _force(at, read)
+    force = None if at == LIFT_OFF else force_at(at, read, LIFT_OFF)
     checked_files(files, "--to")
     for file in files:
         check_writable(file.parent, "--to")
@@ -89,22 +89,6 @@ def export(
         value = given.get(problem.field, problem.value)
         raise InputError(names.get(problem.field, problem.field), value, problem.problem) from None
     click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(str(file) for file in written))
-
-
-def _force(at: str, case: Case) -> float:
-    """End force in B/L²: as in load.until of the case file, text with a unit or a plain number."""
-    from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.units import to_si  # noqa: PLC0415
-
-    if case.scales is None:
-        try:
-            return float(at)
-        except ValueError:
-            raise InputError("--at", at, f'must be "{LIFT_OFF}" or an end force in B/L², a plain number') from None
-    try:
-        return to_si(at, "force") / case.scales.factor("force")
-    except ValueError as problem:
-        raise InputError("--at", at, f'must be "{LIFT_OFF}" or an end force: it {problem}') from None
 
 
 def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution:

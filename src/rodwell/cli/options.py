@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
+    from rodwell.practice.case import Case
     from rodwell.problem import Problem
 
 Progress = Callable[[str, float], None]
@@ -81,6 +82,26 @@ def print_json(data: dict[str, Any]) -> None:
 def places_text(places: Sequence[float]) -> str:
     """Places along the rod at the end of a line, or nothing."""
     return "   at s/L = " + ", ".join(f"{s:.6g}" for s in places) if places else ""
+
+
+def force_at(at: str, case: Case, word: str = "") -> float:
+    """End force of ``--at`` in B/L²: as load.until in the case file, text with a unit, or a plain number without one.
+
+    ``word`` is what may be given instead of a force.
+    """
+    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.practice.units import to_si  # noqa: PLC0415
+
+    instead = f'"{word}" or ' if word else ""
+    if case.scales is None:
+        try:
+            return float(at)
+        except ValueError:
+            raise InputError("--at", at, f"must be {instead}an end force in B/L², a plain number") from None
+    try:
+        return to_si(at, "force") / case.scales.factor("force")
+    except ValueError as problem:
+        raise InputError("--at", at, f"must be {instead}an end force: it {problem}") from None
 
 
 def out_option(name: str) -> Callable[[Any], Any]:
