@@ -65,7 +65,7 @@ def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> 
     bump = s**2 * (1.0 - s) ** 2
     profile = {"even": bump, "odd": bump * (s - 0.5), "skew": bump * (s - 0.37) * (s - 0.8)}[shape]
     c = space.project(amplitude * profile / np.max(np.abs(profile)), Ends((2, 2)))
-    p = np.array([-100.0, 0.0, lateral, clearance, 0.0, 1.0])
+    p = np.array([-100.0, 0.0, lateral, clearance, 0.0, 1.0, 0.0])
     grid, table = space.samples
     places, values, _ = contact_maxima(RodOnCylinder(), space.knots, 9, grid, table, c, p, 0.5)
     dense = np.linspace(0.0, 1.0, 200_001)
