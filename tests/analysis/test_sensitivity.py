@@ -50,7 +50,7 @@ def test_every_derivative_is_that_of_finite_differences(name: str) -> None:
     found = rodwell.sensitivities(problem)
     assert len(found) == (2 if problem.pressed else 1)
     for sensitivity in found:
-        for parameter, (value, error) in sensitivity.derivatives.items():
+        for parameter, (value, _) in sensitivity.derivatives.items():
             expected = difference(problem, sensitivity.name, parameter)
             size = abs(getattr(problem, parameter)) or 1.0
             scale = max(abs(expected), 1e-3 * abs(sensitivity.force) / size)
