@@ -131,3 +131,32 @@ def test_dataset_in_physical_units(branch: rodwell.Branch) -> None:
         state.dataset(length=30.0)
     with pytest.raises(rodwell.InputError, match="must be positive"):
         state.dataset(length=-30.0, stiffness=1.0)
+
+
+def test_cylinder_balances_its_loads(branch: rodwell.Branch) -> None:
+    """(48), (49) of the cylinder: F⁽²⁾′ = p⁽²⁾ σ′ and M⁽²⁾′ + t₂ × F⁽²⁾ σ′ = m⁽²⁾ σ′, with σ′ = cos η, (60), (61)."""
+    h = 2e-4
+    middle = np.linspace(0.05, 0.95, 19)
+
+    def vectors(s: np.ndarray) -> tuple[np.ndarray, ...]:
+        f = branch[-1].fields(s)
+        axes = frames(f["xi1"], f["eta"], f["xi2"])["R12"]
+        zero = np.zeros_like(s)
+        parts = (
+            ("cylinder_F1", "cylinder_F2", "cylinder_F3"),
+            ("T2", "mu", "cylinder_M3"),
+            (None, "cylinder_p2", "cylinder_p3"),
+            ("cylinder_m1", None, None),
+        )
+        columns = [np.array([zero if name is None else f[name] for name in names]) for names in parts]
+        return *(np.einsum("mij,jm->mi", axes, c) for c in columns), np.cos(f["eta"])[:, None]
+
+    around = [vectors(middle + k * h) for k in (-2, -1, 0, 1, 2)]
+    force_rate, moment_rate = (
+        (around[0][i] - 8.0 * around[1][i] + 8.0 * around[3][i] - around[4][i]) / (12.0 * h) for i in (0, 1)
+    )
+    force, _, load, moment, cos = around[2]
+    shear = np.cross(np.array([0.0, 0.0, 1.0]), force)
+    np.testing.assert_allclose(force_rate, load * cos, atol=1e-6 * np.max(np.abs(load)))
+    size = np.max(np.abs(shear)) + np.max(np.abs(moment))
+    np.testing.assert_allclose(moment_rate + shear * cos, moment * cos, atol=1e-6 * size)

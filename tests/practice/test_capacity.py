@@ -48,6 +48,20 @@ def test_stress_is_that_of_a_tube_under_bending_and_torsion() -> None:
     assert found.utilisation == pytest.approx(found.value / 3e8)
 
 
+def test_torsion_alone_counts_as_in_von_mises(monkeypatch: pytest.MonkeyPatch) -> None:
+    """√3 τ, with τ = T R/J of a tube."""
+    from rodwell.practice import capacity
+
+    def twisted(_problem, _family, _state, s):
+        return {"mu": 0.0 * s, "cylinder_M3": 0.0 * s, "T2": np.full_like(s, 0.02)}
+
+    monkeypatch.setattr(capacity, "fields_at", twisted)
+    state = rodwell.follow(Problem(15.0), until=-130.0)[-1]
+    found = cylinder_stress(state, Cylinder(0.3, 0.25, 3e8), Scales(20.0, 1e5))
+    torque, polar = 0.02 * 1e5 / 20.0, math.pi / 2.0 * (0.15**4 - 0.125**4)
+    assert found.value == pytest.approx(math.sqrt(3.0) * torque * 0.15 / polar)
+
+
 TUBE = {"outer_diameter": "72 cm", "yield_strength": "250 MPa"}
 CASE = {
     "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},
