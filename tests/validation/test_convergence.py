@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import rodwell
 from rodwell import Problem, critical_loads
 from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.families import spline_ends
+from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.spaces import SplineSpace
@@ -69,3 +71,11 @@ def test_order_of_critical_loads(degree: int) -> None:
         errors.append(abs(-values[0] - reference))
     order = -np.polyfit(np.log(meshes), np.log(errors), 1)[0]
     assert order == pytest.approx(2 * (degree - 1), abs=0.2)
+
+
+def test_errors_cover_the_round_off_of_fine_meshes() -> None:
+    """Asked for more than double precision holds, the largest pressure must not claim it: AUTO-07p has 275.3732615."""
+    state = rodwell.follow(rodwell.Problem(15.0), until=-400.0, rtol=1e-10)[-1]
+    value, error = state.number(Measured.P_MAX)
+    assert abs(value - 275.3732615) <= error + 1e-7
+    assert not state.converged
