@@ -137,8 +137,11 @@ def certify(solution: Solution) -> Certificate:
 
 def _scaled(terms: tuple[Any, ...], sizes: tuple[FloatArray, ...] = ()) -> float:
     """Largest size of the sum of the terms, divided by the largest of the terms and of further ``sizes``."""
-    largest = max(float(np.max(np.abs(term))) for term in (*terms, *sizes))
-    return float(np.max(np.abs(sum(terms)))) / (largest + _TINY)
+    stacked = np.empty((len(terms) + len(sizes), max(np.size(term) for term in terms)))
+    for row, term in zip(stacked, (*terms, *sizes), strict=True):
+        row[:] = term  # some are constants
+    left = np.abs(stacked[: len(terms)].sum(axis=0)).max()
+    return float(left / (np.abs(stacked, out=stacked).max() + _TINY))
 
 
 def _strands(x: Fifteen, load: Load, inside: Any) -> dict[str, float]:
