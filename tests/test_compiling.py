@@ -22,8 +22,9 @@ def no_helper(monkeypatch):
 def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
     rodwell.follow(rodwell.Problem(weight=15, alpha=90), until=-130)
     for kernel, arguments in ahead.KERNELS:
+        in_use = len(kernel.signatures)
         kernel.compile(arguments)
-        assert len(kernel.signatures) == 1  # compiling ahead added none: it was the one in use
+        assert len(kernel.signatures) == in_use  # compiling ahead added none
 
 
 def test_each_kernel_is_announced(capsys):
