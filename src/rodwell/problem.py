@@ -109,7 +109,7 @@ class Problem:
             raise InputError("clearance", self.clearance, allowed)
         if self.poisson == -1.0:
             raise InputError("poisson", self.poisson, "must be above -1 and at most 0.5")
-        if abs(2.0 * math.pi * self.turns * self.clearance) >= 1.0:
+        if abs(self.rise) >= 1.0:
             raise InputError(
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
@@ -158,6 +158,11 @@ class Problem:
     def foundation(self) -> float:
         """wₗ with the sign of its effect: negative for a rod on top, where weight helps buckling."""
         return -self.lateral_weight if self.on_top else self.lateral_weight
+
+    @property
+    def rise(self) -> float:
+        """2πnΔ, how far around the cylinder the end s = 1 of a coiled rod lies from the end s = 0, in L."""
+        return 2.0 * math.pi * self.turns * self.clearance
 
     @property
     def torsional_stiffness(self) -> float:

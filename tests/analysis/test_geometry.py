@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
-from rodwell.analysis.geometry import Geometry, braid_frame, turned
+from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.surfaces import Mesh, cylinder, material_lines, ring, straight_contact, tube
 from rodwell.errors import InputError
+from rodwell.physics.frames import frames
 
 STATES = {
     "lift-off": lambda: rodwell.follow(rodwell.Problem(15)).lift_off.solution,
@@ -66,8 +67,9 @@ def test_frames_are_those_of_equation_1(xi2: list[float], eta: list[float], xi1:
     def about_second(x: float) -> np.ndarray:
         return np.array([[np.cos(x), 0, np.sin(x)], [0, 1, 0], [-np.sin(x), 0, np.cos(x)]])
 
-    t1, d1, u1 = braid_frame(np.array(xi2), np.array(eta))
-    d0, v1 = turned(d1, u1, np.array(xi1))
+    axes = frames(np.array(xi1), np.array(eta), np.array(xi2))
+    t1, d1, u1 = np.moveaxis(axes["R11"], 2, 0)
+    _, d0, v1 = np.moveaxis(axes["R01"], 2, 0)
     fixed = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).T  # columns k, i, j
     for n in range(3):
         r11 = fixed @ about_first(xi2[n]).T @ about_second(eta[n]).T

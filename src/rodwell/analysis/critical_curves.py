@@ -11,6 +11,7 @@ import numpy as np
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import EULER, MOST_MODES, Mode, critical_loads
 from rodwell.analysis.curves import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
+from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.location import bracketed_root
 from rodwell.problem import Problem
@@ -149,14 +150,14 @@ class _Table:
     def node(self, x: float) -> _Node:
         """Solve the eigenproblem at ``x``."""
         problem = self.problem.but(**{self.over: x})
-        rates = _rates(problem, self.over)
+        rates = weight_rates(problem, self.over)
         if not self.split:
             loads = critical_loads(problem, self.modes + 1, rtol=self.rtol)
-            return _Node(x, {(0, m.number): _Load(m.force, m.error, _slope(m, *rates)) for m in loads})
+            return _Node(x, {(0, m.number): _load(m, rates) for m in loads})
         out: dict[Key, _Load] = {}
         for parity in (1, -1):
             for m in critical_loads(_half(problem, parity), (self.modes + 1) // 2 + 1, rtol=self.rtol):
-                out[parity, m.number] = _Load(4.0 * m.force, 4.0 * m.error, 4.0 * _slope(m, 0.0, rates[1] / 16.0))
+                out[parity, m.number] = _load(m, (0.0, rates[1] / 16.0), times=4.0)
         return _Node(x, out)
 
     def marks(self) -> list[tuple[Mark, tuple[Key, Key]]]:
@@ -239,24 +240,7 @@ def _half(problem: Problem, parity: int) -> Problem:
     return problem.but(weight=problem.weight / 16.0, ends=(problem.ends[0], middle))
 
 
-def _slope(mode: Mode, axial: float, foundation: float) -> float:
-    """dF/dx from the eigenvector, by the theorem of Hellmann and Feynman, from the rates of wₐ and wₗ/Δ."""
-    y, slope, _ = mode.space.at_points(mode.coefficients)
-    w, s = mode.space.weights, mode.space.points
-    above = axial * (w @ ((s - 1.0) * slope**2)) + foundation * (w @ y**2)
-    return float(-above / (w @ slope**2))
-
-
-def _rates(problem: Problem, over: str) -> tuple[float, float]:
-    """Derivatives of wₐ and wₗ/Δ by the parameter."""
-    sign = -1.0 if problem.on_top else 1.0
-    angle = math.radians(problem.alpha)
-    if over == "weight":
-        unit = problem.but(weight=1.0)
-        return unit.axial_weight, unit.foundation / problem.clearance
-    if over == "alpha":
-        rate = math.radians(1.0) * problem.weight
-        return -rate * math.sin(angle), sign * rate * math.cos(angle) / problem.clearance
-    if over == "clearance":
-        return 0.0, -problem.foundation / problem.clearance**2
-    return 0.0, 0.0
+def _load(mode: Mode, rates: tuple[float, float], times: float = 1.0) -> _Load:
+    """Load, error and slope of a mode, ``times`` as large; ``rates`` are those of wₐ and wₗ/Δ along the curve."""
+    slope = load_slope(mode.space, mode.coefficients, *rates)
+    return _Load(times * mode.force, times * mode.error, times * slope)

@@ -83,7 +83,7 @@ def _winding(problem: Problem, family: Family) -> FloatArray:
     Greville abscissae, so a level end is one whose first two values are those of the end less the ramp there.
     """
     space, held = family.space, family.ends
-    end = 2.0 * np.pi * problem.turns * problem.clearance
+    end = problem.rise
     level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
     kept = level - end * space.greville
     gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]

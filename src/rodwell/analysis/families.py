@@ -23,7 +23,7 @@ HELD = {"clamped": (2, False), "pinned": (1, False), "guided": (1, True), "free"
 def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
     """Physical parameters of ``problem`` in the order that kernels take them, (7,)."""
     out = np.empty(COUNT)
-    out[RAMP] = 2.0 * np.pi * problem.turns * problem.clearance
+    out[RAMP] = problem.rise
     out[FORCE], out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = force, problem.axial_weight, problem.foundation
     out[CLEARANCE], out[TWIST], out[SIDE] = problem.clearance, problem.twist, -1.0 if problem.outside else 1.0
     return out

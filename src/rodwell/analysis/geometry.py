@@ -16,6 +16,7 @@ import numpy as np
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.numerics.spaces import FloatArray
+from rodwell.physics.frames import frames
 
 if TYPE_CHECKING:
     from rodwell.analysis.solution import Solution
@@ -127,32 +128,19 @@ def geometry(
     scale = _scale(fields, problem.clearance + radius, radial_scale)
     sin_eta, cos_eta = np.sin(fields["eta"]), np.cos(fields["eta"])
     drawn = np.arctan2(scale * sin_eta, cos_eta)
-    t1, d1, u1 = braid_frame(fields["xi2"], drawn)
     # (32) with the drawn angle: ω₁ of the drawn frame is −ξ₂' cos η, per length of the rod
     angle = fields["xi1"] + _running((cos_eta - np.cos(drawn)) * sin_eta / problem.clearance, s)
-    d0, v1 = turned(d1, u1, angle)
+    axes = frames(angle, drawn, fields["xi2"])
+    (t1, d1, u1), (_, d0, v1) = (np.moveaxis(axes[name], 2, 0).copy() for name in ("R11", "R01"))
     centreline = -scale * problem.clearance * d1
     centreline[:, 2] = fields["z"]
-    braid, material = _curvatures(fields, problem.twist / problem.torsional_stiffness)
+    braid, material = (
+        np.stack([fields[f"{name}{i}"] for i in (1, 2, 3)], axis=-1) for name in ("omega", "material_omega")
+    )
     return Geometry(
         s, centreline, t1, d1, u1, d0, v1, braid, material, fields, problem.clearance, radius, scale,
         problem.outside, _lift_off(solution, fields),
     )  # fmt: skip
-
-
-def braid_frame(xi2: FloatArray, eta: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """t₁, d₁, u₁ along i, j, k, (m, 3) each, from the angles (m,): (1) with {t₂, d₂, v₂} = {k, i, j}."""
-    sin_a, cos_a, sin_e, cos_e, zero = np.sin(xi2), np.cos(xi2), np.sin(eta), np.cos(eta), np.zeros_like(xi2)
-    t1 = np.stack([sin_e * sin_a, sin_e * cos_a, cos_e], axis=-1)
-    d1 = np.stack([cos_a, -sin_a, zero], axis=-1)
-    u1 = np.stack([cos_e * sin_a, cos_e * cos_a, -sin_e], axis=-1)
-    return t1, d1, u1
-
-
-def turned(d1: FloatArray, u1: FloatArray, xi1: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """d₀ and v₁ (m, 3): d₁ and u₁ turned about t₁ by −ξ₁, (1)."""
-    c, s = np.cos(xi1)[:, None], np.sin(xi1)[:, None]
-    return c * d1 - s * u1, s * d1 + c * u1
 
 
 def readable_scale(fields: dict[str, FloatArray], reach: float) -> float:
@@ -202,14 +190,6 @@ def _scale(fields: dict[str, FloatArray], reach: float, given: float | None) -> 
 def _running(rate: FloatArray, s: FloatArray) -> FloatArray:
     """Integral from 0 to each place, trapezoidal rule."""
     return np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(s))])
-
-
-def _curvatures(fields: dict[str, FloatArray], angle_rate: float) -> tuple[FloatArray, FloatArray]:
-    """Braid curvatures (20) and material curvatures, (5) with ξ₁' from (32)."""
-    w1, w2, w3 = (fields[f"omega{i}"] for i in (1, 2, 3))
-    c, s = np.cos(fields["xi1"]), np.sin(fields["xi1"])
-    material = np.stack([np.full_like(w1, -angle_rate), c * w2 - s * w3, s * w2 + c * w3], axis=-1)
-    return np.stack([w1, w2, w3], axis=-1), material
 
 
 def _lift_off(solution: Solution, fields: dict[str, FloatArray]) -> tuple[float, ...]:

@@ -11,7 +11,6 @@ dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,9 +18,9 @@ import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import Mode, critical_loads
-from rodwell.analysis.families import parameter_value
 from rodwell.analysis.follow import follow
 from rodwell.analysis.pressure import pressure_rates
+from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import InputError, checked_whole
 from rodwell.numerics.ladder import ROUND_OFF
@@ -126,34 +125,17 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
 
 def of_critical_load(mode: Mode) -> Sensitivity:
     """Derivatives of a critical load, from its mode on both meshes."""
-    fine = _by_mode(mode.problem, mode.space, mode.coefficients)
-    coarse = _by_mode(mode.problem, *mode.coarse)
-    size = abs(mode.force)
-    found = {
-        name: (fine[name], float(np.abs(fine[name] - coarse[name]) + ROUND_OFF * (abs(fine[name]) + size / scale)))
-        for name, scale in (
-            ("weight", mode.problem.weight or 1.0),
-            ("alpha", 90.0),
-            ("clearance", mode.problem.clearance),
-        )
-    }
+    fine, coarse = (_by_mode(mode.problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
+    scales = {"weight": mode.problem.weight or 1.0, "alpha": 90.0, "clearance": mode.problem.clearance}
+    found = {}
+    for name, scale in scales.items():
+        round_off = ROUND_OFF * (abs(fine[name]) + abs(mode.force) / scale)
+        found[name] = (fine[name], abs(fine[name] - coarse[name]) + round_off)
     return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, found)
 
 
 def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:
-    y, y1, _ = space.at_points(coefficients)
-    w, s = space.weights, space.points
-    squares, slopes = w @ y**2, w @ y1**2
-    falling = float(w @ ((s - 1.0) * y1**2) / slopes)  # of axial weight
-    bedding = float(squares / slopes)  # of lateral weight over clearance
-    alpha, sign = math.radians(problem.alpha), -1.0 if problem.on_top else 1.0
-    sin, cos = math.sin(alpha), 0.0 if problem.alpha == 90.0 else math.cos(alpha)
-    weight, clearance = problem.weight, problem.clearance
-    return {
-        "weight": -(cos * falling + sign * sin / clearance * bedding),
-        "alpha": -weight * (-sin * falling + sign * cos / clearance * bedding) * math.pi / 180.0,
-        "clearance": sign * weight * sin / clearance**2 * bedding,
-    }
+    return {name: load_slope(space, coefficients, *weight_rates(problem, name)) for name in PARAMETERS}
 
 
 def of_lift_off(lift: SpecialPoint) -> Sensitivity:
@@ -172,4 +154,4 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         out[name] = (float(each[which]), float(spread[which]))
         if np.ptp(each) > 10.0 * np.max(spread):
             note = "lifts off at several places at once: the derivative by α is that towards smaller α"
-    return Sensitivity("lift-off load", solution.problem, parameter_value(solution, "force"), out, note)
+    return Sensitivity("lift-off load", solution.problem, solution.force, out, note)

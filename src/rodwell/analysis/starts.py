@@ -54,8 +54,7 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
 
 def _wavenumber(problem: Problem, state: State) -> float:
     """√(∫y''²/∫y'²) of a state; of a helix, that of its turns."""
-    ramp = 2.0 * np.pi * problem.turns * problem.clearance
-    return max(state.space.wavenumber(state.c + ramp * state.space.greville), 2.0 * np.pi * abs(problem.turns))
+    return max(state.space.wavenumber(state.c + problem.rise * state.space.greville), 2.0 * np.pi * abs(problem.turns))
 
 
 def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import csv
-import json
 from pathlib import Path
 
 from rodwell.plots.audit import plot_error_map
 from rodwell.practice.audit import Audit
 from rodwell.practice.audit_data import csv_rows
 from rodwell.practice.audit_map import ErrorMap
-from rodwell.report.pictures import PNG
+from rodwell.report.pictures import save_figure
 from rodwell.store.folder import whole_folder
+from rodwell.store.text import write_json
 
 
 def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, ...]:
@@ -25,15 +25,11 @@ def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, .
         If ``out`` cannot be written.
     """
     with whole_folder(out) as folder:
-        text = json.dumps(audit.as_dict(), indent=2, ensure_ascii=False, allow_nan=False)
-        (folder / "audit.json").write_text(text + "\n", encoding="utf-8")
+        write_json(audit.as_dict(), folder / "audit.json", finite=True)
         _write_csv(folder / "audit.csv", csv_rows(audit))
         if chart is not None:
             _write_csv(folder / "audit-chart.csv", _chart_rows(chart))
-            figure = plot_error_map(chart)
-            figure.savefig(folder / "audit-chart.png", **PNG)
-            figure.set_layout_engine("none")
-            figure.savefig(folder / "audit-chart.svg", metadata={"Date": None})
+            save_figure(plot_error_map(chart), folder / "audit-chart")
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 

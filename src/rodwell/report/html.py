@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import base64
 import datetime
 import math
-from pathlib import Path
 from typing import Any
-
-import jinja2
 
 from rodwell._version import __version__
 from rodwell.analysis.certificate import Certificate
@@ -16,10 +12,8 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
+from rodwell.report.templates import embedded, template
 from rodwell.report.viewer import viewer
-
-TEMPLATE = Path(__file__).with_name("report.html.j2")
-
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴"}
 
@@ -97,30 +91,30 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
     one among them prints, and stands in where the browser cannot draw in three dimensions.
     """
     scales = answer.case.scales
-    embedded = {name: _embed(*picture) for name, picture in pictures.items()}
-    rod = viewer(answer.shown, scales, still=embedded.get("rod-3d", ""))
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
+    images = {name: embedded(*picture) for name, picture in pictures.items()}
+    rod = viewer(answer.shown, scales, still=images.get("rod-3d", ""))
     text = sentences(answer)
-    return template.render(
-        case=answer.case,
-        answer=answer,
-        verdict=text[0],
-        text=text[1:],
-        assumptions=assumptions(answer),
-        rows=rows(answer),
-        inputs=inputs(answer.case),
-        derived=derived(answer.case),
-        conversions=conversions(answer.case),
-        special=_special(answer),
-        pictures=embedded,
-        rod=rod,
-        wall=_sentence(answer.shown.wall.meaning),
-        sensitivities=_sensitivities(answer),
-        certificate=_certificate(answer.worst_certificate),
-        rtol=f"{answer.case.rtol:g}".replace("-", "−"),
-        version=__version__,
-        date=datetime.date.today().isoformat(),
+    return str(
+        template("report.html.j2").render(
+            case=answer.case,
+            answer=answer,
+            verdict=text[0],
+            text=text[1:],
+            assumptions=assumptions(answer),
+            rows=rows(answer),
+            inputs=inputs(answer.case),
+            derived=derived(answer.case),
+            conversions=conversions(answer.case),
+            special=_special(answer),
+            pictures=images,
+            rod=rod,
+            wall=_sentence(answer.shown.wall.meaning),
+            sensitivities=_sensitivities(answer),
+            certificate=_certificate(answer.worst_certificate),
+            rtol=f"{answer.case.rtol:g}".replace("-", "−"),
+            version=__version__,
+            date=datetime.date.today().isoformat(),
+        )
     )
 
 
@@ -173,12 +167,6 @@ _GROUPS = {
     "forces of rod and cylinder (52)–(54), (56)–(58)": ("(52)", "(53)", "(54)", "(56)", "(57)", "(58)"),
     "contact pressure (55)": ("(55)",),
 }
-
-
-def _embed(kind: str, content: bytes) -> str:
-    """The picture as a data address: nothing is loaded from elsewhere."""
-    mime = {"svg": "image/svg+xml", "png": "image/png"}[kind]
-    return f"data:{mime};base64,{base64.b64encode(content).decode()}"
 
 
 _KINDS = {

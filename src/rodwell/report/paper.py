@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
@@ -17,6 +16,7 @@ from rodwell.errors import checked_whole
 from rodwell.numerics.corrector import correct
 from rodwell.report.html import number
 from rodwell.store.folder import whole_folder
+from rodwell.store.text import write_json
 from rodwell.studies.paper.agreement import CONVENTION, Agreement, agreement
 from rodwell.studies.paper.claims import Finding
 from rodwell.studies.paper.items import ITEMS, Item, chosen
@@ -116,8 +116,7 @@ def draw_item(name: str, rtol: float, folder: Path) -> str:
 
 def write_tables(table: Agreement, folder: Path) -> None:
     """Write the agreement table to a folder in three forms."""
-    text = json.dumps(table.as_dict(), indent=2, ensure_ascii=False, allow_nan=False)
-    (folder / "agreement.json").write_text(text + "\n", encoding="utf-8")
+    write_json(table.as_dict(), folder / "agreement.json", finite=True)
     (folder / "agreement.md").write_text(f"# The paper recomputed\n\n{markdown(table)}", encoding="utf-8")
     (folder / "agreement.html").write_text(page(table), encoding="utf-8")
 

@@ -53,16 +53,17 @@ def draw_diagram(diagram: Diagram, folder: Path) -> None:
     ordinate = Measured.ENERGY if diagram.problem.turns else Measured.OMEGA2_1
     with mpl.rc_context(RC):
         shown = [branch for branch in diagram.branches if branch.parameter == "force"]
-        _save(plot_bifurcation(shown, diagram.critical, ordinate=ordinate), folder / "diagram")
+        save_figure(plot_bifurcation(shown, diagram.critical, ordinate=ordinate).figure, folder / "diagram")
 
 
 def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
     """Draw curves as PNG and SVG."""
     with mpl.rc_context(RC):
-        _save(plot_curves(curves), folder / "curves")
+        save_figure(plot_curves(curves).figure, folder / "curves")
 
 
-def _save(ax: Any, path: Path) -> None:
-    ax.figure.savefig(path.with_suffix(".png"), **PNG)
-    ax.figure.set_layout_engine("none")
-    ax.figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})
+def save_figure(figure: Any, path: Path) -> None:
+    """Write a figure as PNG and SVG, ``path`` without suffix; the layout found for the first serves both."""
+    figure.savefig(path.with_suffix(".png"), **PNG)
+    figure.set_layout_engine("none")
+    figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})

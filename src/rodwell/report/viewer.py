@@ -23,8 +23,8 @@ from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
 from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
 from rodwell.practice.units import plain
+from rodwell.report.templates import HERE, template
 
-HERE = Path(__file__).parent
 PLACES, SIDES = (321, 801), 16
 """Fewest and most places along the rod, sides around it: what a page can carry and an eye can tell apart."""
 
@@ -64,7 +64,7 @@ def viewer(
         elements = solution.ladder.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
     data = _data(solution, rod, embedded=not full)
-    markup = _template("viewer.html.j2").render(
+    markup = template("viewer.html.j2").render(
         data=json.dumps(data, separators=(",", ":")), bar=_bar(rod, scales), still=still, full=full
     )
     three = f"/*\n{_asset('LICENSE-three.txt')}\n*/\n{_asset('three.min.js')}"
@@ -74,7 +74,7 @@ def viewer(
 def write_viewer(path: Path, solution: Solution, rod: Geometry | None, scales: Scales | None, title: str = "") -> None:
     """Write the viewer as a page of its own."""
     shown = viewer(solution, scales, rod=rod, full=True)
-    page = _template("rod3d.html.j2").render(
+    page = template("rod3d.html.j2").render(
         title=title or "Rod in its cylinder", viewer=shown.markup, css=shown.css, scripts=shown.scripts,
         caption=shown.caption,
     )  # fmt: skip
@@ -177,11 +177,3 @@ def _bar(rod: Geometry, scales: Scales | None) -> dict[str, str]:
 @cache
 def _asset(name: str) -> str:
     return (HERE / "assets" / name).read_text(encoding="utf-8")
-
-
-@cache
-def _template(name: str) -> Any:
-    import jinja2  # noqa: PLC0415
-
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.from_string((HERE / name).read_text(encoding="utf-8"))

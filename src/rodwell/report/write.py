@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
@@ -16,6 +14,7 @@ from rodwell.report.viewer import write_viewer
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.text import write_json
 
 FILES = {
     "report.html": "the report, self-contained",
@@ -38,8 +37,7 @@ def write_results(answer: Answer, out: Path) -> None:
         pictures = draw(answer, folder)
         (folder / "report.html").write_text(render(answer, pictures), encoding="utf-8")
         write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
-        text = json.dumps(answer.as_dict(), indent=2, ensure_ascii=False)
-        (folder / "answer.json").write_text(text + "\n", encoding="utf-8")
+        write_json(answer.as_dict(), folder / "answer.json")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
         write_answer(answer, folder / "branches.nc")
 
@@ -52,7 +50,7 @@ def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
     with whole_folder(out) as folder:
         draw_diagram(diagram, folder)
         write_branches(diagram, folder / "branches.nc")
-        _write_json(diagram.as_dict(), folder / "diagram.json")
+        write_json(diagram.as_dict(), folder / "diagram.json")
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 
@@ -61,9 +59,5 @@ def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:
     with whole_folder(out) as folder:
         draw_curves(curves, folder)
         write_curves_netcdf(curves, folder / "curves.nc")
-        _write_json({"curves": [curve.as_dict() for curve in curves]}, folder / "curves.json")
+        write_json({"curves": [curve.as_dict() for curve in curves]}, folder / "curves.json")
         return tuple(sorted(file.name for file in folder.iterdir()))
-
-
-def _write_json(data: dict[str, Any], path: Path) -> None:
-    path.write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
