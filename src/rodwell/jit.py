@@ -34,15 +34,15 @@ def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
 
 def formula(function: Callable[..., Any]) -> Any:
     """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it."""
-    return register_jitable(function)
+    return register_jitable(error_model="numpy", forceinline=True)(function)
 
 
 def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
-    """Energy density of ``model`` and its derivatives at one place ``s``; returns the energy per length.
+    """Energy density of ``model`` and its derivatives at one place ``s``; returns energy and rate per length.
 
     ``u`` (3 nf,) holds field f, derivative d at index ``3 f + d``, and may be changed. Written: ``gradient`` (3 nf,),
     ``hessian`` (3 nf, 3 nf) and ``mixed`` (3 nf,), the derivative of the gradient along ``rates``, a direction in the
-    space of the ``parameters``.
+    space of the ``parameters``. The rate is that derivative of the energy.
     """
     raise NotImplementedError("density is implemented per model, by numba.extending.overload")
 

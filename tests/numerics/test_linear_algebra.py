@@ -53,14 +53,15 @@ def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float,
     gradient, mixed = np.empty(space.size), np.empty(space.size)
     band = np.empty((space.size, space.degree + 1))
     rates = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    energy = assembly.assemble(
-        RodOnCylinder(), space.local_tag, space.table, space.points, space.weights, c, p, rates, gradient, mixed, band
+    energy, _ = assembly.assemble(
+        RodOnCylinder(), space.tags, space.table, space.points, space.weights, c, p, rates, gradient, mixed, band
     )
     return energy, gradient, mixed, dense(band)
 
 
-def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences() -> None:
-    space = SplineSpace(np.array([0.0, 0.2, 0.45, 0.5, 0.9, 1.0]), 6)
+@pytest.mark.parametrize(("degree", "per_element"), [(6, None), (4, 3), (5, 2), (7, 7), (9, 6)])
+def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences(degree: int, per_element: int | None) -> None:
+    space = SplineSpace(np.array([0.0, 0.2, 0.45, 0.5, 0.9, 1.0]), degree, per_element)
     rng = np.random.default_rng(3)
     p = np.array([-120.0, 25.0, 15.0, 0.05, 1.3, 1.0, 0.0])
     c = 0.004 * rng.standard_normal(space.size)
@@ -117,7 +118,7 @@ def _two_beams(model, s, u, parameters, rates, gradient, hessian, mixed):  # typ
         hessian[0, 4] = hessian[4, 0] = u[4]
         hessian[1, 3] = hessian[3, 1] = 1.0
         hessian[2, 2], hessian[4, 4], hessian[5, 5] = 1.0, u[0], 4.0
-        return 0.5 * (u[2] ** 2 + 4.0 * u[5] ** 2) + u[1] * u[3] + 0.5 * u[0] * u[4] ** 2
+        return 0.5 * (u[2] ** 2 + 4.0 * u[5] ** 2) + u[1] * u[3] + 0.5 * u[0] * u[4] ** 2, 0.0
 
     return beams
 
@@ -131,8 +132,8 @@ def test_assembly_of_two_coupled_fields() -> None:
 
     def system(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
         gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, 2 * (space.degree + 1)))
-        energy = assemble(
-            TwoBeams(), space.local_tag, space.table, space.points, space.weights, x, p, rates, gradient, mixed, band
+        energy, _ = assemble(
+            TwoBeams(), space.tags, space.table, space.points, space.weights, x, p, rates, gradient, mixed, band
         )
         return energy, gradient, dense(band)
 

@@ -46,8 +46,8 @@ def density(s: float, u: np.ndarray, p: np.ndarray) -> float:
 
 def derivatives(s: float, u: np.ndarray, p: np.ndarray, rates: np.ndarray) -> tuple[float, np.ndarray, ...]:
     gradient, hessian, mixed = np.empty(3), np.empty((3, 3)), np.empty(3)
-    value = _kernels.rod_density(s, u, p, rates, gradient, hessian, mixed)
-    return value, gradient, hessian, mixed
+    value, rate = _kernels.rod_density(s, u, p, rates, gradient, hessian, mixed)
+    return value, gradient, hessian, mixed, rate
 
 
 def test_kernels_are_those_that_the_symbolic_energy_generates() -> None:
@@ -65,7 +65,7 @@ def test_value_is_the_density_of_the_theory(state: tuple[float, ...], p: np.ndar
 @given(STATE, PARAMETER_SETS)
 def test_derivatives_agree_with_finite_differences(state: tuple[float, ...], p: np.ndarray) -> None:
     s, u = state[0], np.array(state[1:])
-    _, gradient, hessian, _ = derivatives(s, u, p, np.zeros(5))
+    _, gradient, hessian, _, _ = derivatives(s, u, p, np.zeros(5))
     for i, step in enumerate((1e-5 * p[3], 1e-6, 1e-5)):
         shift = np.zeros(3)
         shift[i] = step
@@ -84,6 +84,8 @@ def test_mixed_derivative_follows_each_parameter(which: int) -> None:
     step = 1e-6 * max(abs(p[which]), 1e-2)
     above, below = derivatives(s, u, p + step * rates, rates)[1], derivatives(s, u, p - step * rates, rates)[1]
     assert derivatives(s, u, p, rates)[3] == pytest.approx((above - below) / (2.0 * step), rel=1e-7, abs=1e-6)
+    value = [density(s, u, p + sign * step * rates) for sign in (1.0, -1.0)]
+    assert derivatives(s, u, p, rates)[4] == pytest.approx((value[0] - value[1]) / (2.0 * step), rel=1e-6, abs=1e-6)
 
 
 def test_small_values_keep_their_digits() -> None:

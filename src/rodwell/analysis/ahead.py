@@ -11,7 +11,7 @@ import numba
 from numba import types
 
 from rodwell import compiling
-from rodwell.analysis.accuracy import DEGREE
+from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.numerics.corrector import correct
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.physics.model import RodOnCylinder
@@ -20,14 +20,16 @@ _VECTOR = types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
 _TABLE = types.Array(types.float64, 3, "C")
 _MODEL: Any = numba.typeof(RodOnCylinder())  # type: ignore[no-untyped-call]
-_TAG: Any = types.UniTuple(types.int64, DEGREE + 1)  # type: ignore[no-untyped-call]
+_TAGS: Any = types.Tuple(  # type: ignore[no-untyped-call]
+    [types.UniTuple(types.int64, DEGREE + 1), types.UniTuple(types.int64, POINTS_OF_BRANCH)]  # type: ignore[no-untyped-call]
+)
 _FREE = (types.int64, types.int64, types.boolean, types.boolean)  # first, last, tied_first, tied_last
 
 KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
     (
         correct,
         (
-            *(_MODEL, _TAG, _TABLE, _VECTOR, _VECTOR, *_FREE, types.int64),  # ... points, weights, free, parity
+            *(_MODEL, _TAGS, _TABLE, _VECTOR, _VECTOR, *_FREE, types.int64),  # ... points, weights, free, parity
             *(_VECTOR, _VECTOR, _VECTOR, types.float64, _MATRIX, _VECTOR, types.float64, types.float64),  # ... target
             *(types.float64, types.float64, types.float64, types.int64, types.int64, _VECTOR),  # scales ... tangent
         ),

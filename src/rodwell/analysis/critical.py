@@ -10,6 +10,7 @@ from rodwell.analysis.accuracy import (
     ELEMENTS_PER_RADIAN,
     LINEAR_ELEMENTS_PER_RADIAN,
     MOST_ELEMENTS,
+    POINTS,
     RTOL,
     checked_rtol,
     first_space,
@@ -145,7 +146,7 @@ def _starting_space(problem: Problem, count: int) -> SplineSpace:
     foundation = max(problem.foundation, 0.0) / problem.clearance
     waves = np.pi * (count + 1)
     buckling = 2.0 * np.sqrt(foundation) + waves**2 + problem.axial_weight
-    space = first_space(problem, -buckling, density=LINEAR_ELEMENTS_PER_RADIAN)
+    space = first_space(problem, -buckling, density=LINEAR_ELEMENTS_PER_RADIAN, points=POINTS)
     if space.elements * space.degree < 4 * count / ELEMENTS_PER_RADIAN:
         space = space.refined()
     return space

@@ -10,87 +10,69 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.jit import density, kernel
+from rodwell.numerics.congruence import congruence
 
 
 @kernel
-def assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band):
-    """Energy of the fields with coefficients ``c``; write ``gradient``, ``mixed`` (n,) and ``band`` (n, width).
+def assemble(model, tags, table, points, weights, c, parameters, rates, gradient, mixed, band):
+    """Energy of the fields with coefficients ``c``, and its rate; write ``gradient``, ``mixed``, ``band``.
 
-    ``table`` (m, ≥3, p+1), ``points`` and ``weights`` (m,) belong to the quadrature of the space, p − 1 points in each
-    element; ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, so that short loops are unrolled.
-
-    With ``basis`` B (3 (p−1), p+1) the functions of an element at its points, its matrices are products LᵀB,
-    L[e] = w h[e, f] B for each field f, and in the last two columns of L, w g and w m: the gradient comes with them.
+    Written: ``gradient`` and ``mixed`` (n,), ``band`` (n, width). ``table`` (m, 3, p+1), ``points`` and ``weights``
+    (m,) belong to the quadrature of the space, and ``tags`` holds two tuples of zeros whose lengths the compiler
+    knows: p + 1 local functions, and the points of an element.
     """
-    local, fields = len(local_tag), len(model)
-    wide = (table.shape[2] + 3) // 4 * 4  # whole vector registers; not a constant, or loops over it would be unrolled
-    per_element = local - 2
+    fields, local, per_element = len(model), len(tags[0]), len(tags[1])
     size = 3 * fields
-    u, g, m = np.empty(size), np.empty(size), np.empty(size)
+    u, g, m = np.empty((per_element, size)), np.empty(size), np.empty(size)
     h = np.empty((size, size))
-    basis = np.zeros((3 * per_element, wide))
-    left = np.empty((fields, 3 * per_element, fields * local + wide))
-    blocks = np.empty((fields, fields * local + 2, wide))
+    terms = np.empty((per_element, size + 2, size))
+    product = np.empty((local + 2, local))
     gradient[:] = 0.0
     mixed[:] = 0.0
     band[:] = 0.0
-    energy = 0.0
+    energy = rate = 0.0
     for element in range(c.size // fields - local + 1):
-        start = element * fields
+        start, first = element * fields, element * per_element
+        _evaluate(model, tags, table, first, c, start, u)
         for i in range(per_element):
-            q = element * per_element + i
-            for d in range(3):
-                for a in range(local):
-                    basis[3 * i + d, a] = table[q, d, a]
+            w = weights[first + i]
+            e, r = density(model, points[first + i], u[i], parameters, rates, g, h, m)
+            energy += w * e
+            rate += w * r
+            for k in range(size):
+                for j in range(size):
+                    terms[i, j, k] = w * h[j, k]
+                terms[i, size, k], terms[i, size + 1, k] = w * g[k], w * m[k]
+        for e in range(fields):
             for f in range(fields):
-                u0 = u1 = u2 = 0.0
-                for a in range(local):
-                    value = c[start + a * fields + f]
-                    u0 += table[q, 0, a] * value
-                    u1 += table[q, 1, a] * value
-                    u2 += table[q, 2, a] * value
-                u[3 * f], u[3 * f + 1], u[3 * f + 2] = u0, u1, u2
-            w = weights[q]
-            energy += w * density(model, points[q], u, parameters, rates, g, h, m)
-            for e in range(fields):
-                for d in range(3):
-                    row, k = 3 * i + d, 3 * e + d
-                    for f in range(fields):
-                        h0, h1, h2 = w * h[k, 3 * f], w * h[k, 3 * f + 1], w * h[k, 3 * f + 2]
-                        for a in range(wide):
-                            left[e, row, f * local + a] = (
-                                h0 * basis[3 * i, a] + h1 * basis[3 * i + 1, a] + h2 * basis[3 * i + 2, a]
-                            )  # beyond a = p these are zeros, overwritten in what follows
-                    left[e, row, fields * local], left[e, row, fields * local + 1] = w * g[k], w * m[k]
-        _multiply(model, local_tag, left, basis, blocks)
-        _scatter(model, local_tag, blocks, start, gradient, mixed, band)
-    return energy
+                congruence(tags, table, first, terms, e, f, product)
+                _scatter(model, tags, product, start, e, f, gradient, mixed, band)
+    return energy, rate
 
 
-@kernel(fastmath={"contract"})
-def _multiply(model, local_tag, left, basis, product):
-    """Write Lᵀ B to ``product`` for each field: the sum is unrolled, the columns go through vector registers."""
-    for e in range(left.shape[0]):
-        for i in range(len(model) * len(local_tag) + 2):
-            for j in range(basis.shape[1]):
+@kernel(fastmath={"contract", "reassoc", "nsz"})
+def _evaluate(model, tags, table, first, c, start, u):
+    """Fields and two derivatives at the points of an element: ``u`` (points, 3 nf). The sums may be reordered."""
+    for i in range(len(tags[1])):
+        for f in range(len(model)):
+            for d in range(3):
                 total = 0.0
-                for k in range(3 * (len(local_tag) - 2)):
-                    total += left[e, k, i] * basis[k, j]
-                product[e, i, j] = total
+                for a in range(len(tags[0])):
+                    total += table[first + i, d, a] * c[start + a * len(model) + f]
+                u[i, 3 * f + d] = total
 
 
 @kernel
-def _scatter(model, local_tag, blocks, start, gradient, mixed, band):
-    """Add the products of an element to gradient, mixed derivatives and lower band."""
-    fields, last = len(model), len(model) * len(local_tag)
-    for e in range(fields):
-        for b in range(len(local_tag)):
-            j = start + b * fields + e
-            gradient[j] += blocks[e, last, b]
-            mixed[j] += blocks[e, last + 1, b]
-            for a in range(b, len(local_tag)):
-                for f in range(e if a == b else 0, fields):
-                    band[j, (a - b) * fields + f - e] += blocks[f, e * len(local_tag) + b, a]
+def _scatter(model, tags, product, start, e, f, gradient, mixed, band):
+    """Add the block of fields ``e`` and ``f`` of an element to gradient, mixed derivatives and lower band."""
+    fields, local = len(model), len(tags[0])
+    for b in range(local):
+        j = start + b * fields + e
+        if e == f:
+            gradient[j] += product[local, b]
+            mixed[j] += product[local + 1, b]
+        for a in range(b if f >= e else b + 1, local):
+            band[j, (a - b) * fields + f - e] += product[b, a]
 
 
 @kernel

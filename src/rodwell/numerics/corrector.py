@@ -30,6 +30,7 @@ from rodwell.numerics.ends import gather, restrict, spread
 
 DEGREE = np.pi / 180.0
 STAGNANT = 100.0
+CONTRACTED = 1000.0
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
 
 
@@ -84,8 +85,30 @@ def solve_within(factors, x, first, last, tied_first, tied_last, parity, frozen,
 
 
 @kernel
+def _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last):
+    """Add the step δc = a − δλ₂ b to ``c``; return its largest entry and ½ (g + m δλ)·δc.
+
+    The latter is what δc changes the energy by, to second order: g·δc + m·δc δλ + ½ δc·H δc with H δc = −g − m δλ.
+    """
+    largest = work = 0.0
+    for i in range(c.size):
+        dc = a[i] - more_dlam * b[i]
+        c[i] += dc
+        largest = max(largest, abs(dc))
+        if first <= i < last:
+            work += 0.5 * (gradient[i] + mixed[i] * dlam) * dc
+    return largest, work
+
+
+@kernel
+def _settles(step, previous, tolerance):
+    """Whether the next Newton step would be below round-off: convergence is quadratic, step = κ previous²."""
+    return step < previous < 1.0 and step**3 <= CONTRACTED * tolerance**2 * previous**2
+
+
+@kernel
 def correct(
-    model, local_tag, table, points, weights, first, last, tied_first, tied_last, parity,
+    model, tags, table, points, weights, first, last, tied_first, tied_last, parity,
     frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
     extra, tangent,
 ):  # fmt: skip
@@ -93,15 +116,15 @@ def correct(
 
     The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
-    the first step below ``tolerance`` (convergence is quadratic: the error left is about its square) and
-    fails after ``most`` steps, or as soon as a step is not smaller than the one before it, unless both are so small
-    that round-off in a nearly singular H explains it (the two meshes then disagree by as much). ``extra`` steps
-    follow convergence: pivots and tangent belong to the iterate before the last step, and locating a change of
-    the index takes them at the solution itself. Written: ``tangent`` (n,), dc/dλ.
+    the first step below ``tolerance`` (convergence is quadratic: the error left is about its square), or with one from
+    which as small an error can be foreseen, and fails after ``most`` steps, or as soon as a step is not smaller than
+    the one before it, unless both are so small that round-off in a nearly singular H explains it (the two meshes then
+    disagree by as much). ``extra`` steps follow convergence: pivots and tangent belong to the iterate before the last
+    step, and locating a change of the index takes them at the solution itself. Written: ``tangent`` (n,), dc/dλ.
 
     Returns
     -------
-    status, λ, negative pivots of H, energy, number of steps, last factors of H (free unknowns)
+    status, λ, negative pivots of H, energy after the last step, number of steps, last factors of H (free unknowns)
     """
     n = c.size
     gradient, mixed = np.empty(n), np.empty(n)
@@ -113,7 +136,7 @@ def correct(
     negative, energy, step, settled = -1, np.nan, np.inf, 0
     for iteration in range(1, most + extra + 1):
         on_path(path, lam, parameters, rates)
-        energy = assemble(model, local_tag, table, points, weights, c, parameters, rates, gradient, mixed, band)
+        energy, rate = assemble(model, tags, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
             return OUT_OF_RANGE, lam, negative, energy, iteration, inner
         inner = restrict(band, first, last, tied_first, tied_last)
@@ -138,17 +161,15 @@ def correct(
         solve_within(inner, a, first, last, tied_first, tied_last, parity, frozen, covector)
         more_dlam = (gap - row_lam * first_dlam - dot(row, a)) / (row_lam - dot(row, b))
         dlam = first_dlam + more_dlam
-        step = abs(dlam) / scale_lam
-        for i in range(n):
-            dc = a[i] - more_dlam * b[i]
-            c[i] += dc
-            step = max(step, abs(dc) / scale_c)
+        largest, work = _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last)
+        step = max(abs(dlam) / scale_lam, largest / scale_c)
+        energy += rate * dlam + work
         lam += dlam
         for i in range(n):
             tangent[i] = -b[i]
         if not np.isfinite(step):
             return DIVERGED, lam, negative, energy, iteration, inner
-        if step <= tolerance or settled > 0:
+        if step <= tolerance or settled > 0 or _settles(step, previous, tolerance):
             settled += 1
             if settled > extra:
                 return CONVERGED, lam, negative, energy, iteration, inner

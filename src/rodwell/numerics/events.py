@@ -18,6 +18,10 @@ INDEX, TURN = "index", "turn"
 AT_START = 1e-6
 """Part of the first step in which a zero is taken to be the start itself."""
 
+ROUGHLY = 1e-5
+"""Part of the step to which a turning point is located first. Where a branch meets its mirror image, the Hessian is
+singular and round-off hides the place from there on: what is exact there is the branch point that it meets."""
+
 NEARLY = 1e-2
 """Largest asymmetry of a turning point, relative to the state, or angle in rad, that may be none."""
 
@@ -128,7 +132,12 @@ class _Segment:
     def turn(self) -> Place | None:
         """The place where λ turns back, if it does."""
         first, last = self.spans[1].first.tangent_lam, self.spans[1].last.tangent_lam
-        return None if first * last >= 0.0 else locate(*self.spans, _sense, (first, last))
+        if first * last >= 0.0:
+            return None
+        place = locate(*self.spans, _sense, (first, last), ROUGHLY)
+        if not self._meets(place.fine):
+            place = locate(*self.spans, _sense, (first, last))
+        return place
 
     def starts_at(self, event: Event) -> bool:
         """Whether the zero of an event is the start itself, to within what is known of its values there."""

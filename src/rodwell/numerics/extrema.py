@@ -8,6 +8,8 @@ from rodwell.jit import contact, kernel
 from rodwell.numerics.bsplines import basis_derivatives, find_span
 
 MOST_MAXIMA = 64
+SETTLED = 1e-4
+"""Part of the stencil's width below which a Newton step is the last one: the next would be about its square."""
 
 
 @kernel
@@ -20,6 +22,15 @@ def _contact_at(model, knots, degree, c, parameters, s, basis, u):
         for a in range(degree + 1):
             u[d] += basis[d, a] * c[span - degree + a]
     return contact(model, s, u, parameters)
+
+
+@kernel
+def _vertex(x, f):
+    """Place of the maximum of the parabola through three points, the middle one the highest."""
+    before, after = (f[1] - f[0]) / (x[1] - x[0]), (f[2] - f[1]) / (x[2] - x[1])
+    bend = (after - before) / (x[2] - x[0])
+    slope = before + bend * (x[1] - x[0])
+    return x[1] if bend >= 0.0 else min(max(x[1] - 0.5 * slope / bend, x[0]), x[2])
 
 
 @kernel
@@ -66,6 +77,8 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
         low, high = grid[max(j - 1, 0)], grid[min(j + 1, m - 1)]
         place, value = grid[j], sample[j]
         delta = 0.05 * (high - low)
+        if 0 < j < m - 1:
+            place = _vertex(grid[j - 1 : j + 2], sample[j - 1 : j + 2])
         for _ in range(12):
             for k in range(5):
                 f[k] = _contact_at(model, knots, degree, c, parameters, place + (k - 2) * delta, basis, u)
@@ -76,7 +89,7 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
             target = min(max(target, low), high)
             step = abs(target - place)
             place = target
-            if step <= 1e-7 * delta:
+            if step <= SETTLED * delta:
                 break
         refined = _contact_at(model, knots, degree, c, parameters, place, basis, u)
         if refined < value:  # a maximum at an end, or one too flat to refine

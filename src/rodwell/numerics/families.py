@@ -171,7 +171,7 @@ class Family:
         frozen, covector = self._normalised(frozen)
         wait_for("correct")
         status, lam, index, energy, steps, factors = corrector.correct(
-            self.model, space.local_tag, space.table, space.points, space.weights, free.start, free.stop,
+            self.model, space.tags, space.table, space.points, space.weights, free.start, free.stop,
             *self.ends.tied, self.parity, frozen, covector, c, lam, self.path, row, row_lam, target,
             self.scale_c, self.lam_scale, self.tolerance, self.most_steps, self.extra_steps, tangent,
         )  # fmt: skip
@@ -197,8 +197,8 @@ class Family:
         """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""
         space = self.space
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
-        energy = assembly.assemble(
-            self.model, space.local_tag, space.table, space.points, space.weights, c,
+        energy, _ = assembly.assemble(
+            self.model, space.tags, space.table, space.points, space.weights, c,
             self.parameters(lam), self.rates(lam), gradient, mixed, band,
         )  # fmt: skip
         return energy, gradient, band

@@ -70,7 +70,14 @@ class Span:
         return self(bracketed_root(lambda t: self(t).lam - lam, 0.0, 1.0, *ends))
 
 
-def bracketed_root(function: Callable[[float], float], low: float, high: float, f_low: float, f_high: float) -> float:
+def bracketed_root(
+    function: Callable[[float], float],
+    low: float,
+    high: float,
+    f_low: float,
+    f_high: float,
+    tolerance: float = PLACE_TOLERANCE,
+) -> float:
     """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.
 
     T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic
@@ -88,7 +95,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
             c, b, fc, fb = b, a, fb, fa
         a, fa = x, fx
         best, f_best = (a, fa) if abs(fa) < abs(fb) else (b, fb)
-        share = PLACE_TOLERANCE / max(abs(b - a), PLACE_TOLERANCE)
+        share = tolerance / max(abs(b - a), tolerance)
         if share >= 0.5 or f_best == 0.0:
             return best
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
@@ -118,32 +125,44 @@ class Place:
         return abs(self.coarse.lam - self.fine.lam)
 
 
-def locate(coarse: Span, fine: Span, function: Callable[[Span, State], float], ends: tuple[float, float]) -> Place:
+def locate(
+    coarse: Span,
+    fine: Span,
+    function: Callable[[Span, State], float],
+    ends: tuple[float, float],
+    tolerance: float = PLACE_TOLERANCE,
+) -> Place:
     """Zero of a function of a state on both meshes; ``ends`` are its values at the ends of the fine span."""
     quick = coarse.quick, fine.quick
     near = (function(quick[0], coarse.first), function(quick[0], coarse.last))
     if (near[0] < 0.0) == (near[1] < 0.0):  # not seen on the coarse mesh: begin with the fine one
-        place = bracketed_root(lambda t: function(quick[1], quick[1](t)), 0.0, 1.0, *ends)
-        other = _near(lambda t: function(quick[0], quick[0](t)), place, ends[1] > ends[0])
+        place = bracketed_root(lambda t: function(quick[1], quick[1](t)), 0.0, 1.0, *ends, tolerance)
+        other = _near(lambda t: function(quick[0], quick[0](t)), place, ends[1] > ends[0], tolerance=tolerance)
     else:
-        other = bracketed_root(lambda t: function(quick[0], quick[0](t)), 0.0, 1.0, *near)
-        place = _near(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0])
+        other = bracketed_root(lambda t: function(quick[0], quick[0](t)), 0.0, 1.0, *near, tolerance)
+        place = _near(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0], tolerance=tolerance)
     return Place(place, coarse(other), fine(place))
 
 
-def _near(function: Callable[[float], float], place: float, rising: bool, farthest: float = 1.0) -> float:
+def _near(
+    function: Callable[[float], float],
+    place: float,
+    rising: bool,
+    farthest: float = 1.0,
+    tolerance: float = PLACE_TOLERANCE,
+) -> float:
     """Zero of ``function`` within ``farthest`` of ``place``, where a function that differs little from it has one."""
     middle = function(place)
     if middle == 0.0:
         return place
-    width = 1e-6
+    width = max(1e-6, tolerance)
     direction = -1.0 if (middle > 0.0) == rising else 1.0
     near, f_near = place, middle
     while width < farthest:
         far = place + direction * width
         f_far = function(far)
         if (f_far < 0.0) != (middle < 0.0):
-            return bracketed_root(function, near, far, f_near, f_far)
+            return bracketed_root(function, near, far, f_near, f_far, tolerance)
         near, f_near, width = far, f_far, 4.0 * width
     raise LocationError("an event was found on the finer mesh only")
 

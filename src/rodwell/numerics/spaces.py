@@ -30,24 +30,27 @@ class SplineSpace:
         Mesh points, increasing from 0 to 1, shape (elements + 1,).
     degree
         Polynomial degree p; the splines have p − 1 continuous derivatives.
+    per_element
+        Gauss points in each element: p − 1, unless said otherwise.
 
     Attributes
     ----------
     size
         Number of coefficients, elements + degree.
     points, weights
-        Gauss quadrature, degree − 1 points in each element in turn: φ″φ″ is integrated exactly, which
-        keeps the order of the energy.
+        Gauss quadrature, ``per_element`` points in each element in turn. With p − 1 of them φ″φ″ is integrated
+        exactly, which keeps the order of the energy.
     """
 
-    def __init__(self, breaks: FloatArray, degree: int) -> None:
+    def __init__(self, breaks: FloatArray, degree: int, per_element: int | None = None) -> None:
         self.breaks = np.ascontiguousarray(breaks, dtype=float)
         self.degree = degree
         self.elements = self.breaks.size - 1
         self.size = self.elements + degree
-        self.local_tag = (0,) * (degree + 1)  # its length tells compiled loops the number of local functions
+        self.per_element = degree - 1 if per_element is None else per_element
+        self.tags = (0,) * (degree + 1), (0,) * self.per_element  # their lengths: what compiled loops must know
         self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
-        nodes, weights = _gauss(degree - 1)
+        nodes, weights = _gauss(self.per_element)
         half = 0.5 * np.diff(self.breaks)[:, None]
         self.points: FloatArray = (self.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
         self.weights: FloatArray = (half * weights).ravel()
@@ -65,7 +68,7 @@ class SplineSpace:
     @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
-        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.degree - 1, 3))
+        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.per_element, 3))
 
     @cached_property
     def samples(self) -> tuple[FloatArray, FloatArray]:
@@ -107,7 +110,7 @@ class SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""
         middles = 0.5 * (self.breaks[:-1] + self.breaks[1:])
         new = middles if marked is None else middles[marked]
-        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree)
+        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree, self.per_element)
 
     def project(self, values: FloatArray, ends: Ends) -> FloatArray:
         """Coefficients of the L² projection of a function known at the quadrature points, (m,), held ends zero."""

@@ -10,7 +10,7 @@ def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     """Energy density and its derivatives at one place ``s``: see :func:`rodwell.jit.density`.
 
     ``u`` (3,) holds y, y', y''; the order of ``parameters`` (6,) is that of ``rodwell.physics.parameters``.
-    Returns the energy per length relative to the straight rod.
+    Returns the energy per length relative to the straight rod, and its derivative along ``rates``.
     """
     force = parameters[0]
     axial_weight = parameters[1]
@@ -28,42 +28,49 @@ def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     sin_half, cos_half = math.sin(half_angle), math.cos(half_angle)
     cos_eta = math.sqrt((1.0 - y1) * (1.0 + y1))
     sec_eta = 1.0 / cos_eta
-    t0 = 2*sin_half**2
-    t1 = curvature**2
-    t2 = sec_eta**2
-    t3 = y2**2
-    t4 = 1/(cos_eta + 1)
-    t5 = t4*twist
-    t6 = y1**3
-    t7 = curvature*t6
-    t8 = s - 1
-    t9 = axial_weight*t8 + force
-    t10 = y1**2
-    t11 = t10*t9
-    t12 = sec_eta**4
-    t13 = t12*t3
-    t14 = curvature*t10
-    t15 = sec_eta*t14
-    t16 = sec_eta*t9
-    t17 = t14*t4
-    t18 = lateral_weight*(1 - t0)
-    t19 = sec_eta*y1
-    t20 = t1*t10
-    t21 = sec_eta**3
-    energy = clearance*lateral_weight*t0 + (1/2)*t1*y1**4 + t11*t4 + (1/2)*t2*t3 - t5*t7
-    gradient[0] = 2*cos_half*lateral_weight*sin_half
-    gradient[1] = 2*t1*t6 + t13*y1 - t15*twist + t16*y1 - t17*twist
-    gradient[2] = t2*y2
-    hessian[0, 0] = curvature*t18
+    t0 = sin_half**2
+    t1 = 2*t0
+    t2 = curvature**2
+    t3 = y1**4
+    t4 = sec_eta**2
+    t5 = y2**2
+    t6 = 1/(cos_eta + 1)
+    t7 = t6*twist
+    t8 = y1**3
+    t9 = curvature*t8
+    t10 = s - 1
+    t11 = axial_weight*t10 + force
+    t12 = y1**2
+    t13 = t11*t12
+    t14 = 2*cos_half*lateral_weight*sin_half
+    t15 = sec_eta**4
+    t16 = t15*t5
+    t17 = curvature*t12
+    t18 = sec_eta*t17
+    t19 = sec_eta*t11
+    t20 = t17*t6
+    t21 = lateral_weight*(1 - t1)
+    t22 = sec_eta*y1
+    t23 = t12*t2
+    t24 = sec_eta**3
+    t25 = axial_weight_rate*t10
+    t26 = curvature**3
+    t27 = t12*t6
+    energy = clearance*lateral_weight*t1 + t13*t6 + (1/2)*t2*t3 + (1/2)*t4*t5 - t7*t9
+    gradient[0] = t14
+    gradient[1] = t16*y1 - t18*twist + t19*y1 + 2*t2*t8 - t20*twist
+    gradient[2] = t4*y2
+    hessian[0, 0] = curvature*t21
     hessian[1, 0] = 0
-    hessian[1, 1] = -3*curvature*t19*twist + 4*sec_eta**6*t10*t3 + t11*t21 + t13 + t16 + 6*t20 - t21*t7*twist
+    hessian[1, 1] = -3*curvature*t22*twist + 4*sec_eta**6*t12*t5 + t13*t24 + t16 + t19 + 6*t23 - t24*t9*twist
     hessian[2, 0] = 0
-    hessian[2, 1] = 2*t12*y1*y2
-    hessian[2, 2] = t2
-    mixed[0] = -clearance_rate*t1*t18*y + 2*cos_half*lateral_weight_rate*sin_half
-    mixed[1] = axial_weight_rate*t19*t8 + clearance_rate*(-4*curvature**3*t6 + sec_eta*t20*twist + t20*t5) + force_rate*t19 + twist_rate*(-t15 - t17)
+    hessian[2, 1] = 2*t15*y1*y2
+    hessian[2, 2] = t4
+    mixed[0] = -clearance_rate*t2*t21*y + 2*cos_half*lateral_weight_rate*sin_half
+    mixed[1] = clearance_rate*(sec_eta*t23*twist + t23*t7 - 4*t26*t8) + force_rate*t22 + t22*t25 + twist_rate*(-t18 - t20)
     mixed[2] = 0
+    rate = clearance*lateral_weight_rate*t1 + clearance_rate*(-curvature*t14*y + 2*lateral_weight*t0 + t2*t6*t8*twist - t26*t3) + force_rate*t27 + t25*t27 - t6*t9*twist_rate
     hessian[0, 1] = hessian[1, 0]
     hessian[0, 2] = hessian[2, 0]
     hessian[1, 2] = hessian[2, 1]
-    return energy
+    return energy, rate

@@ -120,8 +120,13 @@ def generate() -> str:
         for j in range(i + 1):
             outputs[f"hessian[{i}, {j}]"] = sp.diff(g, FIELDS[j])
     rates = sp.symbols([f"{name}_rate" for name in PARAMETERS], real=True)
+
+    def along_rates(expression: sp.Expr) -> sp.Expr:
+        return sum(r * sp.diff(expression, p) for r, p in zip(rates, SYMBOLS, strict=True))
+
     for i, g in enumerate(gradient):
-        outputs[f"mixed[{i}]"] = sum(r * sp.diff(g, p) for r, p in zip(rates, SYMBOLS, strict=True))
+        outputs[f"mixed[{i}]"] = along_rates(g)
+    outputs["rate"] = along_rates(density)
 
     replacements, reduced = sp.cse(
         [_cheap(e) for e in outputs.values()], symbols=sp.numbered_symbols("t"), order="canonical"
@@ -147,10 +152,10 @@ def rod_density(s, u, parameters, rates, gradient, hessian, mixed):
     """Energy density and its derivatives at one place ``s``: see :func:`rodwell.jit.density`.
 
     ``u`` (3,) holds y, y', y''; the order of ``parameters`` (6,) is that of ``rodwell.physics.parameters``.
-    Returns the energy per length relative to the straight rod.
+    Returns the energy per length relative to the straight rod, and its derivative along ``rates``.
     """
 {body}
-    return energy
+    return energy, rate
 '''
 
 

@@ -27,7 +27,7 @@ def _is_rod(model: Any) -> bool:
 @overload(density)
 def _density(  # type: ignore[no-untyped-def]
     model, s, u, parameters, rates, gradient, hessian, mixed
-) -> Callable[..., float] | None:
+) -> Callable[..., tuple[float, float]] | None:
     if not _is_rod(model):
         return None
 
