@@ -18,6 +18,9 @@ NEAR_THE_TOP = 0.05
 """Sampled maxima of the contact pressure within this part of its range from the highest are refined."""
 
 
+HALF = 0.5
+"""Part of the tolerance to which the highest pressure is held: the certificate looks at the pressure everywhere."""
+
 COEFFICIENT_NOISE = 4.0 * float(np.finfo(float).eps)
 """Round-off in the coefficients of a state, relative to the largest: some units in the last place."""
 
@@ -64,6 +67,43 @@ def _totals(table, points, weights, elements, c, clearance, lateral_weight, ramp
     return shortening, torque, bending, torque_size, sharpest, widest, steepest
 
 
+@kernel
+def _numbers(table, points, weights, elements, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
+    """Rows of (3, 8): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
+
+    ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
+    ``highest`` and ``lowest`` are contact pressures, ``smallest`` is the length of the smallest element.
+    """
+    clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
+    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
+        table, points, weights, elements, c, clearance, parameters[LATERAL_WEIGHT], ramp
+    )
+    u = np.zeros((3, 3))  # place, derivative
+    for i in range(3):
+        for d in range(3):
+            for a in range(landmarks.shape[2]):
+                u[i, d] += landmarks[i, d, a] * c[marks[i] + a]
+        u[i, 1] += ramp
+    out = np.zeros((3, STEEPEST + 1))
+    numbers, scales, noise = out
+    numbers[Measured.P_MAX], scales[Measured.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
+    numbers[Measured.ENERGY], scales[Measured.ENERGY] = energy, max(abs(energy), bending)
+    numbers[Measured.SHORTENING] = scales[Measured.SHORTENING] = shortening
+    numbers[Measured.OMEGA2_0] = -u[0, 2] / np.sqrt(1.0 - u[0, 1] ** 2)
+    numbers[Measured.OMEGA2_1] = -u[2, 2] / np.sqrt(1.0 - u[2, 1] ** 2)
+    # the scale is ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
+    scales[Measured.OMEGA2_0] = scales[Measured.OMEGA2_1] = max(sharpest, steepest**2 / clearance)
+    numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
+    numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
+    numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
+    for k in range(STEEPEST):
+        if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
+            scales[k] = 1.0
+    lever = 4.0 * steepest / clearance + abs(parameters[TWIST])
+    noise[Measured.P_MAX] = COEFFICIENT_NOISE * np.max(np.abs(c)) / smallest**3 * lever
+    return out
+
+
 KIN = (slice(Measured.OMEGA2_0, Measured.OMEGA2_1 + 1),)
 """Measured numbers of one kind: the end curvatures."""
 
@@ -89,41 +129,18 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray, Float
     STEEPEST stands last. A spline's third derivative is its coefficients' third difference over h³: round-off in them
     comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
     """
-    space = state.space
-    p = family.parameters(state.lam)
-    clearance = p[CLEARANCE]
-    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
-        space.table, space.points, space.weights, space.elements, state.c, clearance, p[LATERAL_WEIGHT], p[RAMP]
-    )
-    _, values, lowest = pressure_maxima(family, state)
-    ends = shape(family, state, np.array([0.0, 0.5, 1.0]), 3)
-    highest = values.max()
-    curvature = max(sharpest, steepest**2 / clearance)  # ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
-    omega2 = -ends[2] / np.sqrt(1.0 - ends[1] ** 2)
-    numbers = np.array(
-        [highest, state.energy, shortening, omega2[0], omega2[2], ends[0, 1] / clearance, torque, steepest]
-    )
-    scales = np.array(
-        [
-            0.5
-            * max(abs(highest), abs(lowest)),  # half the tolerance: the certificate looks at the pressure everywhere
-            max(abs(state.energy), bending),
-            shortening,
-            curvature,
-            curvature,
-            widest,
-            torque_size,
-            np.inf,
-        ]
-    )
-    scales[scales == 0.0] = 1.0  # numbers that vanish identically: the straight rod, no lateral weight
-    noise = np.zeros_like(numbers)
-    lever = 4.0 * steepest / clearance + abs(p[TWIST])
-    noise[Measured.P_MAX] = COEFFICIENT_NOISE * float(np.max(np.abs(state.c))) / space.smallest**3 * lever
+    space, p = state.space, family.parameters(state.lam)
+    _, values, lowest = pressure_maxima(family, state, p)
+    numbers, scales, noise = _numbers(
+        space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p, state.energy,
+        values.max(), lowest, space.smallest,
+    )  # fmt: skip
     return numbers, scales, noise
 
 
-def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
+def pressure_maxima(
+    family: Family, state: State, parameters: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space = state.space
     grid, table = space.samples
@@ -135,7 +152,7 @@ def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArra
         grid,
         table,
         state.c,
-        family.parameters(state.lam),
+        family.parameters(state.lam) if parameters is None else parameters,
         NEAR_THE_TOP,
     )
     return places, values, float(lowest)

@@ -91,6 +91,16 @@ def tabulate(knots, degree, places, per_element, orders):
 
 
 @kernel
+def tabulate_anywhere(knots, degree, places, orders):
+    """Basis functions at ``places`` (m,): (m, orders, degree+1), and the knot spans in which they lie, (m,)."""
+    table, spans = np.empty((places.size, orders, degree + 1)), np.empty(places.size, np.int64)
+    for q in range(places.size):
+        spans[q] = find_span(knots, degree, places[q])
+        basis_derivatives(knots, spans[q], degree, places[q], table[q])
+    return table, spans
+
+
+@kernel
 def evaluate(knots, degree, coefficients, places, orders):
     """Derivatives 0 … orders−1 of the spline at ``places`` (m,), anywhere: (orders, m)."""
     values = np.zeros((orders, places.size))

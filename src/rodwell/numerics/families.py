@@ -82,7 +82,7 @@ class State:
 
     def light(self) -> State:
         """Return the same state without the factors."""
-        return replace(self, factors=None)
+        return self if self.factors is None else replace(self, factors=None)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""

@@ -60,7 +60,7 @@ class Point:
 
     def light(self) -> Point:
         """Return the same point without the factors of its Hessians."""
-        return replace(self, coarse=self.coarse.light(), fine=self.fine.light())
+        return Point(self.coarse.light(), self.fine.light(), self.values, self.error, self.excess)
 
     @property
     def lam_gap(self) -> float:

@@ -78,6 +78,12 @@ class SplineSpace:
         return grid, np.asarray(bsplines.tabulate(self.knots, self.degree, grid, SAMPLES_PER_ELEMENT, 4))
 
     @cached_property
+    def landmarks(self) -> tuple[FloatArray, NDArray[np.int64]]:
+        """Basis table (3, 3, degree + 1) at both ends and in the middle, and the elements in which they lie (3,)."""
+        table, spans = bsplines.tabulate_anywhere(self.knots, self.degree, np.array([0.0, 0.5, 1.0]), 3)
+        return np.asarray(table), np.asarray(spans) - self.degree
+
+    @cached_property
     def slope_gram(self) -> FloatArray:
         """Band (size, degree + 1) of ∫ φᵢ' φⱼ' ds."""
         return self.form(np.array([0.0, 1.0, 0.0]))
