@@ -34,7 +34,7 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
             *(types.float64, types.float64, types.float64, types.int64, types.int64, _VECTOR),  # scales ... tangent
         ),
     ),
-    (contact_maxima, (_MODEL, _VECTOR, types.int64, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, types.int64, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.compiling import wait_for
 from rodwell.jit import kernel
+from rodwell.numerics.bsplines import combine
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder
@@ -42,17 +43,15 @@ STEEPEST = len(Measured)
 
 
 @kernel
-def _totals(table, points, weights, elements, c, clearance, lateral_weight, ramp):
+def _totals(local_tag, table, points, weights, elements, c, clearance, lateral_weight, ramp):
     """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
     per_element = weights.size // elements
+    u = np.empty(3)
     shortening = torque = bending = torque_size = sharpest = widest = steepest = 0.0
     for q in range(weights.size):
         start = q // per_element
-        y, y1, y2 = ramp * points[q], ramp, 0.0
-        for a in range(table.shape[2]):
-            y += table[q, 0, a] * c[start + a]
-            y1 += table[q, 1, a] * c[start + a]
-            y2 += table[q, 2, a] * c[start + a]
+        combine(local_tag, table[q], c, start, u)
+        y, y1, y2 = u[0] + ramp * points[q], u[1] + ramp, u[2]
         cos_eta = np.sqrt(1.0 - y1 * y1)
         omega2 = y2 / cos_eta
         lateral = clearance * lateral_weight * np.sin(y / clearance)
@@ -68,7 +67,9 @@ def _totals(table, points, weights, elements, c, clearance, lateral_weight, ramp
 
 
 @kernel
-def _numbers(table, points, weights, elements, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
+def _numbers(
+    local_tag, table, points, weights, elements, landmarks, marks, c, parameters, energy, highest, lowest, smallest
+):
     """Rows of (3, 8): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
@@ -76,13 +77,11 @@ def _numbers(table, points, weights, elements, landmarks, marks, c, parameters, 
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
     shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
-        table, points, weights, elements, c, clearance, parameters[LATERAL_WEIGHT], ramp
+        local_tag, table, points, weights, elements, c, clearance, parameters[LATERAL_WEIGHT], ramp
     )
-    u = np.zeros((3, 3))  # place, derivative
+    u = np.empty((3, 3))  # place, derivative
     for i in range(3):
-        for d in range(3):
-            for a in range(landmarks.shape[2]):
-                u[i, d] += landmarks[i, d, a] * c[marks[i] + a]
+        combine(local_tag, landmarks[i], c, marks[i], u[i])
         u[i, 1] += ramp
     out = np.zeros((3, STEEPEST + 1))
     numbers, scales, noise = out
@@ -132,7 +131,7 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray, Float
     space, p = state.space, family.parameters(state.lam)
     _, values, lowest = pressure_maxima(family, state, p)
     numbers, scales, noise = _numbers(
-        space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p, state.energy,
+        space.tags[0], space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p, state.energy,
         values.max(), lowest, space.smallest,
     )  # fmt: skip
     return numbers, scales, noise
@@ -147,6 +146,7 @@ def pressure_maxima(
     wait_for("contact_maxima")
     places, values, lowest = contact_maxima(
         family.model,
+        space.tags[0],
         space.knots,
         space.degree,
         grid,

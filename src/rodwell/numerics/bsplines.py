@@ -64,6 +64,20 @@ def basis_derivatives(knots, span, degree, s, out):
                 out[order, j] = -slope
 
 
+@kernel(fastmath={"contract", "reassoc", "nsz"})
+def combine(local_tag, basis, coefficients, first, out):
+    """Write to ``out`` (orders,) the sums of functions ``basis`` (≥ orders, p+1), the first of which is number ``first``.
+
+    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, and the terms are added in any order: both
+    let it use vector registers.
+    """
+    for d in range(out.size):
+        total = 0.0
+        for a in range(len(local_tag)):
+            total += basis[d, a] * coefficients[first + a]
+        out[d] = total
+
+
 @kernel
 def find_span(knots, degree, s):
     """Index of the knot span that holds ``s``; the last one for the right end."""

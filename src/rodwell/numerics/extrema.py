@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.jit import contact, kernel
-from rodwell.numerics.bsplines import basis_derivatives, find_span
+from rodwell.numerics.bsplines import basis_derivatives, combine, find_span
 
 MOST_MAXIMA = 64
 SETTLED = 1e-4
@@ -34,7 +34,7 @@ def _vertex(x, f):
 
 
 @kernel
-def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
+def contact_maxima(model, local_tag, knots, degree, grid, table, c, parameters, margin):
     """Local maxima of the contact pressure over s in [0, 1], both ends included.
 
     The pressure is sampled on ``grid`` (m,), several places per element, with basis ``table`` (m, 4, p+1). Each
@@ -55,11 +55,7 @@ def contact_maxima(model, knots, degree, grid, table, c, parameters, margin):
     highest, lowest = -np.inf, np.inf
     for j in range(m):
         first = min(j // per_element, c.size - degree - 1)
-        for d in range(4):
-            total = 0.0
-            for a in range(degree + 1):
-                total += table[j, d, a] * c[first + a]
-            u[d] = total
+        combine(local_tag, table[j], c, first, u)
         sample[j] = contact(model, grid[j], u, parameters)
         highest, lowest = max(highest, sample[j]), min(lowest, sample[j])
     threshold = highest - margin * (highest - lowest)
