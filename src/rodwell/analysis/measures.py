@@ -131,8 +131,8 @@ def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray, Float
     space, p = state.space, family.parameters(state.lam)
     _, values, lowest = pressure_maxima(family, state, p)
     numbers, scales, noise = _numbers(
-        space.tags[0], space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p, state.energy,
-        values.max(), lowest, space.smallest,
+        space.tags[0], space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p,
+        state.energy, values.max(), lowest, space.smallest,
     )  # fmt: skip
     return numbers, scales, noise
 

@@ -66,10 +66,10 @@ def basis_derivatives(knots, span, degree, s, out):
 
 @kernel(fastmath={"contract", "reassoc", "nsz"})
 def combine(local_tag, basis, coefficients, first, out):
-    """Write to ``out`` (orders,) the sums of functions ``basis`` (≥ orders, p+1), the first of which is number ``first``.
+    """Write to ``out`` (orders,) sums of functions ``basis`` (≥ orders, p+1), the first of which is number ``first``.
 
-    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, and the terms are added in any order: both
-    let it use vector registers.
+    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, and the terms are added in any order:
+    both let it use vector registers.
     """
     for d in range(out.size):
         total = 0.0
