@@ -34,25 +34,25 @@ class Fig3c:
     failed: int
 
 
-def fig_3c() -> Fig3c:
+def fig_3c(mesh: int = MESH) -> Fig3c:
     rod = Rod(HORIZONTAL)
     straight = rod.trivial(-260.0)
     points = straight.branch_points()
     primary, found, runs, failed = {}, {}, [straight], 0
     for mode, point in enumerate(points, start=1):
         asked = {"uzr": {F + 1: [BEFORE[mode]]}} if mode in BEFORE else {}
-        primary[mode] = rod.onward(point, END, MESH, STEP, switch=True, **asked)
+        primary[mode] = rod.onward(point, END, mesh, STEP, switch=True, **asked)
         runs.append(primary[mode])
         for search in SEARCHES if mode in BEFORE else ():
             start = primary[mode].at(F, BEFORE[mode])[0]
-            run = rod.onward(start, BEFORE[mode] - 40.0, MESH, stop=["BP1"], **search)
+            run = rod.onward(start, BEFORE[mode] - 40.0, mesh, stop=["BP1"], **search)
             if mode != 1:  # secondary branch 1 comes back to it
                 runs.append(run)
             if run.branch_points():
                 found[mode] = run.branch_points()[0]
                 break
             failed += 1
-    secondary = {mode: _secondary(rod, mode, found[mode]) for mode in (2, 4) if mode in found}
+    secondary = {mode: _secondary(rod, mode, found[mode], mesh) for mode in (2, 4) if mode in found}
     return Fig3c([p.parameters[F] for p in points], primary, found, secondary, [*runs, *secondary.values()], failed)
 
 

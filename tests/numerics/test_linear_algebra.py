@@ -83,7 +83,9 @@ def test_variation_along_a_direction_is_that_of_the_hessian() -> None:
     rng = np.random.default_rng(4)
     c, v = 0.004 * rng.standard_normal(space.size), rng.standard_normal(space.size)
     p, rates = np.array([-90.0, 10.0, 15.0, 0.05, 0.4, 1.0, 0.0]), np.zeros(7)
-    above, below = assembly.variation(RodOnCylinder(), space.table, space.points, space.weights, c, p, rates, v)
+    above, below = assembly.variation(
+        RodOnCylinder(), space.tags, space.table, space.points, space.weights, c, p, rates, v
+    )
     assert above == pytest.approx(v @ rod_system(c, space, p)[3] @ v, rel=1e-9)
     assert below == pytest.approx(v @ dense(space.slope_gram) @ v, rel=1e-11)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.jit import density, kernel
+from rodwell.numerics.bsplines import combine
 from rodwell.numerics.congruence import congruence
 
 
@@ -76,20 +77,16 @@ def _scatter(model, tags, product, start, e, f, gradient, mixed, band):
 
 
 @kernel
-def variation(model, table, points, weights, c, parameters, rates, v):
+def variation(model, tags, table, points, weights, c, parameters, rates, v):
     """Second variation of the energy at ``c`` along ``v``, and ∫ v'² ds; one field, sums of pointwise squares."""
-    local = table.shape[2]
-    per_element = points.size // (c.size - local + 1)
+    local_tag, per_element = tags[0], len(tags[1])
     u, du, g, m = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     h = np.empty((3, 3))
     total = square = 0.0
     for q in range(points.size):
         start = q // per_element
-        for d in range(3):
-            u[d] = du[d] = 0.0
-            for a in range(local):
-                u[d] += table[q, d, a] * c[start + a]
-                du[d] += table[q, d, a] * v[start + a]
+        combine(local_tag, table[q], c, start, u)
+        combine(local_tag, table[q], v, start, du)
         density(model, points[q], u, parameters, rates, g, h, m)
         for d in range(3):
             for e in range(3):

@@ -238,6 +238,7 @@ class Family:
             vector[:] = self.ends.spread(new / np.max(np.abs(new)))
         above, below = assembly.variation(
             self.model,
+            space.tags,
             space.table,
             space.points,
             space.weights,
