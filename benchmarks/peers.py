@@ -108,7 +108,8 @@ def main() -> None:
         "against LAPACK's `dgbsv`, factorisation and two right-hand sides, on a matrix of the same size and band.", "",
         *table("elements | LAPACK | Newton iteration | ratio", newton()), "",
         "## One state", "",
-        "At F = −122, before lift-off, from a state nearby (solve_bvp: from the state 5 % of the way back to buckling). rodwell: two meshes, all numbers, errors, stability index.", "",
+        "At F = −122, before lift-off, from a state nearby (solve_bvp: 5 % of the way back to buckling). "
+        "rodwell: two meshes, all numbers, errors, stability index.", "",
         *table("code | time | ratio | largest difference of a field", collocation()),
     ]  # fmt: skip
     text = "\n".join(lines) + "\n"

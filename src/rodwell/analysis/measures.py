@@ -50,7 +50,7 @@ def _totals(local_tag, table, points, weights, elements, c, clearance, lateral_w
     shortening = torque = bending = torque_size = sharpest = widest = steepest = 0.0
     for q in range(weights.size):
         start = q // per_element
-        combine(local_tag, table[q], c, start, u)
+        combine(local_tag, table, q, c, start, u)
         y, y1, y2 = u[0] + ramp * points[q], u[1] + ramp, u[2]
         cos_eta = np.sqrt(1.0 - y1 * y1)
         omega2 = y2 / cos_eta
@@ -81,7 +81,7 @@ def _numbers(
     )
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
-        combine(local_tag, landmarks[i], c, marks[i], u[i])
+        combine(local_tag, landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
     out = np.zeros((3, STEEPEST + 1))
     numbers, scales, noise = out

@@ -85,8 +85,8 @@ def variation(model, tags, table, points, weights, c, parameters, rates, v):
     total = square = 0.0
     for q in range(points.size):
         start = q // per_element
-        combine(local_tag, table[q], c, start, u)
-        combine(local_tag, table[q], v, start, du)
+        combine(local_tag, table, q, c, start, u)
+        combine(local_tag, table, q, v, start, du)
         density(model, points[q], u, parameters, rates, g, h, m)
         for d in range(3):
             for e in range(3):

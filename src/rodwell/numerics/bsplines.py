@@ -65,16 +65,16 @@ def basis_derivatives(knots, span, degree, s, out):
 
 
 @kernel(fastmath={"contract", "reassoc", "nsz"})
-def combine(local_tag, basis, coefficients, first, out):
-    """Write to ``out`` (orders,) sums of functions ``basis`` (≥ orders, p+1), the first of which is number ``first``.
+def combine(local_tag, table, place, coefficients, first, out):
+    """Write to ``out`` (orders,) the sums of the functions at a ``place`` of ``table`` (m, ≥ orders, p+1).
 
-    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows, and the terms are added in any order:
-    both let it use vector registers.
+    The first of them is number ``first``. ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows,
+    and the terms are added in any order: both let it use vector registers.
     """
     for d in range(out.size):
         total = 0.0
         for a in range(len(local_tag)):
-            total += basis[d, a] * coefficients[first + a]
+            total += table[place, d, a] * coefficients[first + a]
         out[d] = total
 
 

@@ -55,7 +55,7 @@ def contact_maxima(model, local_tag, knots, degree, grid, table, c, parameters, 
     highest, lowest = -np.inf, np.inf
     for j in range(m):
         first = min(j // per_element, c.size - degree - 1)
-        combine(local_tag, table[j], c, first, u)
+        combine(local_tag, table, j, c, first, u)
         sample[j] = contact(model, grid[j], u, parameters)
         highest, lowest = max(highest, sample[j]), min(lowest, sample[j])
     threshold = highest - margin * (highest - lowest)
