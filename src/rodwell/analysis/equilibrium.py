@@ -19,6 +19,10 @@ LOPSIDED = 0.3
 """How far, in radians around the cylinder, the search for an unsymmetric coil starts from the symmetric one."""
 
 
+STEEP = 0.45
+"""Slope of the even winding from which one with level ends, twice as steep at its middle, would turn across."""
+
+
 def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
     """Stable state of a coiled rod (``problem.turns`` ≠ 0) at an end force, by minimising its energy.
 
@@ -84,6 +88,8 @@ def _winding(problem: Problem, family: Family) -> FloatArray:
     """
     space, held = family.space, family.ends
     end = problem.rise
+    if problem.ends == ("pinned", "pinned") and abs(end) >= STEEP:
+        return np.zeros(space.size)  # the even winding itself
     level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
     kept = level - end * space.greville
     gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]

@@ -1,0 +1,169 @@
+"""The gallery: every script of ``examples/gallery`` runs, and what its picture shows is true."""
+
+from __future__ import annotations
+
+import runpy
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_simpson
+
+GALLERY = Path(__file__).resolve().parents[2] / "examples" / "gallery"
+PI2 = np.pi**2
+
+
+def run(name: str) -> Any:
+    """The values that a script's ``main`` returns with its figure."""
+    figure, values = runpy.run_path(str(GALLERY / f"{name}.py"))["main"]()
+    assert figure.axes
+    return values
+
+
+def drill_string() -> None:
+    """Weight of (63); B/L² of a round bar; the load is a root of (77); an odd shape lifts off in the middle."""
+    found = run("drill_string")
+    assert found["weight"] == pytest.approx(16.5, abs=0.05)
+    assert found["clearance"] == pytest.approx(0.01, rel=1e-12)
+    unit = 200e9 * np.pi / 4.0 * 0.05**4 / 30.0**2 / 1e3
+    assert found["critical_kN"] == pytest.approx(unit * found["critical"], rel=1e-12)
+    b = found["weight"] / found["clearance"]
+
+    def equation_77(force: float) -> float:
+        root = np.sqrt(force**2 - 4.0 * b)
+        k1, k3 = np.sqrt((-force - root) / 2.0), np.sqrt((-force + root) / 2.0)
+        return float(2 * k1 * k3 * (1 - np.cos(k1) * np.cos(k3)) - (k1**2 + k3**2) * np.sin(k1) * np.sin(k3))
+
+    assert equation_77(found["critical"] * (1 - 1e-9)) * equation_77(found["critical"] * (1 + 1e-9)) < 0.0
+    assert found["lift_off_at"] == pytest.approx((0.5,), abs=1e-9)
+    assert abs(found["push"]) < 1e-8
+
+
+def bifurcation_diagram() -> None:
+    """Section 4.1.2 of the paper: −362.63 on the first branch and −164.78 on the second."""
+    found = run("bifurcation_diagram")
+    assert [round(force, 2) for force in found["mode 1"]] == [-362.63]
+    assert [round(force, 2) for force in found["mode 2"]] == [-164.78]
+
+
+def broken_symmetry() -> None:
+    """Fig. 4: the branch joins the same two loads, an odd shape with an even one; odd shapes need no torque."""
+    found = run("broken_symmetry")
+    assert (round(found["from"], 2), round(found["to"], 2)) == (-362.63, -164.78)
+    assert found["symmetry"] == (-1, 1)
+    assert abs(found["torque"][0]) < 1e-10
+    assert np.all(np.diff(found["torque"]) < 0.0)
+
+
+def coil() -> None:
+    """Two turns are 4π; twist of the material lines is −T₁/C, C = 1/(1 + ν), (32)."""
+    found = run("coil")
+    assert found["stable"]
+    assert found["angle"] == pytest.approx(4.0 * np.pi, rel=1e-12)
+    assert found["pressure"] < 0.0
+    assert found["material_rate"] == pytest.approx(-2.0 / found["torsional_stiffness"], rel=1e-12)
+
+
+def snap_to_coil() -> None:
+    """Energies found by an interior-point method that lets the rod leave the wall."""
+    known = {-140.0: -0.043325, -160.0: -0.089700, -200.0: -0.185518}
+    for force, (energy, error) in run("snap_to_coil").items():
+        assert energy == pytest.approx(known[force], abs=1e-6)
+        assert error < 1e-9
+
+
+def helix() -> None:
+    """F = −(2B/Δ²) sin²η cos η and p = −B sin⁴η/Δ³; the largest load is 4/(3√3) B/Δ²."""
+    found = run("helix")
+    eta = found["eta"]
+    assert found["loads"] == pytest.approx(-2.0 * np.sin(eta) ** 2 * np.cos(eta), rel=1e-8)
+    assert found["pushes"] == pytest.approx(np.sin(eta) ** 4, rel=1e-7)
+    assert -found["loads"].min() < 4.0 / np.sqrt(27.0)
+
+
+def guidewire() -> None:
+    """Uniform helices: contact pressure from (52)–(55) by hand; a pinned weightless rod buckles at π² B/L²."""
+    found = run("guidewire")
+    assert found["computed"] == pytest.approx(found["exact"], rel=1e-7, abs=1e-6)
+    assert found["critical"] == pytest.approx(-PI2, rel=1e-9)
+
+
+def lift_off() -> None:
+    """−123.1730743 for the horizontal rod, known from AUTO-07p; the rod buckles before it lifts off."""
+    found = run("lift_off")
+    assert found["horizontal"] == pytest.approx(-123.1730743, abs=1e-6)
+    assert found["after_buckling"]
+
+
+def envelope() -> None:
+    """4π² without weight; double points of (78): γ = n²m²π⁴Δ, F = −(n² + m²)π²."""
+    found = run("envelope")
+    assert list(found["weightless"].values()) == pytest.approx([-4.0 * PI2] * 4, rel=1e-9)
+    known = [(n**2 * m**2 * PI2**2 * 0.01, -(n**2 + m**2) * PI2) for n, m in ((1, 3), (2, 4))]
+    assert np.array(found["double"]) == pytest.approx(np.array(known), rel=1e-9)
+
+
+def formulas() -> None:
+    """At the double points of (78) the formula, 2nmπ², is 2nm/(n² + m²) of the exact load."""
+    for n, m, ratio in run("formulas"):
+        assert ratio == pytest.approx(2.0 * n * m / (n**2 + m**2), rel=1e-9)
+
+
+def twist() -> None:
+    """Reflection exchanges the arms and the sign of T₁; section 4.2: T₁ > 0 stabilises, up to a limit."""
+    (below, force), (above, same) = run("twist")["again"]
+    assert below == pytest.approx(-above, rel=1e-7)
+    assert force == pytest.approx(same, rel=1e-9)
+    assert above > 0.0
+
+
+def wall_moments() -> None:
+    """T₂' = Δ wₗ sin ξ₂ with T₂(1) = 0, (33), integrated here a second time."""
+    found = run("wall_moments")
+    rate = found["clearance"] * found["lateral_weight"] * np.sin(found["y"] / found["clearance"])
+    twisting = cumulative_simpson(rate, x=found["s"], initial=0.0)
+    assert found["T2"] == pytest.approx(twisting - twisting[-1], abs=1e-9 * np.max(np.abs(twisting)))
+
+
+def well() -> None:
+    """Dawson–Paslay, 2√(B w/r), of the pipe in its hole by hand; the exact load of a long rod is above it by little."""
+    found = run("well")
+    inch, foot, psi = 0.0254, 0.3048, 6894.757
+    stiffness = 30e6 * psi * np.pi / 64.0 * (5.0**4 - 4.276**4) * inch**4
+    weight = 16.523 * 4.4482216 / foot
+    by_hand = 2.0 * np.sqrt(stiffness * weight * np.sin(np.radians(found["inclination"])) / (1.75 * inch))
+    assert found["formula"] == pytest.approx(by_hand, rel=1e-6)
+    assert 1.0 < found["exact"] / by_hand < 1.01
+
+
+def column() -> None:
+    """Fig. 9: the first mode of γ = 100 arises at F = 14.3626; (87): F = 0 is critical at γ = 74.628569."""
+    found = run("column")
+    assert round(found["critical"], 4) == 14.3626
+    assert abs(found["self_weight"]) < 1e-6
+
+
+CHECKS: dict[str, Callable[[], None]] = {
+    check.__name__: check
+    for check in (
+        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, helix, guidewire,
+        lift_off, envelope, formulas, twist, wall_moments, well, column,
+    )
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_picture(name: str) -> None:
+    CHECKS[name]()
+
+
+def test_no_script_is_left_out() -> None:
+    assert set(CHECKS) == {script.stem for script in GALLERY.glob("*.py")}
+
+
+def test_scripts_write_their_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(GALLERY / "column.py"), run_name="__main__")
+    assert (tmp_path / "column.png").read_bytes().startswith(b"\x89PNG")
