@@ -1,0 +1,273 @@
+"""The page on convergence: observed orders, and error estimates beside true errors.
+
+``make_pages`` calls :func:`pages`; ``tests/validation/test_convergence_page.py`` asserts what the page says.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from make_howto import DPI, table
+
+import rodwell
+from rodwell import Problem
+from rodwell.analysis import critical
+from rodwell.analysis.accuracy import DEGREE, first_space
+from rodwell.analysis.families import family as equilibria
+from rodwell.analysis.families import spline_ends
+from rodwell.analysis.measures import Measured, measure, measured_ladder
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Point
+from rodwell.numerics.spaces import Prolongation, SplineSpace
+from rodwell.physics.exact import pair_loads
+from rodwell.physics.strand import contact_pressure
+from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
+
+PROBLEM, FORCE = Problem(40.0, alpha=60.0, twist=0.5), -190.0
+"""The state of the first figure: no symmetry, axial weight, twist."""
+
+DEGREES = (4, 5, 6, DEGREE)
+MESHES = np.array([12, 16, 20, 26, 32, 40, 50, 64, 80, 100, 128, 160])
+PLACES = np.linspace(0.0, 1.0, 4001)
+LOAD_MESHES = {
+    4: (8, 12, 16, 24, 32, 44, 64),
+    5: (8, 12, 16, 24, 32, 44),
+    6: (8, 12, 16, 24, 32, 38),
+    DEGREE: (6, 8, 10, 12),
+}
+"""Up to where round-off begins: at degree 9 that is before the order of a load can be seen."""
+
+ENDS = ("clamped-clamped", "clamped-pinned", "pinned-clamped", "pinned-pinned", "clamped-guided")
+SHARES = (1.0, 0.7, 0.5, 0.35)
+"""Elements of the first mesh, as a part of those that the program would take."""
+
+
+class Orders(NamedTuple):
+    """Errors on uniform meshes, relative: of y in H², of the contact pressure (largest over s), of a critical load."""
+
+    h2: np.ndarray
+    pressure: np.ndarray
+    load: np.ndarray
+
+    def slopes(self, degree: int) -> tuple[float, float, float]:
+        """Observed orders: from the last two meshes."""
+        meshes = (state_meshes(degree), state_meshes(degree), np.array(LOAD_MESHES[degree]))
+        return tuple(-_slope(m, error) for m, error in zip(meshes, self, strict=True))  # type: ignore[return-value]
+
+
+def _slope(meshes: np.ndarray, error: np.ndarray) -> float:
+    return float((np.log(error[-1] / error[-2])) / np.log(meshes[-1] / meshes[-2]))
+
+
+def state_meshes(degree: int) -> np.ndarray:
+    """Elements of the meshes for states: at the program's degree the finest is left out, which is at round-off."""
+    return MESHES[:-1] if degree == DEGREE else MESHES
+
+
+def theory(degree: int) -> tuple[int, int, int]:
+    """Orders that splines of a degree promise: H², contact pressure (three derivatives), eigenvalues."""
+    return degree - 1, degree - 2, 2 * (degree - 1)
+
+
+def _solve(elements: int, degree: int, start: tuple[SplineSpace, np.ndarray]) -> tuple[Family, State]:
+    """The state at FORCE on a uniform mesh, from a state known on another space."""
+    space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree)
+    family = equilibria(PROBLEM, space, parity=0, wavenumber=8.0, scale=50.0)
+    other, c = start
+    _, state, _ = family.at(space.project(other.evaluate(c, space.points, 1)[0], spline_ends(PROBLEM)), FORCE)
+    if state is None:
+        raise RuntimeError(f"docs: no state on {elements} elements of degree {degree}")
+    return family, state
+
+
+@cache
+def orders() -> dict[int, Orders]:
+    """Errors by degree, against degree 10 on 200 elements, and against a certified load."""
+    near = rodwell.follow(PROBLEM, 1, until=FORCE, rtol=1e-9)[-1].point.fine
+    family, fine = _solve(200, 10, (near.space, near.c))
+    u = fine.space.evaluate(fine.c, PLACES, 4)
+    pressure = contact_pressure(PLACES, *u, family.parameters(FORCE))
+    load = float(rodwell.certify(PROBLEM, 1)[0].force.middle)
+    out = {}
+    for degree in DEGREES:
+        h2, p, f = [], [], []
+        for elements in state_meshes(degree):
+            family, state = _solve(int(elements), degree, (fine.space, fine.c))
+            v = state.space.evaluate(state.c, PLACES, 4)
+            h2.append(np.sqrt(np.trapezoid((v[2] - u[2]) ** 2, PLACES) / np.trapezoid(u[2] ** 2, PLACES)))
+            error = contact_pressure(PLACES, *v, family.parameters(FORCE)) - pressure
+            p.append(np.max(np.abs(error)) / np.max(np.abs(pressure)))
+        for elements in LOAD_MESHES[degree]:
+            values, _ = critical._solve(PROBLEM, SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree), 1, None)
+            f.append(abs(values[0] + load) / abs(load))
+        out[degree] = Orders(np.array(h2), np.array(p), np.array(f))
+    return out
+
+
+@dataclass(frozen=True)
+class Estimates:
+    """Error estimates and true errors, each relative to the scale of its number, (k,)."""
+
+    claimed: np.ndarray
+    true: np.ndarray
+    share: np.ndarray
+    number: np.ndarray
+
+    @property
+    def ratio(self) -> np.ndarray:
+        """True error over estimate, (k,)."""
+        return self.true / self.claimed
+
+
+@cache
+def estimates(count: int = 30) -> Estimates:
+    """States of random problems on meshes of several densities; the reference is a mesh finer than that for 1e-10."""
+    rng = np.random.default_rng(1)
+    rows: list[tuple[float, ...]] = []
+    for _ in range(count):
+        problem = Problem(
+            float(10.0 ** rng.uniform(0.5, 2.7)),
+            alpha=float(rng.uniform(5.0, 90.0)),
+            clearance=float(10.0 ** rng.uniform(-2.5, -1.3)),
+            twist=float(rng.choice([0.0, rng.uniform(-3.0, 3.0)])),
+            ends=str(rng.choice(ENDS)),  # type: ignore[arg-type]
+        )
+        mode = rodwell.critical_loads(problem, int(rng.integers(1, 4)))[-1]
+        force = mode.force - rng.uniform(0.1, 1.2) * mode.wavenumber**2
+        rows += _one(problem, mode, force)
+    return Estimates(*np.array(rows).T)
+
+
+def _one(problem: Problem, mode: Any, force: float) -> list[tuple[float, ...]]:
+    family, state = rodwell.follow(problem, mode, until=force, rtol=1e-10)[-1].levels[1]
+    finer = family.on(family.space.refined())
+    _, best, _ = finer.at(Prolongation(family.space, finer.space)(state.c), force)
+    if best is None:
+        raise RuntimeError(f"docs: no reference for {problem} at {force}")
+    exact, scales, _ = measure(finer, best)
+    rows = []
+    for share in SHARES:
+        point = _on_share(problem, mode, family, best, share)
+        if point is not None:
+            for i in Measured:
+                rows.append((point.error[i] / scales[i], abs(point.values[i] - exact[i]) / scales[i], share, float(i)))
+    return rows
+
+
+def _on_share(problem: Problem, mode: Any, family: Family, best: State, share: float) -> Point | None:
+    """The state on both meshes, the first with a share of the elements that the program would take."""
+    base = first_space(problem, min(best.lam, mode.force), max(best.lam, mode.force)).breaks
+    elements = 2 * max(4, round(0.5 * share * (base.size - 1)))
+    breaks = np.interp(np.linspace(0.0, base.size - 1, elements + 1), np.arange(base.size), base)
+    rough = replace(family, space=SplineSpace(breaks, DEGREE))
+    c = rough.space.project(best.space.evaluate(best.c, rough.space.points, 1)[0], rough.ends)
+    _, coarse, _ = rough.at(c, best.lam)
+    if coarse is None:
+        return None
+    ladder = measured_ladder(rough, 1e-6, 4000)
+    fine = replace(coarse, space=ladder.fine.space, c=ladder.up(coarse.c))
+    return ladder.at(Point(coarse, fine, np.empty(0), np.empty(0), 0.0), best.lam)
+
+
+@cache
+def loads() -> tuple[np.ndarray, np.ndarray]:
+    """Error estimates and true errors of critical loads of a horizontal rod, against the roots of (77), relative."""
+    claimed, true = [], []
+    for weight in np.geomspace(0.5, 5000.0, 25):
+        found = rodwell.critical_loads(Problem(float(weight)), 6)
+        exact = sorted((f for i in (1, 2, 3, 4) for f in pair_loads(i, np.sqrt(weight / 0.01))), reverse=True)
+        claimed += list(found.errors / np.abs(found.forces))
+        true += list(np.abs(found.forces - exact[:6]) / np.abs(found.forces))
+    return np.array(claimed), np.array(true)
+
+
+def pages(out: Path) -> dict[str, str]:
+    """Draw the figures into ``out``; return the tables."""
+    with mpl.rc_context(RC):
+        draw_orders(out / "convergence-orders.png")
+        draw_estimates(out / "convergence-estimates.png")
+    return {"convergence-orders.md": orders_table(), "convergence-estimates.md": estimates_table()}
+
+
+def draw_orders(path: Path) -> None:
+    """Errors over the number of elements, with lines of the promised slope."""
+    left = new_axes(size=(9.6, 4.4))
+    left.set_subplotspec(left.figure.add_gridspec(1, 3)[0])
+    axes = [left, *(left.figure.add_subplot(1, 3, i) for i in (2, 3))]
+    titles = ("y in H²", "contact pressure p, largest over s", "critical load")
+    for k, (ax, title) in enumerate(zip(axes, titles, strict=True)):
+        for color, degree in zip(MODES, DEGREES, strict=False):
+            meshes = np.array(LOAD_MESHES[degree], dtype=float) if k == 2 else state_meshes(degree).astype(float)
+            error = orders()[degree][k]
+            ax.loglog(meshes, error, "o", color=color, ms=4, label=f"degree {degree}: order {theory(degree)[k]}")
+            ax.loglog(meshes, error[-1] * (meshes / meshes[-1]) ** -theory(degree)[k], color=color, lw=0.9)
+        ax.set_title(title, loc="left", fontsize=9.5)
+        ax.set_xlabel("elements")
+        ax.set_ylim(1e-15, 1.0)
+        ax.legend(loc="upper right" if k == 2 else "lower left", fontsize=7.5)
+        ax.set_xticks([10, 20, 40, 80, 160], ["10", "20", "40", "80", "160"])
+        ax.minorticks_off()
+    axes[0].set_ylabel("relative error")
+    left.figure.savefig(path, dpi=DPI)
+
+
+def draw_estimates(path: Path) -> None:
+    """True error over estimate, each number of each state a dot."""
+    found = estimates()
+    ax = new_axes(size=(7.2, 5.2))
+    line = np.array([1e-16, 1.0])
+    ax.fill_between(line, line, 1.0, color="#fdecea", lw=0.0)
+    ax.loglog(line, line, color=INK, lw=0.9)
+    for color, share in zip((MODES[0], MODES[2], MODES[4], MODES[1]), SHARES, strict=True):
+        part = found.share == share
+        label = "states, first mesh of the program" if share == 1.0 else f"states, {share:g} of its elements"
+        ax.plot(found.claimed[part], np.maximum(found.true[part], 1e-16), ".", color=color, ms=4, label=label)
+    claimed, true = loads()
+    ax.plot(claimed, np.maximum(true, 1e-16), "x", color=GREY, ms=4, label="critical loads, roots of (77)")
+    ax.set_xlim(1e-13, 1.0)
+    ax.set_ylim(1e-16, 1.0)
+    ax.text(2e-13, 3e-2, "true error above the estimate", color="#b3261e", fontsize=8.5)
+    ax.set_xlabel("error estimate, relative to the scale of the number")
+    ax.set_ylabel("true error, likewise")
+    ax.legend(loc="lower right", fontsize=8.0)
+    ax.figure.savefig(path, dpi=DPI)
+
+
+def orders_table() -> str:
+    """Observed orders beside those that theory promises."""
+    rows = []
+    for degree, errors in orders().items():
+        cells = [f"{a:.2f} ({b})" for a, b in zip(errors.slopes(degree), theory(degree), strict=True)]
+        if degree == DEGREE:
+            cells[2] = "round-off from 14 elements on"
+        rows.append((str(degree), *cells))
+    return table(("Degree of the splines", "y in H²", "contact pressure", "critical load"), rows)
+
+
+def estimates_table() -> str:
+    """How often, and by how much, the true error is above the estimate."""
+    found, rows = estimates(), []
+    for share in SHARES:
+        rows.append((f"{share:g}", *_cover(found.claimed[found.share == share], found.ratio[found.share == share])))
+    small = found.claimed < 1e-4
+    rows.append(("any, estimates below 1e-4 only", *_cover(found.claimed[small], found.ratio[small])))
+    claimed, true = loads()
+    rows.append(("critical loads", *_cover(claimed, true / claimed)))
+    head = (
+        "Elements, share of the program's",
+        "Numbers",
+        "Median estimate",
+        "True error within it",
+        "Largest true/estimate",
+    )
+    return table(head, rows)
+
+
+def _cover(claimed: np.ndarray, ratio: np.ndarray) -> tuple[str, str, str, str]:
+    covered = f"{100.0 * np.mean(ratio <= 1.0):.1f} %"
+    return str(ratio.size), f"{np.median(claimed):.0e}".replace("-", "−"), covered, f"{ratio.max():.2f}"
