@@ -79,7 +79,8 @@ def _mode(answer: Answer) -> str:
     first = answer.critical[0]
     y = first.shape(np.linspace(0.0, 1.0, 2001))[1:-1]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
-    shape = {1: "symmetric", -1: "antisymmetric", 0: "unsymmetric (axial weight)"}[first.parity]
+    why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
+    shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
     if len(answer.critical) > 1:
