@@ -1,9 +1,8 @@
 """Parts of the pages that come from the program itself, written to ``_generated`` before each build.
 
 Tables (nomenclature, case file), the output of the commands and of the examples that the pages show, and the
-pictures of the drill-string case; what the other pages show comes from ``make_howto``, ``make_formulas`` and
-``make_paper``. Nothing of it is kept
-under version control.
+pictures of the drill-string case; what the other pages show comes from the other ``make_*`` modules. Nothing of it is
+kept under version control.
 """
 
 from __future__ import annotations
@@ -13,10 +12,15 @@ import io
 import json
 import runpy
 import shutil
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_convergence
 import make_formulas
+import make_gallery
 import make_howto
 import make_paper
 import make_wells
@@ -37,6 +41,8 @@ RESULTS = OUT / "results" / "drill-string"
 COMMANDS = {
     "run": "run examples/drill-string.toml",
     "run-field": "run examples/field-drill-pipe.toml",
+    "run-wire": "run examples/guidewire.toml",
+    "audit-field": "audit examples/field-drill-pipe.toml --no-chart --out results/audit-field",
     "critical": "critical --weight 15 --alpha 90",
     "liftoff": "liftoff --weight 15 --alpha 90",
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
@@ -60,33 +66,79 @@ PRETTY = {
 
 
 def build() -> dict[str, str]:
-    """Write everything to ``_generated``; return the numbers that the text quotes, by name."""
+    """Write everything to ``_generated``; return the numbers that the text quotes, by name.
+
+    What compiles comes first; then two processes share the rest.
+    """
     OUT.mkdir(exist_ok=True)
+    (OUT / "results").mkdir(exist_ok=True)
     shutil.copytree(HERE.parent / "examples", OUT / "examples", dirs_exist_ok=True)
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
     _write("catalogue.md", catalogue_tables())
     _write("twist.md", twist_table())
+    jobs: list[Callable[[], dict[str, str]]] = [
+        _howto, _formulas, _commands, _paper, _examples, _gallery, _convergence, _wells,
+    ]  # fmt: skip
+    numbers: dict[str, str] = {}
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        for job in [pool.submit(job) for job in jobs]:
+            numbers |= job.result()
+    numbers["version"] = rodwell.__version__
+    return numbers | _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+
+
+def _commands() -> dict[str, str]:
     with contextlib.chdir(OUT):
         for name, line in COMMANDS.items():
             _write(f"{name}.txt", f"$ rodwell {line}\n{_run(line)}")
+    return {}
+
+
+def _examples() -> dict[str, str]:
+    with contextlib.chdir(OUT):
         for example in sorted((HERE / "_examples").glob("*.py")):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
-    pages = make_howto.pages(OUT) | make_formulas.pages(OUT) | make_wells.pages() | make_paper.pages(OUT)
+    return {}
+
+
+def _howto() -> dict[str, str]:
+    _write_all(make_howto.pages(OUT))
+    return make_howto.numbers()
+
+
+def _formulas() -> dict[str, str]:
+    _write_all(make_formulas.pages(OUT))
+    return make_formulas.numbers()
+
+
+def _paper() -> dict[str, str]:
+    _write_all(make_paper.pages(OUT))
+    return make_paper.numbers()
+
+
+def _wells() -> dict[str, str]:
+    with contextlib.chdir(OUT):
+        _write_all(make_wells.pages())
+        return make_wells.numbers()
+
+
+def _gallery() -> dict[str, str]:
+    _write_all(make_gallery.pages(OUT))
+    return {}
+
+
+def _convergence() -> dict[str, str]:
+    _write_all(make_convergence.pages(OUT))
+    return {}
+
+
+def _write_all(pages: dict[str, str]) -> None:
     for name, text in pages.items():
         _write(name, text)
-    with contextlib.chdir(OUT):
-        wells = make_wells.numbers()
-    return (
-        wells
-        | _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
-        | make_howto.numbers()
-        | make_formulas.numbers()
-        | make_paper.numbers()
-    )
 
 
 def _write(name: str, text: str) -> None:
