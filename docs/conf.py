@@ -9,6 +9,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import make_pages  # noqa: E402 - beside this file
+from sphinx.util import inspect  # noqa: E402
 
 from rodwell import __version__  # noqa: E402
 
@@ -48,6 +49,7 @@ myst_substitutions = make_pages.build()
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"FloatArray": "FloatArray"}
+inspect.TypeAliasForwardRef.__repr__ = lambda self: self.name  # inside tuples and unions too
 napoleon_google_docstring = False
 napoleon_attr_annotations = False
 

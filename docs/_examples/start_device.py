@@ -1,16 +1,21 @@
 import rodwell
 
-case = rodwell.Case.read("examples/guidewire.toml")  # mm, N·mm², N/m: any units, with their names
+case = rodwell.Case.read("examples/guidewire.toml")
 newton = case.scales.factor("force")  # B/L² in N
+per_mm = case.scales.factor("force_per_length") / 1e3  # B/L³ in N/mm
 push = -rodwell.critical_loads(case.problem, 1)[0].force * newton
 print(f"buckles at a push of {push:.3f} N at s = 1")
 
-wire = case.problem.but(weight=0.0, turns=1, ends="pinned-pinned")  # no weight, wound once around the vessel
-coil = rodwell.coil(wire, until=-15.0 / newton)
+# no weight, both ends pinned, wound once around the vessel
+wire = case.problem.but(weight=0.0, turns=1, ends="pinned-pinned")
+coil = rodwell.coil(wire, until=-15.0 / newton)  # tension positive
 for p in coil.special_points:
-    print(f"{p.kind:<12} push {-p.force * newton:.3f} N, stability index {p.index_after}")
+    print(f"{p.kind:<12} push {-p.force * newton:.3f} N, index {p.index_after}")
+
 state = coil.at(-10.0 / newton)  # 10 N of push
-total, error = state.total_wall_force
-per_mm = state.largest("contact_pressure")[0] * case.scales.factor("force_per_length") / 1e3
-print(f"at 10 N the wall bears {total * newton:.4f} ± {error * newton:.0e} N, at most {per_mm:.4f} N/mm")
-rodwell.export(state, ["results/wire/wire.html", "results/wire/wire.glb", "results/wire/wire.csv"], scales=case.scales)
+total, error = (number * newton for number in state.total_wall_force)
+most = state.largest("contact_pressure")[0] * per_mm
+print(f"at 10 N the wall bears {total:.4f} ± {error:.0e} N, at most {most:.4f} N/mm")
+
+files = [f"results/wire/wire.{suffix}" for suffix in ("html", "glb", "csv")]
+rodwell.export(state, files, scales=case.scales)

@@ -16,6 +16,7 @@ def main():
     ax = plot_bifurcation([*flat, coil], flat.critical, ordinate=Measured.ENERGY)
     ax.set_xlim(60.0, 215.0)
     ax.set_ylim(-0.25, 0.12)
+    ax.legend(loc="lower left", ncols=2)
     ax.set_title("γ = 15, α = 90°, Δ/L = 0.01, both ends clamped", loc="left", fontsize=9.5)
     energies = {force: coil.at(force).number(Measured.ENERGY) for force in (-140.0, -160.0, -200.0)}
     return ax.figure, energies

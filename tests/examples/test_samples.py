@@ -85,3 +85,15 @@ def test_the_readme_is_the_front_door() -> None:
     links = re.findall(r"\]\(([^)#]+)", text)
     assert all((ROOT / link).exists() for link in links if not link.startswith("http"))
     assert len(commands()) > 12
+
+
+def test_check_of_the_site_sees_what_is_wrong(tmp_path: Path) -> None:
+    problems = runpy.run_path(str(ROOT / "docs" / "check_site.py"))["problems"]
+    good = '<p id="here"></p><a href="#here">x</a><a href="https://example.org">far, but not loaded</a>'
+    (tmp_path / "a.html").write_text(good, encoding="utf-8")
+    assert problems(tmp_path) == []
+    bad = '<script src="https://cdn.example/x.js"></script><a href="b.html">x</a><a href="a.html#gone">y</a>'
+    (tmp_path / "c.html").write_text(bad, encoding="utf-8")
+    (tmp_path / "s.css").write_text("@import url(//fonts.example/f.css);", encoding="utf-8")
+    assert len(problems(tmp_path)) == 4
+    assert problems(tmp_path / "nothing") != []
