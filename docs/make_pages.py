@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_braid
 import make_convergence
 import make_formulas
 import make_gallery
@@ -77,8 +78,8 @@ def build() -> dict[str, str]:
     _write("case-keys.md", case_keys())
     _write("catalogue.md", catalogue_tables())
     _write("twist.md", twist_table())
-    jobs: list[Callable[[], dict[str, str]]] = [
-        _howto, _formulas, _commands, _paper, _examples, _gallery, _convergence, _wells,
+    jobs: list[Callable[[], dict[str, str]]] = [  # longest first
+        _commands, _howto, _gallery, _formulas, _examples, _paper, _convergence, _wells, _braid,
     ]  # fmt: skip
     numbers: dict[str, str] = {}
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
@@ -134,6 +135,11 @@ def _gallery() -> dict[str, str]:
 def _convergence() -> dict[str, str]:
     _write_all(make_convergence.pages(OUT))
     return {}
+
+
+def _braid() -> dict[str, str]:
+    _write_all(make_braid.pages(OUT))
+    return make_braid.numbers()
 
 
 def _write_all(pages: dict[str, str]) -> None:
