@@ -113,10 +113,10 @@ def supports_table() -> str:
         raise RuntimeError(f"docs: the rod is not in balance: {total}")
     rows = [(name, *(number(round(float(x), 5) + 0.0, 5) for x in value)) for name, value in forces.items()]
     rows.append(("**sum**", *(f"{abs(x):.0e}".replace("-", "−") for x in total)))
-    moment = next(r.moment for r in state().reactions if r.on == "cylinder" and r.s == 0.0)
-    rows.append(
-        ("moment of the support at s = 0 on the cylinder, B/L", *(number(round(float(x), 5) + 0.0, 5) for x in moment))
-    )
+    pipe = next(r for r in state().reactions if r.on == "cylinder" and r.s == 0.0)
+    for name, value in (("force", pipe.force), ("moment, B/L,", pipe.moment)):
+        cells = (number(round(float(x), 5) + 0.0, 5) for x in value)
+        rows.append((f"{name} of the support at s = 0 on the cylinder", *cells))
     return table(("Force in B/L²", *AXES), rows)
 
 

@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_architecture
 import make_braid
 import make_convergence
 import make_formulas
@@ -138,7 +139,7 @@ def _convergence() -> dict[str, str]:
 
 
 def _braid() -> dict[str, str]:
-    _write_all(make_braid.pages(OUT))
+    _write_all(make_braid.pages(OUT) | make_architecture.pages(OUT))
     return make_braid.numbers()
 
 
