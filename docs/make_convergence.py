@@ -130,17 +130,21 @@ def estimates(count: int = 30) -> Estimates:
     rng = np.random.default_rng(1)
     rows: list[tuple[float, ...]] = []
     for _ in range(count):
-        problem = Problem(
-            float(10.0 ** rng.uniform(0.5, 2.7)),
-            alpha=float(rng.uniform(5.0, 90.0)),
-            clearance=float(10.0 ** rng.uniform(-2.5, -1.3)),
-            twist=float(rng.choice([0.0, rng.uniform(-3.0, 3.0)])),
-            ends=str(rng.choice(ENDS)),  # type: ignore[arg-type]
-        )
+        problem = _random(rng, twisted=True)
         mode = rodwell.critical_loads(problem, int(rng.integers(1, 4)))[-1]
         force = mode.force - rng.uniform(0.1, 1.2) * mode.wavenumber**2
         rows += _one(problem, mode, force)
     return Estimates(*np.array(rows).T)
+
+
+def _random(rng: np.random.Generator, *, twisted: bool) -> Problem:
+    return Problem(
+        float(10.0 ** rng.uniform(0.5, 2.7)),
+        alpha=float(rng.uniform(5.0, 90.0)),
+        clearance=float(10.0 ** rng.uniform(-2.5, -1.3)),
+        twist=float(rng.choice([0.0, rng.uniform(-3.0, 3.0)])) if twisted else 0.0,
+        ends=str(rng.choice(ENDS)),  # type: ignore[arg-type]
+    )
 
 
 def _one(problem: Problem, mode: Any, force: float) -> list[tuple[float, ...]]:
@@ -186,6 +190,29 @@ def loads() -> tuple[np.ndarray, np.ndarray]:
     return np.array(claimed), np.array(true)
 
 
+@cache
+def lift_offs() -> tuple[np.ndarray, np.ndarray]:
+    """Error estimates and true errors of located lift-off loads at three tolerances, against one of 1e-10, relative."""
+    rng = np.random.default_rng(2)
+    claimed, true = [], []
+    for _ in range(16):
+        problem = _random(rng, twisted=False)
+        mode = rodwell.critical_loads(problem, int(rng.integers(1, 3)))[-1]
+        exact = _lift_off(problem, mode, 1e-10).force
+        for rtol in (1e-2, 1e-6, 1e-8):
+            found = _lift_off(problem, mode, rtol)
+            claimed.append(found.error / abs(exact))
+            true.append(abs(found.force - exact) / abs(exact))
+    return np.array(claimed), np.array(true)
+
+
+def _lift_off(problem: Problem, mode: Any, rtol: float) -> Any:
+    found = rodwell.follow(problem, mode, rtol=rtol).lift_off
+    if found is None:
+        raise RuntimeError(f"docs: no lift-off of {problem}")
+    return found
+
+
 def pages(out: Path) -> dict[str, str]:
     """Draw the figures into ``out``; return the tables."""
     with mpl.rc_context(RC):
@@ -227,8 +254,11 @@ def draw_estimates(path: Path) -> None:
         part = found.share == share
         label = "states, first mesh of the program" if share == 1.0 else f"states, {share:g} of its elements"
         ax.plot(found.claimed[part], np.maximum(found.true[part], 1e-16), ".", color=color, ms=4, label=label)
-    claimed, true = loads()
-    ax.plot(claimed, np.maximum(true, 1e-16), "x", color=GREY, ms=4, label="critical loads, roots of (77)")
+    for (claimed, true), marker, color, label in (
+        (lift_offs(), "^", INK, "lift-off loads, located"),
+        (loads(), "x", GREY, "critical loads, roots of (77)"),
+    ):
+        ax.plot(claimed, np.maximum(true, 1e-16), marker, color=color, ms=4, label=label)
     ax.set_xlim(1e-13, 1.0)
     ax.set_ylim(1e-16, 1.0)
     ax.text(2e-13, 3e-2, "true error above the estimate", color="#b3261e", fontsize=8.5)
@@ -256,8 +286,8 @@ def estimates_table() -> str:
         rows.append((f"{share:g}", *_cover(found.claimed[found.share == share], found.ratio[found.share == share])))
     small = found.claimed < 1e-4
     rows.append(("any, estimates below 1e-4 only", *_cover(found.claimed[small], found.ratio[small])))
-    claimed, true = loads()
-    rows.append(("critical loads", *_cover(claimed, true / claimed)))
+    for name, (claimed, true) in (("lift-off loads", lift_offs()), ("critical loads", loads())):
+        rows.append((name, *_cover(claimed, true / claimed)))
     head = (
         "Elements, share of the program's",
         "Numbers",

@@ -68,6 +68,12 @@ def test_estimates_are_not_empty_caution(page: Any) -> None:
     assert np.median(found.ratio) > 1e-4
 
 
+def test_located_lift_off_loads(page: Any) -> None:
+    claimed, true = page.lift_offs()
+    assert np.all(true <= claimed)
+    assert np.median(true / claimed) > 1e-5
+
+
 def test_loads_against_the_roots_of_77(page: Any) -> None:
     claimed, true = page.loads()
     assert np.all(true <= claimed)
