@@ -8,21 +8,17 @@ kept under version control.
 from __future__ import annotations
 
 import contextlib
+import importlib
 import io
 import json
 import runpy
 import shutil
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-import make_architecture
-import make_braid
-import make_convergence
 import make_formulas
-import make_gallery
 import make_howto
 import make_paper
 import make_wells
@@ -54,6 +50,12 @@ COMMANDS = {
     **make_paper.COMMANDS,
 }
 
+JOBS = (
+    "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
+    "make_wells", "make_braid", "make_architecture",
+)  # fmt: skip
+"""What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
+
 PRETTY = {
     "1": "1",
     "rad": "rad",
@@ -79,15 +81,22 @@ def build() -> dict[str, str]:
     _write("case-keys.md", case_keys())
     _write("catalogue.md", catalogue_tables())
     _write("twist.md", twist_table())
-    jobs: list[Callable[[], dict[str, str]]] = [  # longest first
-        _commands, _howto, _gallery, _formulas, _examples, _paper, _convergence, _wells, _braid,
-    ]  # fmt: skip
     numbers: dict[str, str] = {}
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        for job in [pool.submit(job) for job in jobs]:
+        for job in [pool.submit(_job, name) for name in JOBS]:
             numbers |= job.result()
     numbers["version"] = rodwell.__version__
     return numbers | _numbers(json.loads((RESULTS / "answer.json").read_text(encoding="utf-8")))
+
+
+def _job(name: str) -> dict[str, str]:
+    """Run one part; return the numbers for the text that it gives."""
+    if name in ("commands", "examples"):
+        return {"commands": _commands, "examples": _examples}[name]()
+    module = importlib.import_module(name)
+    with contextlib.chdir(OUT):
+        _write_all(module.pages(OUT))
+        return dict(module.numbers()) if hasattr(module, "numbers") else {}
 
 
 def _commands() -> dict[str, str]:
@@ -105,42 +114,6 @@ def _examples() -> dict[str, str]:
                 runpy.run_path(str(example))
             _write(f"{example.stem}.txt", printed.getvalue())
     return {}
-
-
-def _howto() -> dict[str, str]:
-    _write_all(make_howto.pages(OUT))
-    return make_howto.numbers()
-
-
-def _formulas() -> dict[str, str]:
-    _write_all(make_formulas.pages(OUT))
-    return make_formulas.numbers()
-
-
-def _paper() -> dict[str, str]:
-    _write_all(make_paper.pages(OUT))
-    return make_paper.numbers()
-
-
-def _wells() -> dict[str, str]:
-    with contextlib.chdir(OUT):
-        _write_all(make_wells.pages())
-        return make_wells.numbers()
-
-
-def _gallery() -> dict[str, str]:
-    _write_all(make_gallery.pages(OUT))
-    return {}
-
-
-def _convergence() -> dict[str, str]:
-    _write_all(make_convergence.pages(OUT))
-    return {}
-
-
-def _braid() -> dict[str, str]:
-    _write_all(make_braid.pages(OUT) | make_architecture.pages(OUT))
-    return make_braid.numbers()
 
 
 def _write_all(pages: dict[str, str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import numpy as np
 from make_howto import table
@@ -19,7 +20,7 @@ PIPE = String(1.2283e6, 241.13, 0.04445)
 """5 in × 4.276 in pipe in 10 lb/gal mud, 8.5 in hole."""
 
 
-def pages() -> dict[str, str]:
+def pages(_: Path) -> dict[str, str]:
     """Return the tables by file name."""
     return {"local-length.md": length_table()}
 

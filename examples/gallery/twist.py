@@ -20,7 +20,7 @@ def main():
         again.append((end.value, result.prepared.force))
         for until in (1.15 * end.value, -0.15 * end.value):
             start = result.prepared.solution
-            branch = rodwell.follow(result.problem, start=start, parameter="twist", until=until, largest_step=0.015)
+            branch = rodwell.follow(result.problem, start=start, parameter="twist", until=until, largest_step=0.03)
             p = branch.numbers(Measured.P_MAX)
             ax.plot(branch.values, p, color=color, lw=2.0, alpha=0.3)
             kept = np.abs(branch.values) <= abs(end.value) if until * end.value > 0.0 else p <= 0.0
