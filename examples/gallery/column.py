@@ -25,7 +25,7 @@ def main():
     ax.axvline(0.0, color="#8a94a0", lw=0.8)
     ax.set_xlabel("angle around the pipe ξ₂  [degrees]")
     ax.set_ylabel("height z  [L]")
-    ax.set_title("γ = 100, vertical, Δ/L = 0.01", loc="left", fontsize=9.5)
+    ax.set_title("γ = 100, vertical, Δ/L = 0.01, both ends clamped", loc="left", fontsize=9.5)
     ax.legend(title="F at the top, s = 1\n[B/L²], tension +", loc="center left", bbox_to_anchor=(1.01, 0.5))
     weightless = rodwell.critical_loads(rodwell.Problem(74.628569, alpha=0), 1)[0].force
     return ax.figure, {"critical": branch.special_points[0].force, "self_weight": weightless}
