@@ -14,6 +14,7 @@ from rodwell.analysis.symmetry import ODD, Reflection
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
+from rodwell.problem import Problem
 
 MARKERS = {
     "critical": ("D", "critical load"),
@@ -36,21 +37,36 @@ ORDINATES = {
 }
 """What can be drawn against the end compression: name in the nomenclature and label."""
 
+HOLDS_ANGLE = ("clamped", "guided")
+"""Ends that bend the rod: at others ω₂ vanishes."""
+
+
+def telling(problem: Problem) -> Measured:
+    """Ordinate that tells branches apart: ω₂ at an end that bends the rod, s = 1 if it can be; energy for a coil."""
+    if problem.turns:
+        return Measured.ENERGY
+    if problem.ends[1] in HOLDS_ANGLE:
+        return Measured.OMEGA2_1
+    return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_ANGLE else Measured.SHORTENING
+
 
 def plot_bifurcation(
     branches: Sequence[Branch],
     critical: CriticalLoads,
     scales: Scales | None = None,
     ax: Any = None,
-    ordinate: Measured = Measured.OMEGA2_1,
+    ordinate: Measured | None = None,
 ) -> Any:
     """Draw ω₂(1), or another number, against the end compression −F at s = 1 for a set of branches; return the axes.
+
+    Without ``ordinate`` it is the one that :func:`telling` names.
 
     Stable parts (under dead loads, for a rod kept on the wall) are thick, unstable ones thin and dashed. Images of the
     branches by the reflections that the problem has are drawn too. Where the contact pressure is positive somewhere
     lines are pale, since there the wall would have to pull.
     """
     ax = new_axes() if ax is None else ax
+    ordinate = telling(branches[0].problem) if ordinate is None else ordinate
     top = max(float(np.max(np.abs(b.numbers(ordinate)))) for b in branches)
     farthest = max(float(np.max(np.abs(b.force))) for b in branches)
     name, label = ORDINATES[ordinate]

@@ -74,12 +74,13 @@ def plot_contact_pressure(
     ax.axhline(0.0, color=WARN, lw=1.0)
     ax.set_ylim(low, high)
     ax.set_xlim(0.0, fs)
+    place = _free_place(branch)
     ax.text(
-        0.995 * fs,
+        place * fs,
         0.5 * high,
         "the wall would have to pull",
         color=WARN,
-        ha="right",
+        ha={0.005: "left", 0.5: "center", 0.995: "right"}[place],
         va="center",
         fontsize=8.5,
     )
@@ -87,6 +88,13 @@ def plot_contact_pressure(
     ax.set_ylabel(f"contact pressure p  [{up}]\n(below 0: pressed on the wall)")
     _legend(ax)
     return ax
+
+
+def _free_place(branch: Branch) -> float:
+    """Where along the rod a remark stands farthest from the marks of lift-off: at the right, if that will do."""
+    lift = branch.lift_off
+    marked = () if lift is None or branch.lift_off_at_buckling else lift.s
+    return max((0.995, 0.005, 0.5), key=lambda place: min((min(abs(place - s), 0.3) for s in marked), default=1.0))
 
 
 def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
