@@ -18,7 +18,7 @@ from rodwell.plots.units import axis
 from rodwell.practice.answer import Answer, answer
 from rodwell.practice.scales import Scales
 from rodwell.practice.units import SYSTEMS, System, plain, to_si
-from rodwell.report.html import derived, rows
+from rodwell.report.texts import derived, rows
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     help="Folder for the results.  [default: results/NAME-OF-THE-CASE]",
 )
 @units_option
+@click.option("--pdf", "with_pdf", is_flag=True, help="Write the report as PDF too; needs rodwell[pdf].")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
-def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: bool) -> None:
+def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, quiet: bool) -> None:
     """Compute CASE, a TOML file, and write report, figures and data.
 
     If one or two of its inputs are lists or ranges ("30..90 deg in 13"), a parameter study is made.
@@ -42,6 +43,10 @@ def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: b
         return
     read = Case.read(case).in_units(units)
     check_writable(folder)
+    if with_pdf:
+        from rodwell.report.pdf import check_pdf  # noqa: PLC0415
+
+        check_pdf()
 
     from rodwell.practice.answer import answer  # noqa: PLC0415
     from rodwell.report.write import write_results  # noqa: PLC0415
@@ -49,14 +54,14 @@ def run(case: Path, out: Path | None, units: str | None, as_json: bool, quiet: b
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
         result = answer(read, tell)
         tell("figures, report and data", 1.0)
-        write_results(result, folder)
+        files = write_results(result, folder, with_pdf=with_pdf)
     if as_json:
         click.echo(json.dumps(result.as_dict(), indent=2, ensure_ascii=False))
     elif not quiet:
-        _summary(result, folder)
+        _summary(result, folder, files)
 
 
-def _summary(answer: Answer, folder: Path) -> None:
+def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     """What a person reads in ten seconds, then the key figures."""
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
@@ -65,8 +70,8 @@ def _summary(answer: Answer, folder: Path) -> None:
 
     from rodwell.practice.meaning import sentences  # noqa: PLC0415
     from rodwell.problem import ends_text  # noqa: PLC0415
-    from rodwell.report.html import rows  # noqa: PLC0415
-    from rodwell.report.write import FILES  # noqa: PLC0415
+    from rodwell.report.texts import rows  # noqa: PLC0415
+    from rodwell.report.write import FILES, PDF  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(answer)
@@ -99,4 +104,5 @@ def _summary(answer: Answer, folder: Path) -> None:
     console.print(table)
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
-    console.print(f"\nWritten to [bold]{escape(str(folder))}[/bold]: " + ", ".join(FILES) + ", figures as PNG")
+    named = [name for name in (*FILES, PDF) if name in files]
+    console.print(f"\nWritten to [bold]{escape(str(folder))}[/bold]: {', '.join(named)}, figures as PNG and SVG")

@@ -14,7 +14,7 @@ from rodwell import compiling
 from rodwell.analysis.accuracy import RTOL
 from rodwell.errors import checked_whole
 from rodwell.numerics.corrector import correct
-from rodwell.report.html import number
+from rodwell.report.texts import number
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 from rodwell.studies.paper.agreement import CONVENTION, Agreement, agreement

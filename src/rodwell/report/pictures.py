@@ -11,7 +11,6 @@ import matplotlib as mpl
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
-from rodwell.analysis.measures import Measured
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments
@@ -25,7 +24,7 @@ PNG: Any = {"dpi": 140, "pil_kwargs": {"compress_level": 2}}
 
 
 def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
-    """Write each picture to ``folder`` as PNG; return them for the report (SVG, the 3-D picture as PNG)."""
+    """Write each picture to ``folder`` as PNG and SVG, the 3-D picture as PNG; return those that a report takes."""
     scales = answer.case.scales
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
@@ -45,15 +44,15 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             buffer = io.BytesIO()
             ax.figure.savefig(buffer, format="svg", metadata={"Date": None})
             out[name] = ("svg", buffer.getvalue())
+            (folder / f"{name}.svg").write_bytes(buffer.getvalue())
     return out
 
 
 def draw_diagram(diagram: Diagram, folder: Path) -> None:
     """Draw a bifurcation diagram as PNG and SVG: end curvature, or energy for a coil, against compression."""
-    ordinate = Measured.ENERGY if diagram.problem.turns else Measured.OMEGA2_1
     with mpl.rc_context(RC):
         shown = [branch for branch in diagram.branches if branch.parameter == "force"]
-        save_figure(plot_bifurcation(shown, diagram.critical, ordinate=ordinate).figure, folder / "diagram")
+        save_figure(plot_bifurcation(shown, diagram.critical).figure, folder / "diagram")
 
 
 def draw_curves(curves: Sequence[Curve], folder: Path) -> None:

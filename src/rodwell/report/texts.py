@@ -1,19 +1,14 @@
-"""One self-contained HTML page for a case: opens offline, prints on paper."""
+"""The numbers of an answer as text that is ready to be read, for report and summary."""
 
 from __future__ import annotations
 
-import datetime
 import math
 from typing import Any
 
-from rodwell._version import __version__
 from rodwell.analysis.certificate import Certificate
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
-from rodwell.practice.meaning import assumptions, sentences
-from rodwell.report.templates import embedded, template
-from rodwell.report.viewer import viewer
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴"}
 
@@ -36,7 +31,7 @@ def rows(answer: Answer) -> list[dict[str, str]]:
             {
                 "label": figure.label,
                 "physical": figure.text(answer.case),
-                "plain": f"{number(figure.value, figure.error)} {_unit(figure)}",
+                "plain": f"{number(figure.value, figure.error)} {unit(figure)}",
                 "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
                 "note": figure.note,
             }
@@ -44,7 +39,8 @@ def rows(answer: Answer) -> list[dict[str, str]]:
     return out
 
 
-def _unit(figure: Figure) -> str:
+def unit(figure: Figure) -> str:
+    """Unit of the dimensionless number."""
     return PLAIN_UNITS[figure.dimension]
 
 
@@ -84,61 +80,27 @@ def conversions(case: Case) -> list[tuple[str, str, str]]:
     return [(fact.label, fact.text(case.scales.system), fact.note) for fact in case.facts]
 
 
-def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
-    """Return the page.
-
-    ``pictures`` maps a name to its type ("svg" or "png") and content. The picture of the rod can be turned; the still
-    one among them prints, and stands in where the browser cannot draw in three dimensions.
-    """
-    scales = answer.case.scales
-    images = {name: embedded(*picture) for name, picture in pictures.items()}
-    rod = viewer(answer.shown, scales, still=images.get("rod-3d", ""))
-    text = sentences(answer)
-    return str(
-        template("report.html.j2").render(
-            case=answer.case,
-            answer=answer,
-            verdict=text[0],
-            text=text[1:],
-            assumptions=assumptions(answer),
-            rows=rows(answer),
-            inputs=inputs(answer.case),
-            derived=derived(answer.case),
-            conversions=conversions(answer.case),
-            special=_special(answer),
-            pictures=images,
-            rod=rod,
-            wall=_sentence(answer.shown.wall.meaning),
-            sensitivities=_sensitivities(answer),
-            certificate=_certificate(answer.worst_certificate),
-            rtol=f"{answer.case.rtol:g}".replace("-", "−"),
-            version=__version__,
-            date=datetime.date.today().isoformat(),
-        )
-    )
-
-
-def _certificate(certificate: Certificate) -> dict[str, Any]:
+def certificate(found: Certificate) -> dict[str, Any]:
     """The certificate for reading: the largest residual, its limit, and the residuals by group."""
 
     def short(value: float) -> str:
         return f"{value:.1e}".replace("-", "−")
 
     groups: dict[str, float] = {}
-    for name, value in certificate.residuals.items():
+    for name, value in found.residuals.items():
         group = next((title for title, names in _GROUPS.items() if name in names), name)
         group = "end conditions (B1)–(B15)" if name.startswith("(B") else group
         groups[group] = max(value, groups.get(group, 0.0))
     return {
-        "worst": short(certificate.worst),
-        "where": certificate.worst_equation,
-        "limit": short(certificate.limit),
-        "passed": certificate.passed,
+        "worst": short(found.worst),
+        "where": found.worst_equation,
+        "limit": short(found.limit),
+        "passed": found.passed,
         "groups": [(name, short(value)) for name, value in groups.items()],
     }
 
 
-def _sensitivities(answer: Answer) -> list[dict[str, Any]]:
+def sensitivities(answer: Answer) -> list[dict[str, Any]]:
     """Elasticities of the loads, and their uncertainty from the inputs."""
     out = []
     for load, spread in zip(answer.sensitivities, answer.spreads, strict=True):
@@ -152,10 +114,6 @@ def _sensitivities(answer: Answer) -> list[dict[str, Any]]:
             size = "±" + (plain if scales is None else scales.system.text(spread.total, "force", 3))
         out.append({"name": load.name, "cells": cells, "spread": size})
     return out
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 _GROUPS = {
@@ -174,11 +132,14 @@ _KINDS = {
     "lift_off": "lift-off",
     "branch_point": "secondary bifurcation",
     "fold": "fold",
+    "touch_down": "contact complete again",
+    "uncertain": "change of the index that one mesh alone shows",
     "end": "end of the branch",
 }
 
 
-def _special(answer: Answer) -> list[dict[str, Any]]:
+def special(answer: Answer) -> list[dict[str, Any]]:
+    """Special points of every branch."""
     scales = answer.case.scales
     out = []
     for branch in answer.branches:

@@ -8,38 +8,60 @@ from pathlib import Path
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
 from rodwell.practice.answer import Answer
-from rodwell.report.html import render
+from rodwell.practice.answer_tables import answer_tables
+from rodwell.report.page import render
+from rodwell.report.pdf import check_pdf, pdf
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
-from rodwell.report.viewer import write_viewer
+from rodwell.report.sections import case_report
+from rodwell.report.templates import embedded
+from rodwell.report.viewer import viewer, write_viewer
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
 FILES = {
     "report.html": "the report, self-contained",
     "rod-3d.html": "the rod in its cylinder, to turn and zoom",
     "answer.json": "key figures and special points",
+    "tables.xlsx": "key figures and special points as a workbook",
+    "key-figures.csv": "the key figures as a table",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
 
+PDF = "report.pdf"
+"""The report as PDF, if it was asked for."""
 
-def write_results(answer: Answer, out: Path) -> None:
-    """Write report, figures, data and case to the folder ``out``: all files, or none.
+
+def write_results(answer: Answer, out: Path, *, with_pdf: bool = False) -> tuple[str, ...]:
+    """Write report, figures, tables, data and case to the folder ``out``: all files, or none.
+
+    ``with_pdf`` adds the report as PDF. Returns the names of the files.
 
     Raises
     ------
     InputError
-        If ``out`` cannot be written.
+        If ``out`` cannot be written, or what makes the PDF is not installed.
     """
+    if with_pdf:
+        check_pdf()
     with whole_folder(out) as folder:
         pictures = draw(answer, folder)
-        (folder / "report.html").write_text(render(answer, pictures), encoding="utf-8")
+        rod = viewer(answer.shown, answer.case.scales, still=embedded(*pictures["rod-3d"]))
+        report = case_report(answer)
+        (folder / "report.html").write_text(render(report, pictures, rod), encoding="utf-8")
+        if with_pdf:
+            (folder / PDF).write_bytes(pdf(report, pictures))
         write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
         write_json(answer.as_dict(), folder / "answer.json")
+        tables = answer_tables(answer)
+        write_csv(tables[0], folder / "key-figures.csv")
+        write_xlsx(tables, folder / "tables.xlsx")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
         write_answer(answer, folder / "branches.nc")
+        return tuple(sorted(file.name for file in folder.iterdir()))
 
 
 def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:

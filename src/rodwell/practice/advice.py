@@ -1,0 +1,122 @@
+"""How a case stands, in a word for each question, and what to do next: for those who decide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rodwell.practice.answer import Answer
+from rodwell.practice.meaning import SMALL_LOAD, force_text
+
+GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
+"""Levels of a status; "open" where no load was given that could be judged."""
+
+CLOSE = 0.1
+"""A load that comes nearer to a limit than this part of the limit calls for caution."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """The answer to one question: what it is about, its level, the answer in a word or two, and the reason."""
+
+    subject: str
+    level: str
+    word: str
+    reason: str
+
+
+def statuses(answer: Answer) -> tuple[Status, ...]:
+    """Buckling, contact with the wall and strength under the force asked for, and the numbers themselves."""
+    found = (_buckling(answer), _contact(answer), _cylinder(answer), _numbers(answer))
+    return tuple(status for status in found if status is not None)
+
+
+def _buckling(answer: Answer) -> Status:
+    until, limit = answer.case.until, answer.critical[0].force
+    if until is None:
+        reason = f"straight as long as the end force at s = 1 is above {force_text(answer, limit)}"
+        return Status("Buckling", OPEN, "no load given", reason)
+    if until >= limit:
+        level, margin = _margin(until, limit)
+        word = "straight" if level == GOOD else "straight, close to buckling"
+        return Status("Buckling", level, word, f"{margin} the load at which it buckles, {force_text(answer, limit)}")
+    load = f"at {force_text(answer, until)}, beyond {force_text(answer, limit)}"
+    if answer.first[-1].stable:
+        return Status("Buckling", CAUTION, "buckled, stable", load)
+    return Status("Buckling", BAD, "buckled, shape unstable", f"{load}: the rod takes another shape")
+
+
+def _contact(answer: Answer) -> Status:
+    until, lift = answer.case.until, answer.lift_off
+    subject = "Contact"
+    if until is None:
+        if lift is None:
+            return Status(subject, OPEN, "no load given", "no lift-off over the range computed")
+        return Status(subject, OPEN, "no load given", f"leaves the wall at {force_text(answer, lift.force)}")
+    if until >= answer.critical[0].force and answer.first.lift_off_at_buckling:
+        return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
+    if lift is None:
+        return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
+    if until <= lift.force:
+        return Status(subject, BAD, "leaves the wall", f"lift-off is at {force_text(answer, lift.force)}")
+    level, margin = _margin(until, lift.force)
+    word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
+    return Status(subject, level, word, f"{margin} the lift-off load, {force_text(answer, lift.force)}")
+
+
+def _margin(force: float, limit: float) -> tuple[str, str]:
+    """Level of a force that has not reached a limit, and how far from it that is."""
+    share = (force - limit) / abs(limit) if abs(limit) >= SMALL_LOAD else None
+    if share is None:
+        return GOOD, "above"
+    return (CAUTION if share < CLOSE else GOOD), f"{100.0 * share:.3g} % of it away from"
+
+
+def _cylinder(answer: Answer) -> Status | None:
+    cylinder, scales = answer.case.cylinder, answer.case.scales
+    figure = answer.figures.get("cylinder_stress")
+    if cylinder is None or scales is None or figure is None:
+        return None
+    part = figure.value * scales.factor("stress") / cylinder.yield_strength
+    level = BAD if part > 1.0 else CAUTION if part > 1.0 - CLOSE else GOOD
+    word = "yields" if part > 1.0 else "holds"
+    reason = f"at lift-off its stress is {100.0 * part:.3g} % of the strength"
+    return Status("Cylinder", level, word, reason)
+
+
+def _numbers(answer: Answer) -> Status:
+    tolerance = f"{answer.case.rtol:g}".replace("-", "−")
+    if answer.converged:
+        return Status("Numbers", GOOD, "converged", f"every number meets the tolerance {tolerance}")
+    return Status("Numbers", BAD, "not converged", f"not every number meets the tolerance {tolerance}: see the errors")
+
+
+def next_steps(answer: Answer) -> tuple[str, ...]:
+    """What to do next, most urgent first."""
+    case, out = answer.case, []
+    if not answer.converged:
+        out.append(
+            f"Trust the digits that the errors leave, and run the case again with another analysis.rtol than "
+            f"{case.rtol:g}.".replace("-", "−")
+        )
+    out += _about_the_load(answer)
+    if not case.uncertain and case.scales is not None:
+        out.append(
+            'Give inputs that are not known well with their uncertainty ("30 m ± 0.1 m"): the loads then get one too.'
+        )
+    if case.scales is not None:
+        out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
+    else:
+        out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")
+    return tuple(out)
+
+
+def _about_the_load(answer: Answer) -> list[str]:
+    until, limit, lift = answer.case.until, answer.critical[0].force, answer.lift_off
+    if until is None:
+        return ["Give the end force that acts as load.until in the case file: this page then judges it."]
+    if until >= limit:
+        return []
+    out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(answer, limit)}."]
+    if lift is not None and until <= lift.force and lift.force < limit:
+        out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(answer, lift.force)}.")
+    return out

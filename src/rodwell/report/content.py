@@ -1,0 +1,102 @@
+"""What a report says, apart from how it looks: the page (HTML) and the PDF are made of the same content.
+
+A report has a front, which fits on one sheet and says what decides, and sections made of words, lists, tables and
+pictures. All of it is text that is ready to be read; a picture is named, its file goes beside the content.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar
+
+from rodwell.practice.advice import Status
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph; ``style`` is "plain", "small" (remarks) or "warning"."""
+
+    kind: ClassVar[str] = "words"
+    text: str
+    style: str = "plain"
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list of sentences."""
+
+    kind: ClassVar[str] = "items"
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table of texts: ``numeric`` columns stand to the right, ``marked`` rows stand out (both counted from 0)."""
+
+    kind: ClassVar[str] = "grid"
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    numeric: tuple[int, ...] = ()
+    marked: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture by name; ``alternative`` says what it shows to those who cannot see it."""
+
+    kind: ClassVar[str] = "picture"
+    name: str
+    alternative: str
+    caption: str
+
+
+Block = Words | Items | Grid | Picture
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and what stands below it."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that decides, for the front: value and error with their unit, and a remark."""
+
+    label: str
+    value: str
+    error: str
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Front:
+    """The first sheet: verdict, statuses, numbers, one picture, assumptions, what to do next."""
+
+    verdict: str
+    statuses: tuple[Status, ...]
+    numbers: tuple[Number, ...]
+    picture: Picture
+    assumptions: str
+    steps: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A whole report; ``paper`` is the sheet of the PDF, "a4" or "us-letter"."""
+
+    title: str
+    subtitle: str
+    front: Front
+    sections: tuple[Section, ...]
+    footer: str
+    paper: str = "a4"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything as plain data, for templates: each block says of which kind it is."""
+        out = asdict(self)
+        for section, plain in zip(self.sections, out["sections"], strict=True):
+            plain["blocks"] = [{"kind": block.kind, **asdict(block)} for block in section.blocks]
+        return out

@@ -1,0 +1,58 @@
+"""The PDF of a report, set by Typst from the same content as the page.
+
+Typst comes as one wheel without further needs, works offline and draws vector pictures; it is an extra of the package:
+``pip install 'rodwell[pdf]'``. The font is the one that Matplotlib carries, the same as in the figures.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import shutil
+import tempfile
+from pathlib import Path
+
+from rodwell.errors import InputError
+from rodwell.report.content import Report
+from rodwell.report.page import Pictures
+from rodwell.report.templates import HERE
+
+TEMPLATE = "report.typ"
+
+
+def check_pdf(option: str = "--pdf") -> None:
+    """Raise before any work is done if no PDF could be made.
+
+    Raises
+    ------
+    InputError
+        Saying how to install what is missing.
+    """
+    if importlib.util.find_spec("typst") is None:
+        raise InputError(option, None, "needs the package typst: pip install 'rodwell[pdf]'; report.html needs nothing")
+
+
+def pdf(report: Report, pictures: Pictures) -> bytes:
+    """Return the report as PDF.
+
+    Raises
+    ------
+    InputError
+        If Typst is not installed.
+    """
+    check_pdf()
+    import matplotlib as mpl  # noqa: PLC0415
+    import typst  # noqa: PLC0415
+
+    files = {name: f"{name}.{kind}" for name, (kind, _) in pictures.items()}
+    with tempfile.TemporaryDirectory() as home:  # Typst reads pictures from files
+        for name, (_, content) in pictures.items():
+            Path(home, files[name]).write_bytes(content)
+        template = shutil.copy(HERE / TEMPLATE, home)
+        made = typst.compile(
+            template,
+            sys_inputs={"report": json.dumps(report.as_dict() | {"files": files})},
+            font_paths=[str(Path(mpl.get_data_path(), "fonts", "ttf"))],
+            ignore_system_fonts=True,
+        )
+    return bytes(made)

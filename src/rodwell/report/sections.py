@@ -1,0 +1,213 @@
+"""The content of the report of a case: front and sections, from an answer."""
+
+from __future__ import annotations
+
+import datetime
+
+from rodwell._version import __version__
+from rodwell.plots.bifurcation import ORDINATES, telling
+from rodwell.practice.advice import next_steps, statuses
+from rodwell.practice.answer import Answer
+from rodwell.practice.figures import Figure
+from rodwell.practice.meaning import assumptions, sentences
+from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.texts import certificate, conversions, derived, inputs, number, rows, sensitivities, special, unit
+
+DECISIVE = (
+    "critical_load_1",
+    "lift_off_load",
+    "largest_wall_force",
+    "total_wall_force",
+    "cylinder_stress",
+    "largest_bending",
+    "critical_length",
+    "end_shortening",
+)
+"""Key figures that decide, most important first: the front shows those that a case has, six at most."""
+
+MOST_NUMBERS = 6
+
+
+def case_report(answer: Answer) -> Report:
+    """Return the content of a case's report."""
+    case = answer.case
+    return Report(
+        title=case.title,
+        subtitle=f"Buckling, lift-off and wall loads of a rod in a cylinder · rodwell {__version__} · "
+        f"{datetime.date.today().isoformat()}",
+        front=_front(answer),
+        sections=(
+            Section("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
+            _key_figures(answer),
+            _pictures(answer),
+            _special_points(answer),
+            _inputs_and_loads(answer),
+            _inputs(answer),
+            *_conversions(answer),
+            _trust(answer),
+        ),
+        footer=f"Computed by rodwell {__version__} from {case.source}. B bending stiffness, L length of the rod.",
+        paper="us-letter" if case.scales is not None and case.scales.system.name == "field" else "a4",
+    )
+
+
+def _front(answer: Answer) -> Front:
+    at = " at lift-off" if answer.at_lift_off else ""
+    figures = answer.figures
+    effective = "effective force, " if answer.case.with_fluids else ""
+    return Front(
+        verdict=sentences(answer)[0],
+        statuses=statuses(answer),
+        numbers=tuple(_decisive(answer, figures[name]) for name in DECISIVE if name in figures)[:MOST_NUMBERS],
+        picture=Picture(
+            "rod-3d",
+            "The rod in its cylinder, coloured by contact pressure",
+            f"The rod in its cylinder{at}, first mode.",
+        ),
+        assumptions=f"Sign: {effective}tension positive, compression negative. End: forces are those at s = 1, the "
+        f"upper end of an inclined cylinder. Assumed: {'; '.join(assumptions(answer))}.",
+        steps=next_steps(answer),
+    )
+
+
+def _decisive(answer: Answer, figure: Figure) -> Number:
+    scales = answer.case.scales
+    if scales is None:
+        return Number(figure.label, f"{number(figure.value, figure.error)} {unit(figure)}",
+                      f"± {_short(figure.error)} {unit(figure)}", figure.note)  # fmt: skip
+    error = figure.error * scales.factor(figure.dimension)
+    shown = scales.system.text(float(f"{error:.1g}"), figure.dimension, 3)  # of one digit: 10 nN, not 1e+01 nN
+    return Number(figure.label, figure.text(answer.case, 5), f"± {shown}", figure.note)
+
+
+def _short(value: float) -> str:
+    return f"{value:.0e}".replace("-", "−")
+
+
+def _key_figures(answer: Answer) -> Section:
+    physical = answer.case.scales is not None
+    names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
+    head = ["Quantity", *(["Physical"] if physical else []), "Dimensionless (B = L = 1)", "±\u00a0error", "Remark"]
+    table = Grid(
+        tuple(head),
+        tuple(tuple(row[name] for name in names) for row in rows(answer)),
+        numeric=tuple(range(1, len(head) - 1)),
+    )
+    warning = Words(
+        f"Not every number meets the tolerance {answer.case.rtol:g}. The error estimates say how well each is "
+        "known.".replace("-", "−"),
+        "warning",
+    )
+    return Section("Key figures", (table,) if answer.converged else (warning, table))
+
+
+def _pictures(answer: Answer) -> Section:
+    at = " at lift-off" if answer.at_lift_off else ""
+    wall = answer.shown.wall.meaning
+    ordinate = ORDINATES[telling(answer.case.problem)][1]
+    return Section(
+        "From buckling to lift-off",
+        (
+            Picture(
+                "bifurcation",
+                "Bifurcation diagram",
+                f"Bifurcation diagram: {ordinate} against the compression at s = 1. Thick: stable under dead loads "
+                "for a rod kept on the wall. Pale: beyond lift-off, where the wall would have to pull.",
+            ),
+            Picture(
+                "wall-loads",
+                "Contact pressure, and twisting moment in the cylinder, along the rod",
+                "First mode at several end forces. Above: contact pressure p; the wall pushes with −p per length, "
+                "and the rod lifts off where p reaches 0. Below: twisting moment T₂ that the rod's weight sets up "
+                "in the cylinder; its value at s = 0 is the torque that the cylinder's support must provide.",
+            ),
+            Picture(
+                "cylinder",
+                "Moments in the cylinder along its length",
+                f"What the cylinder carries{at}, first mode: twisting moment T₂ and bending moments μ and λ cos η "
+                "(59), for a cylinder whose bedding takes up the rod's weight place by place. "
+                f"{wall[:1].upper()}{wall[1:]}.",
+            ),
+            Picture(
+                "modes",
+                "Buckling modes",
+                "Buckling modes of the straight rod, each scaled to a largest deflection of 1.",
+            ),
+        ),
+    )
+
+
+def _special_points(answer: Answer) -> Section:
+    physical = answer.case.scales is not None
+    names = ["mode", "kind", *(["physical"] if physical else []), "plain", "error", "index", "place"]
+    head = ["Mode", "What", *(["End force at s = 1"] if physical else []), "F in B/L²", "±\u00a0error"]
+    note = (
+        "Stability index: number of independent ways in which the state is unstable under dead loads, for a rod "
+        "kept on the wall; 0 is stable. With end shortening or end rotation controlled instead of the loads, the "
+        "index is lower by at most one for each."
+    )
+    table = Grid(
+        (*head, "Stability index", "Place s/L"),
+        tuple(tuple(str(row[name]) for name in names) for row in special(answer)),
+        numeric=(2, 3, 4) if physical else (2, 3),
+    )
+    return Section("Special points of every branch", (table, Words(note, "small")))
+
+
+def _inputs_and_loads(answer: Answer) -> Section:
+    uncertain = answer.case.uncertain
+    head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
+    head += ["± from the inputs"] if uncertain else []
+    lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(answer)]
+    note = "Change of the load in percent for one percent more of an input, the others constant, from exact "
+    "derivatives."
+    if uncertain:
+        written = ", ".join(f"{u.key} = {u.written}" for u in uncertain)
+        note += f" The last column carries the uncertainties of the inputs ({written}) through to first order, as "
+        note += "independent of each other."
+    table = Grid(tuple(head), tuple(lines), numeric=tuple(range(1, len(head))))
+    return Section("What the inputs do to the loads", (table, Words(note, "small")))
+
+
+def _inputs(answer: Answer) -> Section:
+    case = answer.case
+    return Section(
+        "Inputs",
+        (Grid(("As given", ""), tuple(inputs(case))), Grid(("What follows", ""), tuple(derived(case)))),
+    )
+
+
+def _conversions(answer: Answer) -> tuple[Section, ...]:
+    found = tuple(conversions(answer.case))
+    if not found:
+        return ()
+    return (Section("From the inputs to the problem", (Grid(("What", "Value", "From"), found),)),)
+
+
+def _trust(answer: Answer) -> Section:
+    found = certificate(answer.worst_certificate)
+    tolerance = f"{answer.case.rtol:g}".replace("-", "−")
+    passed = "passed" if found["passed"] else "not passed"
+    met = "is met by every number" if answer.converged else "is not met by every number"
+    return Section(
+        "How far the numbers can be trusted",
+        (
+            Words(
+                "Every state was computed on two nested meshes. The errors given are estimates from their "
+                f"difference; the tolerance asked for was {tolerance} and {met}."
+            ),
+            Words(
+                "Every state was put into the paper's own system, which the solver does not use: fifteen "
+                "differential equations, fifteen end conditions, and the relations between rod, cylinder and "
+                "contact. What is left of each, divided by its largest term along the rod, is at most "
+                f"{found['worst']} (in {found['where']}); the limit is {found['limit']}: {passed}. For the state that "
+                "fits least well:"
+            ),
+            Grid(("Equations of the paper", "What is left"), tuple(found["groups"]), numeric=(1,)),
+            Words(
+                "The theory is geometrically exact for a rod that stays on the wall: no small-angle or "
+                "small-deflection assumption is made. Pressures and mud act through effective force and buoyed "
+                "weight. Not included: friction, joints, curvature of the hole, dynamics."
+            ),
+        ),
+    )

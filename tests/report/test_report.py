@@ -1,0 +1,254 @@
+"""The report of a case: page, PDF and tables say what answer.json says, and nothing gets in that does not belong."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import io
+import json
+import re
+import xml.etree.ElementTree as ET
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+from pypdf import PdfReader
+
+import rodwell
+from rodwell.analysis.measures import Measured
+from rodwell.cli.main import main
+from rodwell.plots.bifurcation import telling
+from rodwell.practice.advice import statuses
+from rodwell.report.write import write_results
+
+TITLE = 'A <script>alert("1")</script> & *bold* #pagebreak() $x$ pipe'
+EMPTY = {"meta", "img", "input", "br", "link"}
+PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
+
+
+class Page(HTMLParser):
+    """A page taken apart: tags that do not close, ids, rows of tables, text."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.faults: list[str] = []
+        self.ids: list[str] = []
+        self.tables: list[list[list[str]]] = []
+        self.words: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.ids += [value or "" for name, value in attrs if name == "id"]
+        if tag not in EMPTY:
+            self.open.append(tag)
+        if tag == "table":
+            self.tables.append([])
+        elif tag == "tr":
+            self.tables[-1].append([])
+        elif tag in ("td", "th"):
+            self.tables[-1][-1].append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(tag)
+
+    def handle_data(self, text: str) -> None:
+        if not {"script", "style"} & set(self.open):
+            self.words.append(text)
+        if "td" in self.open or "th" in self.open:
+            self.tables[-1][-1][-1] += text
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Results of the drill string of (62), one mode, with a title that means mischief and a load beyond lift-off."""
+    case = rodwell.Case.from_dict(
+        {
+            "title": TITLE,
+            "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},
+            "hole": {"diameter": "70 cm", "angle_from_vertical": "90 deg", "gravity": "9.8 m/s^2"},
+            "load": {"until": "-150 kN"},
+            "analysis": {"modes": 1, "rtol": 1e-6},
+        }
+    )
+    out = tmp_path_factory.mktemp("report") / "out"
+    names = write_results(rodwell.answer(case), out, with_pdf=True)
+    assert sorted(file.name for file in out.iterdir()) == list(names)
+    return out
+
+
+@pytest.fixture(scope="module")
+def page(folder: Path) -> Page:
+    return Page((folder / "report.html").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def figures(folder: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((folder / "answer.json").read_text(encoding="utf-8"))["figures"]
+    return found
+
+
+def si(text: str) -> float:
+    """Value in SI of a text such as "−139.582 kN"."""
+    number, _, unit = text.replace("−", "-").partition(" ")
+    prefix = unit[0] if len(unit) > 1 and unit[0] in PREFIXES and unit not in ("m", "N m") else ""
+    return float(number) * PREFIXES[prefix]
+
+
+def dots(resources: Any) -> int:
+    """How many pictures made of dots there are, in drawings too; masks of transparency do not count."""
+    parts = [part.get_object() for part in (resources.get_object().get("/XObject") or {}).values()]
+    return sum(part["/Subtype"] == "/Image" for part in parts) + sum(
+        dots(part["/Resources"]) for part in parts if "/Resources" in part
+    )
+
+
+def test_page_is_well_formed(page: Page) -> None:
+    assert page.faults == []
+    assert page.open == []
+    assert len(page.ids) == len(set(page.ids))
+    assert "front" in page.ids
+    assert len(page.tables) >= 6
+    for rows in page.tables:
+        assert {len(row) for row in rows} == {len(rows[0])}
+    text = " ".join(page.words)
+    assert TITLE in text  # as text, not as markup
+    assert "nan" not in text.lower().split()
+
+
+def test_numbers_of_the_page_are_those_of_the_json(page: Page, figures: dict[str, Any]) -> None:
+    rows = {row[0]: row for row in page.tables[0][1:]}
+    assert set(rows) == {figure["label"] for figure in figures.values()}
+    for figure in figures.values():
+        _, physical, plain, error, note = rows[figure["label"]]
+        assert si(physical) == pytest.approx(figure["si"]["value"], rel=5e-6)
+        value = float(plain.split()[0].replace("−", "-"))
+        assert value == pytest.approx(figure["value"], rel=1e-9, abs=10.0 * figure["error"])
+        assert float(error.replace("−", "-")) == pytest.approx(figure["error"], rel=0.5)
+        assert note == figure.get("note", "")
+
+
+def test_pdf_says_the_same(folder: Path, page: Page) -> None:
+    reader = PdfReader(folder / "report.pdf")
+    sheets = ["".join(sheet.extract_text().split()) for sheet in reader.pages]
+    assert reader.metadata is not None
+    assert reader.metadata.title == TITLE
+    assert "".join(TITLE.split()) in sheets[0]  # not read as commands
+    assert "Thestraightrodisstableuntilthecompressionattheends=1reaches124.6kN" in sheets[0]
+    for words in ("buckled,stable", "leavesthewall", "converged", "Whattodonext", "tensionpositive", "contactwithout"):
+        assert words in sheets[0]
+    assert sheets[1].startswith("Whatthenumbersmean")  # the front is one sheet
+    whole = "".join(sheets)
+    for rows in page.tables:
+        for row in rows[1:]:
+            for cell in row:
+                assert "".join(cell.split()) in whole
+    assert reader.pages[0].mediabox.height == pytest.approx(842, abs=1)  # A4, in points
+    fonts = {str(font) for sheet in reader.pages for font in (sheet["/Resources"].get("/Font") or {})}
+    assert fonts
+    assert sum(dots(sheet["/Resources"]) for sheet in reader.pages) == 1  # only the rod in space is made of dots
+
+
+def test_front_shows_what_decides(page: Page, figures: dict[str, Any]) -> None:
+    front = " ".join(page.words).partition("What the numbers mean")[0]
+    for name in ("critical_load_1", "lift_off_load", "largest_wall_force"):
+        assert figures[name]["label"] in front
+    for text in ("−124.62 kN", "−139.58 kN", "1.3888 kN/m", "−124.6 kN", "above"):  # as the example's answer
+        assert text in front
+    assert re.search(r"−124.62 kN\s+± \S+ \S+", front)
+
+
+def test_tables_hold_the_json(folder: Path, figures: dict[str, Any]) -> None:
+    with (folder / "key-figures.csv").open(encoding="utf-8", newline="") as file:
+        lines = list(csv.reader(file))
+    assert [line[0] for line in lines[1:]] == list(figures)
+    for line in lines[1:]:
+        figure = figures[line[0]]
+        assert [float(x) for x in (*line[2:4], *line[5:7])] == [
+            figure["value"], figure["error"], figure["si"]["value"], figure["si"]["error"],
+        ]  # fmt: skip
+        assert (line[4], line[7]) == (figure["unit"], figure["si"]["unit"])
+    book = openpyxl.load_workbook(folder / "tables.xlsx")
+    assert book.sheetnames == ["Key figures", "Special points"]
+    kinds = [row[1] for row in book["Special points"].iter_rows(min_row=2, max_row=4, values_only=True)]
+    assert kinds == ["critical", "lift_off", "end"]
+    assert book["Key figures"]["C2"].value == pytest.approx(figures["critical_load_1"]["value"], rel=1e-15)
+
+
+def test_figures_come_as_svg_too(folder: Path) -> None:
+    for name in ("bifurcation", "modes", "wall-loads", "cylinder"):
+        root = ET.parse(folder / f"{name}.svg").getroot()
+        assert root.tag == "{http://www.w3.org/2000/svg}svg"
+        assert (folder / f"{name}.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("until", "levels", "words"),
+    [
+        # the first mode of γ = 15, horizontal: buckles at −111.2334, lifts off at −123.1731 (paper, Table 1 and Fig. 3)
+        (-50.0, ["good", "good"], ["straight", "on the wall"]),
+        (-105.0, ["caution", "good"], ["straight, close to buckling", "on the wall"]),
+        (-115.0, ["caution", "good"], ["buckled, stable", "on the wall"]),
+        (-130.0, ["caution", "bad"], ["buckled, stable", "leaves the wall"]),
+        (None, ["open", "open"], ["no load given", "no load given"]),
+    ],
+)
+def test_status_of_a_load(until: float | None, levels: list[str], words: list[str]) -> None:
+    load = {} if until is None else {"load": {"until": until}}
+    case = rodwell.Case.from_dict({"dimensionless": {"weight": 15}, "analysis": {"modes": 1, "rtol": 1e-6}, **load})
+    buckling, contact, numbers = statuses(rodwell.answer(case))
+    assert [buckling.level, contact.level] == levels
+    assert [buckling.word, contact.word] == words
+    assert numbers.level == "good"
+
+
+def test_ordinate_of_the_diagram_does_not_vanish() -> None:
+    """A pinned end has no curvature: what is drawn must be another number."""
+    for ends, expected in (
+        ("clamped-clamped", "OMEGA2_1"),
+        ("clamped-pinned", "OMEGA2_0"),
+        ("pinned-pinned", "SHORTENING"),
+    ):
+        problem = rodwell.Problem(15, ends=tuple(ends.split("-")))
+        branch = rodwell.follow(problem, 1, until=rodwell.critical_loads(problem, 1)[0].force - 5.0, rtol=1e-6)
+        assert telling(problem) == Measured[expected]
+        assert abs(branch.numbers(telling(problem))[-1]) > 1e-5
+
+
+def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text("[dimensionless]\nweight = 15\n", encoding="utf-8")
+    found = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *a: None if name == "typst" else found(name, *a))
+    monkeypatch.setattr("sys.argv", ["rodwell", "run", str(case), "--pdf", "--out", str(tmp_path / "r")])
+    with pytest.raises(SystemExit) as left:
+        main()
+    assert left.value.code == 2
+    message = capsys.readouterr().err
+    assert "--pdf" in message
+    assert "pip install 'rodwell[pdf]'" in message
+    assert not (tmp_path / "r").exists()
+
+
+def test_letter_paper_for_field_units(tmp_path: Path) -> None:
+    from rodwell.report.pdf import pdf
+    from rodwell.report.pictures import draw
+    from rodwell.report.sections import case_report
+
+    case = rodwell.Case.from_dict(
+        {
+            "units": "field",
+            "rod": {"pipe": "5 in 19.5 lb/ft drill pipe", "length": "100 ft"},
+            "hole": {"diameter": "8.5 in", "angle_from_vertical": "60 deg"},
+            "mud": {"density": "10 lb/gal"},
+            "analysis": {"modes": 1, "rtol": 1e-5},
+        }
+    )
+    answer = rodwell.answer(case)
+    made = PdfReader(io.BytesIO(pdf(case_report(answer), draw(answer, tmp_path))))
+    assert made.pages[0].mediabox.height == pytest.approx(792, abs=1)
+    assert "effectiveforce" in "".join(made.pages[0].extract_text().split())
