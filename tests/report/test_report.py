@@ -8,12 +8,12 @@ import io
 import json
 import re
 import xml.etree.ElementTree as ET
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import openpyxl
 import pytest
+from pages import Page
 from pypdf import PdfReader
 
 import rodwell
@@ -24,43 +24,7 @@ from rodwell.practice.advice import statuses
 from rodwell.report.write import write_results
 
 TITLE = 'A <script>alert("1")</script> & *bold* #pagebreak() $x$ pipe'
-EMPTY = {"meta", "img", "input", "br", "link"}
 PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
-
-
-class Page(HTMLParser):
-    """A page taken apart: tags that do not close, ids, rows of tables, text."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.faults: list[str] = []
-        self.ids: list[str] = []
-        self.tables: list[list[list[str]]] = []
-        self.words: list[str] = []
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.ids += [value or "" for name, value in attrs if name == "id"]
-        if tag not in EMPTY:
-            self.open.append(tag)
-        if tag == "table":
-            self.tables.append([])
-        elif tag == "tr":
-            self.tables[-1].append([])
-        elif tag in ("td", "th"):
-            self.tables[-1][-1].append("")
-
-    def handle_endtag(self, tag: str) -> None:
-        if not self.open or self.open.pop() != tag:
-            self.faults.append(tag)
-
-    def handle_data(self, text: str) -> None:
-        if not {"script", "style"} & set(self.open):
-            self.words.append(text)
-        if "td" in self.open or "th" in self.open:
-            self.tables[-1][-1][-1] += text
 
 
 @pytest.fixture(scope="module")

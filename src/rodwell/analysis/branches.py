@@ -28,6 +28,7 @@ from rodwell.analysis.special import (
     SpecialPoint,
 )
 from rodwell.analysis.symmetry import Reflection, images
+from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.numerics.continuation import Trace
 from rodwell.numerics.events import INDEX, TURN, Found
@@ -39,9 +40,12 @@ from rodwell.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+
+    from rodwell.practice.scales import Scales
 
 
-class Branch:
+class Branch(Shown):
     """A branch of equilibria in one parameter, points in order of travel.
 
     Attributes
@@ -228,6 +232,25 @@ class Branch:
         from rodwell.analysis.dataset import branch_dataset  # noqa: PLC0415
 
         return branch_dataset(self)
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
+        """Draw the bifurcation diagram of this branch and its images: end curvature against end compression.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on, which are returned; None: new ones of pyplot, which notebooks show by themselves.
+        ordinate
+            What is drawn against −F at s = 1; None: an end curvature that does not vanish.
+        scales
+            Units of the axes: ``scales`` of a case; None: B = L = 1.
+
+        Raises
+        ------
+        InputError
+            If the branch is one in another parameter than the force.
+        """
+        return drawn(self, ax, ordinate=ordinate, scales=scales)
 
     def _solution(self, point: Point, ladder: Ladder) -> Solution:
         problem = self.problem

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,11 +17,17 @@ from rodwell.analysis.accuracy import (
     first_space,
 )
 from rodwell.analysis.families import parameters, spline_ends
+from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics import eigen
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
 from rodwell.problem import Problem
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from rodwell.practice.scales import Scales
 
 MOST_MODES = 200
 
@@ -73,7 +80,7 @@ class Mode:
         return np.asarray(y / np.max(np.abs(fine)))
 
 
-class CriticalLoads(tuple[Mode, ...]):
+class CriticalLoads(tuple[Mode, ...], Shown):
     """Modes in the order in which they are met as compression grows."""
 
     __slots__ = ()
@@ -87,6 +94,13 @@ class CriticalLoads(tuple[Mode, ...]):
     def errors(self) -> FloatArray:
         """Error estimates, (n,)."""
         return np.array([mode.error for mode in self])
+
+    def plot(self, ax: Axes | None = None, *, scales: Scales | None = None, most: int = 4) -> Axes:
+        """Draw the first ``most`` modes y(s), each scaled to a largest deflection of 1; return the axes.
+
+        ``ax`` and ``scales`` as in :meth:`rodwell.Branch.plot`.
+        """
+        return drawn(self, ax, scales=scales, most=most)
 
 
 def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:

@@ -12,12 +12,14 @@ import numpy as np
 from rodwell.analysis.dataset import Variable
 from rodwell.analysis.nomenclature import UNITS
 from rodwell.analysis.solution import Solution
+from rodwell.display import drawn
 from rodwell.errors import InputError, checked_number
 from rodwell.numerics.spaces import FloatArray
 from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem, ends_text
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
 
 OVER = ("weight", "alpha", "clearance", "twist")
 """Parameters over which curves can be traced."""
@@ -134,6 +136,10 @@ class Curve:
     def converged(self) -> bool:
         """Whether every point meets the tolerance."""
         return all(p.converged for p in self.points)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the curve on ``ax``, or on new axes of pyplot; return the axes."""
+        return drawn(self, ax)
 
     @property
     def quantity(self) -> str:

@@ -17,11 +17,16 @@ from rodwell.analysis.families import PATHS
 from rodwell.analysis.follow import LARGEST_STEP, checked_end
 from rodwell.analysis.special import SpecialPoint
 from rodwell.analysis.symmetry import Reflection
+from rodwell.display import drawn
 from rodwell.errors import InputError, checked_whole
 from rodwell.problem import Problem, ends_text
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+
+    from rodwell.analysis.measures import Measured
+    from rodwell.practice.scales import Scales
 
 MODES = 4
 """Default number of primary branches."""
@@ -56,6 +61,10 @@ class Diagram:
 
     def __iter__(self) -> Iterator[Branch]:
         return iter(self.branches)
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
+        """Draw all branches in the end force; return the axes. Arguments as in :meth:`rodwell.Branch.plot`."""
+        return drawn(self, ax, ordinate=ordinate, scales=scales)
 
     def __getitem__(self, name: str) -> Branch:
         found = next((branch for branch in self.branches if branch.name == name), None)

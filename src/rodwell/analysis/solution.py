@@ -13,6 +13,7 @@ from rodwell.analysis.certificate import Certificate, certify
 from rodwell.analysis.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.analysis.measures import Measured, pressure_maxima
 from rodwell.analysis.wall import WallLoads, wall_loads
+from rodwell.display import Shown, drawn, drawn_in_space
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point, estimated_error
 from rodwell.numerics.spaces import FloatArray
@@ -21,12 +22,14 @@ from rodwell.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
 
     from rodwell.analysis.geometry import Geometry
+    from rodwell.practice.scales import Scales
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(Shown):
     """An equilibrium of ``problem`` at one end force.
 
     Created by :func:`rodwell.follow` and :func:`rodwell.equilibrium`; all numbers are in units B = L = 1.
@@ -164,6 +167,44 @@ class Solution:
         from rodwell.analysis.dataset import solution_dataset  # noqa: PLC0415
 
         return solution_dataset(self, places, length, stiffness)
+
+    def plot(self, ax: Axes | None = None, *, field: str = "contact_pressure", scales: Scales | None = None) -> Axes:
+        """Draw a field along the rod; several states can share axes.
+
+        Parameters
+        ----------
+        ax
+            Matplotlib axes to draw on; None: new ones of pyplot, which notebooks show by themselves.
+        field
+            Its name in the nomenclature.
+        scales
+            Units of the axes: ``scales`` of a case; None: B = L = 1.
+
+        Returns
+        -------
+        Axes
+            Those drawn on.
+
+        Raises
+        ------
+        InputError
+            If there is no field of that name.
+        """
+        return drawn(self, ax, field=field, scales=scales)
+
+    def plot_rod(
+        self,
+        ax: Axes | None = None,
+        *,
+        scales: Scales | None = None,
+        rod_radius: float | None = None,
+        radial_scale: float | None = None,
+    ) -> Axes:
+        """Draw the rod in its cylinder in three dimensions: see :func:`rodwell.plots.rod3d.plot_rod`.
+
+        ``ax`` must be axes in three dimensions; None: new ones of pyplot.
+        """
+        return drawn_in_space(self, ax, scales=scales, rod_radius=rod_radius, radial_scale=radial_scale)
 
     @property
     def accurate(self) -> bool:

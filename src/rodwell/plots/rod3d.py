@@ -47,7 +47,7 @@ def plot_rod(
     rod = drawn(solution, scales, places, rod_radius, radial_scale)
     with mpl.rc_context(RC):
         if ax is None:
-            ax = _wide_axes()
+            ax = wide_axes()
         length, width = draw_rod(ax, rod)
         for place in (0.0, 1.0):
             ax.text(
@@ -153,10 +153,15 @@ def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     return f"{load} at s = 1 (tension positive){length}; {scale}\n{drawn_as}"
 
 
-def _wide_axes() -> Any:
-    """Axes for a long object: the scene is square, so a square larger than the figure is laid behind it."""
-    width, height, side = 7.6, 3.0, 7.6
-    figure = Figure(figsize=(width, height))
-    FigureCanvasAgg(figure)
+WIDE = (7.6, 3.0)
+"""Size of the figure of a long object."""
+
+
+def wide_axes(figure: Figure | None = None) -> Any:
+    """Axes for a long object, on a figure of that size: the scene is square, so a larger square lies behind it."""
+    (width, height), side = WIDE, WIDE[0]
+    if figure is None:
+        figure = Figure(figsize=WIDE)
+        FigureCanvasAgg(figure)
     box = (-0.06, 0.5 * (1.0 - side / height) + 0.06, side / width, side / height)
     return figure.add_axes(box, projection="3d")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell._version import __version__
 from rodwell.analysis import ahead
@@ -16,6 +16,7 @@ from rodwell.analysis.follow import extended, follow
 from rodwell.analysis.sensitivity import Sensitivity, of_critical_load, of_lift_off
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
+from rodwell.display import Shown, drawn
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
 from rodwell.practice.figures import (
@@ -30,9 +31,14 @@ from rodwell.practice.figures import (
 from rodwell.practice.uncertainty import Spread, spread_of_load
 from rodwell.problem import ends_text
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from rodwell.analysis.measures import Measured
+
 
 @dataclass(frozen=True)
-class Answer:
+class Answer(Shown):
     """What was computed for a case.
 
     Attributes
@@ -123,6 +129,10 @@ class Answer:
             if self.case.cylinder is not None and self.case.scales is not None:
                 out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {figure.name: figure for figure in out}
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None) -> Axes:
+        """Draw the bifurcation diagram in the case's units: see :meth:`rodwell.Branch.plot`; return the axes."""
+        return drawn(self, ax, ordinate=ordinate)
 
     @property
     def _loads(self) -> list[tuple[Sensitivity, Spread | None]]:

@@ -13,6 +13,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from rodwell.analysis.accuracy import checked_rtol
+from rodwell.display import Shown
 from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.capacity import Cylinder, cylinder_of
@@ -41,7 +42,7 @@ class CaseError(InputError):
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(Shown):
     """A rod in a hole, ready to be computed.
 
     Attributes

@@ -38,7 +38,7 @@ def case_report(answer: Answer) -> Report:
         front=_front(answer),
         sections=(
             Section("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
-            _key_figures(answer),
+            key_figures(answer),
             _pictures(answer),
             _special_points(answer),
             _inputs_and_loads(answer),
@@ -84,7 +84,8 @@ def _short(value: float) -> str:
     return f"{value:.0e}".replace("-", "−")
 
 
-def _key_figures(answer: Answer) -> Section:
+def key_figures(answer: Answer) -> Section:
+    """All key figures, with errors."""
     physical = answer.case.scales is not None
     names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
     head = ["Quantity", *(["Physical"] if physical else []), "Dimensionless (B = L = 1)", "±\u00a0error", "Remark"]

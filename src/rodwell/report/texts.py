@@ -127,15 +127,17 @@ _GROUPS = {
 }
 
 
-_KINDS = {
+KINDS = {
     "critical": "buckling of the straight rod",
     "lift_off": "lift-off",
     "branch_point": "secondary bifurcation",
     "fold": "fold",
     "touch_down": "contact complete again",
     "uncertain": "change of the index that one mesh alone shows",
+    "equal_energy": "energy of the straight rod",
     "end": "end of the branch",
 }
+"""Kinds of special points in words."""
 
 
 def special(answer: Answer) -> list[dict[str, Any]]:
@@ -148,7 +150,7 @@ def special(answer: Answer) -> list[dict[str, Any]]:
             out.append(
                 {
                     "mode": branch.mode.number,
-                    "kind": _KINDS[point.kind],
+                    "kind": KINDS[point.kind],
                     "physical": "" if scales is None else scales.text(point.force, "force", 6),
                     "plain": number(point.force, point.error),
                     "error": "" if point.kind == "end" else f"{point.error:.0e}".replace("-", "−"),

@@ -1,0 +1,84 @@
+"""What the ``plot`` methods of results draw: found by :mod:`rodwell.display`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import singledispatch
+from typing import Any
+
+import matplotlib as mpl
+
+from rodwell.analysis.branches import Branch
+from rodwell.analysis.critical import CriticalLoads
+from rodwell.analysis.curves import Curve
+from rodwell.analysis.diagram import Diagram
+from rodwell.analysis.solution import Solution
+from rodwell.errors import InputError
+from rodwell.plots.bifurcation import plot_bifurcation
+from rodwell.plots.curves import plot_curves
+from rodwell.plots.fields import plot_field
+from rodwell.plots.profiles import plot_modes
+from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
+from rodwell.plots.style import RC, SIZE
+from rodwell.practice.answer import Answer
+
+
+def plot(result: object, ax: Any = None, **options: Any) -> Any:
+    """Draw a result on ``ax``, or on new axes of pyplot; return the axes."""
+    with mpl.rc_context(RC):
+        return _plot(result, lambda: _new_axes() if ax is None else ax, **options)
+
+
+def plot_in_space(result: Solution, ax: Any = None, **options: Any) -> Any:
+    """Draw a state in three dimensions on ``ax``, or on new axes of pyplot; return the axes."""
+    if ax is None:
+        from matplotlib import pyplot  # noqa: PLC0415
+
+        ax = wide_axes(pyplot.figure(figsize=WIDE))
+    return plot_rod(result, ax=ax, **options)
+
+
+def _new_axes() -> Any:
+    """Axes of a new figure of pyplot: notebooks show it, and ``pyplot.show`` does."""
+    from matplotlib import pyplot  # noqa: PLC0415 - for those who look on; files are drawn without it
+
+    return pyplot.figure(figsize=SIZE, layout="constrained").add_subplot()
+
+
+@singledispatch
+def _plot(result: object, axes: Callable[[], Any], **_options: Any) -> Any:
+    raise TypeError(f"{type(result).__name__} cannot be drawn")
+
+
+@_plot.register
+def _(result: Branch, axes: Callable[[], Any], **options: Any) -> Any:
+    if result.parameter != "force":
+        known = f"draw branch.numbers(...) against branch.values, its {result.parameter}"
+        raise InputError("parameter", result.parameter, f"bifurcation diagrams show branches in the force: {known}")
+    return plot_bifurcation([result], CriticalLoads(), ax=axes(), **options)
+
+
+@_plot.register
+def _(result: Diagram, axes: Callable[[], Any], **options: Any) -> Any:
+    shown = [branch for branch in result.branches if branch.parameter == "force"]
+    return plot_bifurcation(shown, result.critical, ax=axes(), **options)
+
+
+@_plot.register
+def _(result: Answer, axes: Callable[[], Any], **options: Any) -> Any:
+    return plot_bifurcation(result.branches, result.critical, result.case.scales, ax=axes(), **options)
+
+
+@_plot.register
+def _(result: CriticalLoads, axes: Callable[[], Any], **options: Any) -> Any:
+    return plot_modes(result, ax=axes(), **options)
+
+
+@_plot.register
+def _(result: Curve, axes: Callable[[], Any]) -> Any:
+    return plot_curves([result], ax=axes())
+
+
+@_plot.register
+def _(result: Solution, axes: Callable[[], Any], field: str = "contact_pressure", **options: Any) -> Any:
+    return plot_field(result, field, ax=axes(), **options)

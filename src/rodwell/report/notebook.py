@@ -1,0 +1,138 @@
+"""Results as small tables for notebooks: found by :mod:`rodwell.display`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import singledispatch
+
+from rodwell.analysis.branches import Branch
+from rodwell.analysis.critical import CriticalLoads
+from rodwell.analysis.measures import Measured
+from rodwell.analysis.nomenclature import QUANTITIES
+from rodwell.analysis.solution import Solution
+from rodwell.plots.bifurcation import ORDINATES
+from rodwell.practice.advice import statuses
+from rodwell.practice.answer import Answer
+from rodwell.practice.case import Case
+from rodwell.practice.meaning import sentences
+from rodwell.problem import Problem, ends_text
+from rodwell.report.content import Grid
+from rodwell.report.sections import key_figures
+from rodwell.report.templates import template
+from rodwell.report.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number
+
+UNITS = {**PLAIN_UNITS, "energy": "B/L", "curvature": "1/L", "angle": "rad"}
+
+FORCE = "F is the end force at s = 1, tension positive; units B = L = 1 where no other stand."
+
+PARAMETERS = {
+    "force": "F in B/L²",
+    "weight": "weight γ",
+    "alpha": "angle α in degrees",
+    "clearance": "clearance Δ/L",
+    "twist": "twisting moment T₁ in B/L",
+}
+
+
+@dataclass(frozen=True)
+class Card:
+    """What a notebook shows: a title, lines of words, tables, a remark."""
+
+    title: str
+    lines: tuple[str, ...]
+    grids: tuple[Grid, ...]
+    note: str = ""
+
+
+def html(result: object) -> str:
+    """Return a result as HTML: every text escaped, no colours of its own, so that dark themes stay legible."""
+    return str(template("notebook.html.j2").render(card=card(result)))
+
+
+@singledispatch
+def card(result: object) -> Card:
+    """What is shown of a result."""
+    raise TypeError(f"{type(result).__name__} has no table")
+
+
+@card.register
+def _(result: Case) -> Card:
+    grids = [Grid(("As given", ""), tuple(inputs(result))), Grid(("What follows", ""), tuple(derived(result)))]
+    facts = tuple((label, value) for label, value, _ in conversions(result))
+    grids += [Grid(("From the inputs", ""), facts)] if facts else []
+    return Card(f"Case: {result.title}", (ends_text(result.problem),), tuple(grids))
+
+
+@card.register
+def _(result: CriticalLoads) -> Card:
+    shape = {1: "even", -1: "odd", 0: "no symmetry"}
+    rows = tuple(
+        (str(mode.number), number(mode.force, mode.error), _short(mode.error), shape[mode.parity]) for mode in result
+    )
+    lines = (_problem(result[0].problem),) if result else ()
+    return Card(
+        "Critical loads", lines, (Grid(("mode", "F in B/L²", "± error", "mode shape"), rows, (0, 1, 2)),), FORCE
+    )
+
+
+@card.register
+def _(result: Branch) -> Card:
+    low, high = result.reach
+    parameter = PARAMETERS[result.parameter]
+    lines = (
+        _problem(result.problem),
+        f"{len(result)} points, {parameter} from {_plain(low)} to {_plain(high)}; "
+        + ("reached the end asked for" if result.reached_end else result.ended_because),
+        _converged(result.converged),
+    )
+    rows = tuple(
+        (
+            KINDS[point.kind],
+            number(point.value, point.error),
+            "" if point.kind == "end" else _short(point.error),
+            f"{point.index_before} → {point.index_after}",
+            ", ".join(f"{s:.6g}" for s in point.s),
+        )
+        for point in result.special_points
+    )
+    head = ("what", parameter, "± error", "stability index", "s/L")
+    note = f"{FORCE} Stability index: 0 is stable under dead loads, for a rod kept on the wall."
+    return Card(f"Branch: {result.name}", lines, (Grid(head, rows, (1, 2)),), note)
+
+
+@card.register
+def _(result: Solution) -> Card:
+    stable = "stable" if result.stable else f"unstable, stability index {result.stability_index}"
+    rows = []
+    for which in Measured:
+        value, error = result.number(which)
+        quantity = QUANTITIES[ORDINATES[which][0]]
+        unit = UNITS[quantity.dimension]
+        rows.append((quantity.meaning.partition(";")[0], quantity.symbol, number(value, error), _short(error), unit))
+    lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))
+    grid = Grid(("quantity", "symbol", "value", "± error", "unit"), tuple(rows), (2, 3))
+    return Card(f"State at F = {_plain(result.force)} B/L²", lines, (grid,), FORCE)
+
+
+@card.register
+def _(result: Answer) -> Card:
+    found = tuple(f"{status.subject}: {status.word} ({status.reason})" for status in statuses(result))
+    (grid,) = (block for block in key_figures(result).blocks if isinstance(block, Grid))
+    return Card(result.case.title, (sentences(result)[0], *found), (grid,), FORCE)
+
+
+def _problem(problem: Problem) -> str:
+    text = f"γ = {problem.weight:.6g}, α = {problem.alpha:g}° from the vertical, Δ/L = {problem.clearance:.6g}"
+    return f"{text}, T₁ = {problem.twist:g} B/L, {ends_text(problem)}".replace("-", "−")
+
+
+def _converged(met: bool) -> str:
+    return "converged: every number meets the tolerance" if met else "NOT CONVERGED: see the errors"
+
+
+def _plain(value: float) -> str:
+    return f"{value:.8g}".replace("-", "−")
+
+
+def _short(error: float) -> str:
+    return f"{error:.0e}".replace("-", "−")
