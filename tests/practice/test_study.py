@@ -15,6 +15,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given
 from hypothesis import strategies as st
+from pypdf import PdfReader
 
 import rodwell
 from rodwell import InputError
@@ -236,7 +237,7 @@ def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
     at = sheet[0].index(title)
     assert [row[at] for row in sheet[1:4]] == pytest.approx(loads, rel=1e-14)
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert page.count('<tr class="worst">') == 1
+    assert page.count('<tr class="marked">') == 1
     assert "http" not in page.replace("http-equiv", "")
 
 
@@ -260,3 +261,20 @@ def test_tables_refuse_nan_and_formulas(tmp_path: Path) -> None:
     cells = list(openpyxl.load_workbook(tmp_path / "u.xlsx")["T"].iter_rows(values_only=True))
     assert cells == [("a", "b"), ("=1+1", None), (2.5, "=A1")]
     assert openpyxl.load_workbook(tmp_path / "u.xlsx")["T"]["A2"].data_type == "s"
+
+
+def test_study_as_pdf(tmp_path: Path) -> None:
+    file, out = tmp_path / "weights.toml", tmp_path / "out"
+    file.write_text(FILE, encoding="utf-8")
+    result = CliRunner().invoke(cli, ["run", str(file), "--out", str(out), "--json", "--pdf"], catch_exceptions=False)
+    data = json.loads(result.stdout)
+    front, rest = ("".join(sheet.extract_text().split()) for sheet in PdfReader(out / "report.pdf").pages)
+    least = -data["points"][0]["critical"]["value"]
+    assert f"{least:.6g}B/L²" in front
+    assert "everyoneof3pointshasitsloads" in front
+    assert rest.startswith("Allpoints")
+    for point in data["points"]:
+        assert f"{-point['critical']['value']:.5g}" in rest
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert page.count("<img") == 1
+    assert "data:image/svg+xml" in page

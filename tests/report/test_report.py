@@ -8,6 +8,7 @@ import io
 import json
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -198,7 +199,7 @@ def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monke
     assert not (tmp_path / "r").exists()
 
 
-def test_letter_paper_for_field_units(tmp_path: Path) -> None:
+def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) -> None:
     from rodwell.report.pdf import pdf
     from rodwell.report.pictures import draw
     from rodwell.report.sections import case_report
@@ -213,6 +214,10 @@ def test_letter_paper_for_field_units(tmp_path: Path) -> None:
         }
     )
     answer = rodwell.answer(case)
-    made = PdfReader(io.BytesIO(pdf(case_report(answer), draw(answer, tmp_path))))
-    assert made.pages[0].mediabox.height == pytest.approx(792, abs=1)
-    assert "effectiveforce" in "".join(made.pages[0].extract_text().split())
+    report, pictures = case_report(answer), draw(answer, tmp_path)
+    more = replace(report, front=replace(report.front, steps=report.front.steps * 4))
+    for content in (report, more):
+        made = PdfReader(io.BytesIO(pdf(content, pictures)))
+        assert made.pages[0].mediabox.height == pytest.approx(792, abs=1)
+        assert "effectiveforce" in "".join(made.pages[0].extract_text().split())
+        assert made.pages[1].extract_text().startswith("What the numbers mean")

@@ -35,19 +35,18 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     folder = Path("results") / case.stem if out is None else out
-    if is_study(case):
-        from rodwell.cli.study import run_study  # noqa: PLC0415
-
-        check_writable(folder)
-        run_study(case, folder, units, as_json, quiet)
-        return
-    read = Case.read(case).in_units(units)
-    check_writable(folder)
     if with_pdf:
         from rodwell.report.pdf import check_pdf  # noqa: PLC0415
 
         check_pdf()
+    if is_study(case):
+        from rodwell.cli.study import run_study  # noqa: PLC0415
 
+        check_writable(folder)
+        run_study(case, folder, units, as_json, quiet, with_pdf)
+        return
+    read = Case.read(case).in_units(units)
+    check_writable(folder)
     from rodwell.practice.answer import answer  # noqa: PLC0415
     from rodwell.report.write import write_results  # noqa: PLC0415
 
@@ -70,8 +69,9 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
 
     from rodwell.practice.meaning import sentences  # noqa: PLC0415
     from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.report.pdf import PDF  # noqa: PLC0415
     from rodwell.report.texts import rows  # noqa: PLC0415
-    from rodwell.report.write import FILES, PDF  # noqa: PLC0415
+    from rodwell.report.write import FILES  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(answer)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rodwell.practice.study import Study
 
 
-def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet: bool) -> None:
+def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
     """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
     from rodwell.practice.study import study as compute  # noqa: PLC0415
     from rodwell.report.study import write_study  # noqa: PLC0415
@@ -21,7 +21,7 @@ def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet:
     with progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
         tell("figure, report and data", 1.0)
-        files = write_study(result, folder)
+        files = write_study(result, folder, with_pdf=with_pdf)
     if as_json:
         print_json(result.as_dict())
     elif not quiet:

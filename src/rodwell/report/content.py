@@ -81,6 +81,7 @@ class Front:
     picture: Picture
     assumptions: str
     steps: tuple[str, ...]
+    next_title: str = "What to do next"
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,7 @@ class Report:
     def as_dict(self) -> dict[str, Any]:
         """Everything as plain data, for templates: each block says of which kind it is."""
         out = asdict(self)
+        out["front"]["picture"]["kind"] = Picture.kind
         for section, plain in zip(self.sections, out["sections"], strict=True):
             plain["blocks"] = [{"kind": block.kind, **asdict(block)} for block in section.blocks]
         return out

@@ -11,11 +11,15 @@ import json
 import shutil
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from rodwell.errors import InputError
 from rodwell.report.content import Report
 from rodwell.report.page import Pictures
 from rodwell.report.templates import HERE
+
+PDF = "report.pdf"
+"""Name of the file in a results folder."""
 
 TEMPLATE = "report.typ"
 
@@ -40,6 +44,11 @@ def pdf(report: Report, pictures: Pictures) -> bytes:
     InputError
         If Typst is not installed.
     """
+    return bytes(typeset(report, pictures))
+
+
+def typeset(report: Report, pictures: Pictures, **options: Any) -> Any:
+    """Return the report as Typst makes it: PDF, or with ``format="png"`` and ``ppi`` a picture of each sheet."""
     check_pdf()
     import matplotlib as mpl  # noqa: PLC0415
     import typst  # noqa: PLC0415
@@ -49,10 +58,10 @@ def pdf(report: Report, pictures: Pictures) -> bytes:
         for name, (_, content) in pictures.items():
             Path(home, files[name]).write_bytes(content)
         template = shutil.copy(HERE / TEMPLATE, home)
-        made = typst.compile(
+        return typst.compile(
             template,
             sys_inputs={"report": json.dumps(report.as_dict() | {"files": files})},
             font_paths=[str(Path(mpl.get_data_path(), "fonts", "ttf"))],
             ignore_system_fonts=True,
+            **options,
         )
-    return bytes(made)

@@ -11,7 +11,18 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
 from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
-from rodwell.report.texts import certificate, conversions, derived, inputs, number, rows, sensitivities, special, unit
+from rodwell.report.texts import (
+    certificate,
+    conversions,
+    derived,
+    error_text,
+    inputs,
+    number,
+    rows,
+    sensitivities,
+    special,
+    unit,
+)
 
 DECISIVE = (
     "critical_load_1",
@@ -75,9 +86,8 @@ def _decisive(answer: Answer, figure: Figure) -> Number:
     if scales is None:
         return Number(figure.label, f"{number(figure.value, figure.error)} {unit(figure)}",
                       f"± {_short(figure.error)} {unit(figure)}", figure.note)  # fmt: skip
-    error = figure.error * scales.factor(figure.dimension)
-    shown = scales.system.text(float(f"{error:.1g}"), figure.dimension, 3)  # of one digit: 10 nN, not 1e+01 nN
-    return Number(figure.label, figure.text(answer.case, 5), f"± {shown}", figure.note)
+    error = error_text(scales.text(figure.error, figure.dimension, 1))
+    return Number(figure.label, figure.text(answer.case, 5), error, figure.note)
 
 
 def _short(value: float) -> str:

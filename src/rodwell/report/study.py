@@ -1,4 +1,4 @@
-"""The results folder of a parameter study."""
+"""The report and the results folder of a parameter study."""
 
 from __future__ import annotations
 
@@ -7,29 +7,38 @@ from pathlib import Path
 
 from rodwell._version import __version__
 from rodwell.plots.study import plot_study
-from rodwell.practice.study import Study
-from rodwell.practice.study_data import NOTES, cells, head, remarks, sentences, study_table
+from rodwell.practice.advice import BAD, CAUTION, GOOD, Status
+from rodwell.practice.study import Point, Study
+from rodwell.practice.study_data import LOADS, NOTES, cells, head, load_text, remarks, sentences, study_table
+from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.page import render
+from rodwell.report.pdf import PDF, check_pdf, pdf
 from rodwell.report.pictures import save_figure
-from rodwell.report.templates import embedded, template
+from rodwell.report.texts import error_text
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
 
-def write_study(study: Study, out: Path) -> tuple[str, ...]:
+def write_study(study: Study, out: Path, *, with_pdf: bool = False) -> tuple[str, ...]:
     """Write report (HTML), curves (PNG, SVG), table (CSV, XLSX), data (JSON) and the file to ``out``: all, or none.
 
-    Returns the names of the files.
+    ``with_pdf`` adds the report as PDF. Returns the names of the files.
 
     Raises
     ------
     InputError
-        If ``out`` cannot be written.
+        If ``out`` cannot be written, or what makes the PDF is not installed.
     """
+    if with_pdf:
+        check_pdf()
     with whole_folder(out) as folder:
         save_figure(plot_study(study), folder / "curves")
-        page = render(study, (folder / "curves.svg").read_bytes())
-        (folder / "report.html").write_text(page, encoding="utf-8")
+        pictures = {"curves": ("svg", (folder / "curves.svg").read_bytes())}
+        report = study_report(study)
+        (folder / "report.html").write_text(render(report, pictures), encoding="utf-8")
+        if with_pdf:
+            (folder / PDF).write_bytes(pdf(report, pictures))
         table = study_table(study)
         write_csv(table, folder / "points.csv")
         write_xlsx([table], folder / "points.xlsx")
@@ -38,30 +47,94 @@ def write_study(study: Study, out: Path) -> tuple[str, ...]:
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 
-def render(study: Study, picture: bytes) -> str:
-    """Return the page, with the curves (SVG) inside it: it opens offline and prints."""
-    worst = {point.number for name in ("critical", "lift_off") if (point := study.worst(name)) is not None}
-    lines = [
-        {"cells": cells(study, point), "remark": remarks(study, point), "worst": point.number in worst}
-        for point in study.points
-    ]
-    lacking = [point for point in study.incomplete if set(point.reasons or {}) - {"contact"}]
-    inputs = [
+def study_report(study: Study) -> Report:
+    """Return the content of a study's report."""
+    today = datetime.date.today().isoformat()
+    return Report(
+        title=study.title,
+        subtitle=f"Parameter study of buckling and lift-off of a rod in a cylinder · {len(study.points)} points · "
+        f"rodwell {__version__} · {today}",
+        front=_front(study),
+        sections=(_points(study), _inputs(study)),
+        footer=f"Computed by rodwell {__version__} from {study.source}. The theory is geometrically exact for a rod "
+        "that stays on the wall. Not included: friction, joints, curvature of the hole, dynamics.",
+        paper="us-letter" if study.physical and study.system.name == "field" else "a4",
+    )
+
+
+def _front(study: Study) -> Front:
+    text = sentences(study)
+    numbers = []
+    for name, what in LOADS.items():
+        worst = study.worst(name)
+        load = None if worst is None else worst.compression(name)
+        if worst is None or load is None:
+            continue
+        label = f"Least compression at s = 1 at which it {what}"
+        error = study.system.text(load[1], "force", 1) if study.physical else f"{load[1]:.1g} B/L²"
+        numbers.append(Number(label, load_text(study, load[0]), error_text(error), study.inputs(worst)))
+    return Front(
+        verdict=text[0],
+        statuses=(_status(study),),
+        numbers=tuple(numbers),
+        picture=Picture(
+            "curves",
+            "Compression at buckling and lift-off, and contact force at lift-off, over the varied input",
+            "Above: end compression at which the straight rod buckles (solid), and at which the first mode leaves the "
+            "wall (dashed); the worst cases are ringed. Below: largest contact force per length at lift-off. A curve "
+            "is interrupted where a point has no result; points are joined by straight lines.",
+        ),
+        assumptions=" ".join(NOTES),
+        steps=tuple(text[1:]),
+        next_title="What else was found",
+    )
+
+
+def _status(study: Study) -> Status:
+    """Whether every point has its loads."""
+    points = len(study.points)
+    without = sum(point.critical is None for point in study.points)
+    partly = len(_lacking(study)) - without
+    if without:
+        return Status("Points", BAD, "incomplete", f"{without} of {points} points could not be computed")
+    if partly:
+        return Status(
+            "Points", CAUTION, "complete but for lift-off", f"{partly} of {points} points have no lift-off load"
+        )
+    return Status("Points", GOOD, "complete", f"every one of {points} points has its loads")
+
+
+def _lacking(study: Study) -> list[Point]:
+    """Points without all their loads."""
+    return [point for point in study.incomplete if set(point.reasons or {}) - {"contact"}]
+
+
+def _points(study: Study) -> Section:
+    columns = (*(_breakable(title) for title in head(study)), "Remark")
+    worst = {point.number for name in LOADS if (point := study.worst(name)) is not None}
+    blocks: list[Block] = []
+    lacking = _lacking(study)
+    if lacking:
+        blocks.append(Words("Not every point has every result.", "warning"))
+        blocks.append(Items(tuple(f"{study.inputs(point)}: {remarks(study, point)}" for point in lacking)))
+    rows = tuple((*cells(study, point), remarks(study, point)) for point in study.points)
+    marked = tuple(i for i, point in enumerate(study.points) if point.number in worst)
+    blocks.append(Grid(columns, rows, numeric=tuple(range(len(columns) - 1)), marked=marked))
+    blocks.append(
+        Words("Numbers with all their digits and the error of each: points.csv, points.xlsx, study.json.", "small")
+    )
+    return Section("All points", tuple(blocks))
+
+
+def _breakable(title: str) -> str:
+    """A title whose names of keys can be broken into lines."""
+    return title.replace(".", ".\u200b").replace("_", "_\u200b")
+
+
+def _inputs(study: Study) -> Section:
+    given = tuple(
         (f"{section}.{key}", str(value))
         for section, values in study.given.items()
         for key, value in (values.items() if hasattr(values, "items") else [])
-    ]
-    return str(
-        template("study.html.j2").render(
-            study=study,
-            text=sentences(study),
-            missing=[f"{study.inputs(point)}: {remarks(study, point)}" for point in lacking],
-            notes=NOTES,
-            picture=embedded("svg", picture),
-            head=head(study),
-            rows=lines,
-            inputs=inputs,
-            version=__version__,
-            date=datetime.date.today().isoformat(),
-        )
     )
+    return Section("Inputs", (Grid(("As given", ""), given),))

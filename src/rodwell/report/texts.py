@@ -23,6 +23,12 @@ def number(value: float, error: float) -> str:
     return f"{value:.{min(max(digits, 1), 10)}g}".replace("-", "−")
 
 
+def error_text(text: str) -> str:
+    """An error of one digit, given as text with its unit, without an exponent where none is needed: 10 nN."""
+    size, _, unit = text.replace("−", "-").partition(" ")
+    return f"± {float(size):.3g} {unit}".replace("-", "−").rstrip()
+
+
 def rows(answer: Answer) -> list[dict[str, str]]:
     """The table of key figures."""
     out = []

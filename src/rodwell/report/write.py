@@ -10,7 +10,7 @@ from rodwell.analysis.diagram import Diagram
 from rodwell.practice.answer import Answer
 from rodwell.practice.answer_tables import answer_tables
 from rodwell.report.page import render
-from rodwell.report.pdf import check_pdf, pdf
+from rodwell.report.pdf import PDF, check_pdf, pdf
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
 from rodwell.report.sections import case_report
 from rodwell.report.templates import embedded
@@ -30,9 +30,6 @@ FILES = {
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
-
-PDF = "report.pdf"
-"""The report as PDF, if it was asked for."""
 
 
 def write_results(answer: Answer, out: Path, *, with_pdf: bool = False) -> tuple[str, ...]:
