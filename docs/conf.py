@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -19,12 +20,16 @@ copyright = author
 version = release = __version__
 
 extensions = [
-    "myst_parser",
+    "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.mathjax",
     "sphinx.ext.viewcode",
 ]
+nb_execution_mode = "force"  # the tutorial is executed while the pages are built; what fails in it fails them
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+shutil.copy(HERE.parent / "examples" / "tutorial.ipynb", HERE)
 exclude_patterns = ["_build", "_generated", "Thumbs.db", ".DS_Store"]
 highlight_language = "none"
 smartquotes_action = "D"  # dashes only: primes are derivatives

@@ -149,7 +149,7 @@ def test_new_axes_are_those_of_pyplot(branch: rodwell.Branch, pyplot: Any) -> No
     assert solid.name == "3d"
 
 
-def test_bad_input(branch: rodwell.Branch) -> None:
+def test_bad_input(branch: rodwell.Branch, pyplot: Any) -> None:
     with pytest.raises(rodwell.InputError, match="did you mean 'contact_pressure'"):
         branch[-1].plot(field="contact_presure")
     with pytest.raises(rodwell.InputError, match="must be one of y, xi2"):
@@ -157,6 +157,7 @@ def test_bad_input(branch: rodwell.Branch) -> None:
     other = rodwell.follow(branch.problem, start=branch.at(-115.0), parameter="weight", until=15.2, rtol=1e-5)
     with pytest.raises(rodwell.InputError, match="weight"):
         other.plot()
+    assert pyplot.get_fignums() == []  # nothing half drawn is left behind
 
 
 def test_nothing_is_imported_before_it_is_used() -> None:

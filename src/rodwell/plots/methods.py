@@ -7,6 +7,7 @@ from functools import singledispatch
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
@@ -25,60 +26,69 @@ from rodwell.practice.answer import Answer
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
     """Draw a result on ``ax``, or on new axes of pyplot; return the axes."""
-    with mpl.rc_context(RC):
-        return _plot(result, lambda: _new_axes() if ax is None else ax, **options)
+    return _on_axes(ax, SIZE, _subplot, lambda axes: _plot(result, axes, **options))
 
 
 def plot_in_space(result: Solution, ax: Any = None, **options: Any) -> Any:
     """Draw a state in three dimensions on ``ax``, or on new axes of pyplot; return the axes."""
-    if ax is None:
-        from matplotlib import pyplot  # noqa: PLC0415
-
-        ax = wide_axes(pyplot.figure(figsize=WIDE))
-    return plot_rod(result, ax=ax, **options)
+    return _on_axes(ax, WIDE, wide_axes, lambda axes: plot_rod(result, ax=axes, **options))
 
 
-def _new_axes() -> Any:
-    """Axes of a new figure of pyplot: notebooks show it, and ``pyplot.show`` does."""
+def _subplot(figure: Figure) -> Any:
+    figure.set_layout_engine("constrained")
+    return figure.add_subplot()
+
+
+def _on_axes(ax: Any, size: tuple[float, float], new: Callable[[Figure], Any], draw: Callable[[Any], Any]) -> Any:
+    """Draw on ``ax``, or on ``new`` axes of a figure of pyplot, which notebooks and ``pyplot.show`` show."""
+    if ax is not None:
+        with mpl.rc_context(RC):
+            return draw(ax)
     from matplotlib import pyplot  # noqa: PLC0415 - for those who look on; files are drawn without it
 
-    return pyplot.figure(figsize=SIZE, layout="constrained").add_subplot()
+    figure = pyplot.figure(figsize=size)  # outside rc_context, which would undo what a backend sets when it is loaded
+    try:
+        with mpl.rc_context(RC):
+            return draw(new(figure))
+    except BaseException:
+        pyplot.close(figure)
+        raise
 
 
 @singledispatch
-def _plot(result: object, axes: Callable[[], Any], **_options: Any) -> Any:
+def _plot(result: object, axes: Any, **_options: Any) -> Any:
     raise TypeError(f"{type(result).__name__} cannot be drawn")
 
 
 @_plot.register
-def _(result: Branch, axes: Callable[[], Any], **options: Any) -> Any:
+def _(result: Branch, axes: Any, **options: Any) -> Any:
     if result.parameter != "force":
         known = f"draw branch.numbers(...) against branch.values, its {result.parameter}"
         raise InputError("parameter", result.parameter, f"bifurcation diagrams show branches in the force: {known}")
-    return plot_bifurcation([result], CriticalLoads(), ax=axes(), **options)
+    return plot_bifurcation([result], CriticalLoads(), ax=axes, **options)
 
 
 @_plot.register
-def _(result: Diagram, axes: Callable[[], Any], **options: Any) -> Any:
+def _(result: Diagram, axes: Any, **options: Any) -> Any:
     shown = [branch for branch in result.branches if branch.parameter == "force"]
-    return plot_bifurcation(shown, result.critical, ax=axes(), **options)
+    return plot_bifurcation(shown, result.critical, ax=axes, **options)
 
 
 @_plot.register
-def _(result: Answer, axes: Callable[[], Any], **options: Any) -> Any:
-    return plot_bifurcation(result.branches, result.critical, result.case.scales, ax=axes(), **options)
+def _(result: Answer, axes: Any, **options: Any) -> Any:
+    return plot_bifurcation(result.branches, result.critical, result.case.scales, ax=axes, **options)
 
 
 @_plot.register
-def _(result: CriticalLoads, axes: Callable[[], Any], **options: Any) -> Any:
-    return plot_modes(result, ax=axes(), **options)
+def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
+    return plot_modes(result, ax=axes, **options)
 
 
 @_plot.register
-def _(result: Curve, axes: Callable[[], Any]) -> Any:
-    return plot_curves([result], ax=axes())
+def _(result: Curve, axes: Any) -> Any:
+    return plot_curves([result], ax=axes)
 
 
 @_plot.register
-def _(result: Solution, axes: Callable[[], Any], field: str = "contact_pressure", **options: Any) -> Any:
-    return plot_field(result, field, ax=axes(), **options)
+def _(result: Solution, axes: Any, field: str = "contact_pressure", **options: Any) -> Any:
+    return plot_field(result, field, ax=axes, **options)

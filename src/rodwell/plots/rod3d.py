@@ -164,4 +164,6 @@ def wide_axes(figure: Figure | None = None) -> Any:
         figure = Figure(figsize=WIDE)
         FigureCanvasAgg(figure)
     box = (-0.06, 0.5 * (1.0 - side / height) + 0.06, side / width, side / height)
-    return figure.add_axes(box, projection="3d")
+    axes: Any = figure.add_axes(box, projection="3d")
+    axes.get_tightbbox = lambda *_given, **_options: figure.bbox  # the square that lies beyond the figure is empty
+    return axes
