@@ -270,7 +270,7 @@ def test_study_as_pdf(tmp_path: Path) -> None:
     data = json.loads(result.stdout)
     front, rest = ("".join(sheet.extract_text().split()) for sheet in PdfReader(out / "report.pdf").pages)
     least = -data["points"][0]["critical"]["value"]
-    assert f"{least:.6g}B/L²" in front
+    assert f"{least:.6g}B/L²±" in front
     assert "everyoneof3pointshasitsloads" in front
     assert rest.startswith("Allpoints")
     for point in data["points"]:

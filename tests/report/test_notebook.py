@@ -61,6 +61,7 @@ def test_critical_loads_as_a_table(problem: rodwell.Problem) -> None:
         [-111.2334402, -127.2577803], abs=5e-8
     )
     assert [row[3] for row in rows[1:]] == ["odd", "even"]
+    assert all(0.0 < float(row[2].replace("−", "-")) < 1e-6 for row in rows[1:])
     assert "both ends clamped" in " ".join(page.words)
     assert "tension positive" in " ".join(page.words)
 

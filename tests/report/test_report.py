@@ -72,7 +72,8 @@ def dots(resources: Any) -> int:
     )
 
 
-def test_page_is_well_formed(page: Page) -> None:
+def test_page_is_well_formed(page: Page, folder: Path) -> None:
+    assert "<script>alert" not in (folder / "report.html").read_text(encoding="utf-8")
     assert page.faults == []
     assert page.open == []
     assert len(page.ids) == len(set(page.ids))
