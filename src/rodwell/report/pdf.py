@@ -1,7 +1,8 @@
 """The PDF of a report, set by Typst from the same content as the page.
 
 Typst comes as one wheel without further needs, works offline and draws vector pictures; it is an extra of the package:
-``pip install 'rodwell[pdf]'``. The font is the one that Matplotlib carries, the same as in the figures.
+``pip install 'rodwell[pdf]'``. The font is the one that Matplotlib carries, the same as in the figures; letters that it
+lacks come from the system's.
 """
 
 from __future__ import annotations
@@ -62,6 +63,5 @@ def typeset(report: Report, pictures: Pictures, **options: Any) -> Any:
             template,
             sys_inputs={"report": json.dumps(report.as_dict() | {"files": files})},
             font_paths=[str(Path(mpl.get_data_path(), "fonts", "ttf"))],
-            ignore_system_fonts=True,
             **options,
         )

@@ -46,7 +46,8 @@ def write_results(answer: Answer, out: Path, *, with_pdf: bool = False) -> tuple
         check_pdf()
     with whole_folder(out) as folder:
         pictures = draw(answer, folder)
-        rod = viewer(answer.shown, answer.case.scales, still=embedded(*pictures["rod-3d"]))
+        still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
+        rod = viewer(answer.shown, answer.case.scales, still=still)
         report = case_report(answer)
         (folder / "report.html").write_text(render(report, pictures, rod), encoding="utf-8")
         if with_pdf:
