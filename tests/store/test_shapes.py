@@ -8,12 +8,14 @@ import os
 import struct
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import meshio
 import numpy as np
 import pytest
 import trimesh
 from click.testing import CliRunner
+from pypdf import PdfReader
 
 import rodwell
 from rodwell.analysis.surfaces import tube
@@ -260,3 +262,14 @@ def test_command_where_no_state_is_at_lift_off(tmp_path: Path) -> None:
     done = run(case, "--to", tmp_path / "rod.csv")
     assert isinstance(done.exception, rodwell.NotConvergedError)
     assert "--at" in str(done.exception)
+
+
+def test_pictures_for_print(physical: rodwell.Solution, case: rodwell.Case, tmp_path: Path) -> None:
+    svg, pdf = rodwell.export(physical, [tmp_path / "rod.svg", tmp_path / "rod.pdf"], scales=case.scales)
+    root = ElementTree.parse(svg).getroot()
+    assert root.tag.endswith("svg")
+    assert len(root.findall(".//{http://www.w3.org/2000/svg}image")) >= 1  # the rod as dots
+    assert len(root.findall(".//{http://www.w3.org/2000/svg}path")) < 500  # not each of its facets
+    (sheet,) = PdfReader(pdf).pages
+    assert "tension positive" in sheet.extract_text()
+    assert {svg.stat().st_size < 1_000_000, pdf.stat().st_size < 1_000_000} == {True}

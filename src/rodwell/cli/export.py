@@ -26,7 +26,7 @@ LIFT_OFF = "lift-off"
 )
 @click.option(
     "--to", "files", type=click.Path(path_type=Path), multiple=True, required=True,
-    help="File; the suffix says the format: .glb, .stl, .vtu, .csv, .html, .png. May be given several times.",
+    help="File; the suffix says the format: .glb, .stl, .vtu, .csv, .html, .png, .svg, .pdf. More than one is fine.",
 )  # fmt: skip
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")

@@ -28,10 +28,15 @@ FORMATS = {
     ".csv": "centreline with frames and curvatures",
     ".html": "page to turn and zoom, works offline",
     ".png": "picture",
+    ".svg": "picture for print: vectors, but the rod as dots",
+    ".pdf": "picture for print, as .svg",
 }
 """Formats by suffix."""
 
-FOR_THE_EYE = (*ENLARGED, ".html", ".png")
+FINE = 300
+"""Dots per inch of the rod in pictures made of vectors."""
+
+FOR_THE_EYE = (*ENLARGED, ".html", ".png", ".svg", ".pdf")
 """Formats that are enlarged across the axis unless told otherwise; the others are in true scale."""
 
 
@@ -53,7 +58,7 @@ def export(
         The state.
     path
         File, or files: .glb (glTF), .stl, .vtu (ParaView; two more files ``NAME-centreline.vtu`` and
-        ``NAME-cylinder.vtu`` beside it), .csv, .html, .png. Folders are made.
+        ``NAME-cylinder.vtu`` beside it), .csv, .html, .png, .svg, .pdf. Folders are made.
     scales
         Of a case in physical units (``answer.case.scales``): files are in metres and newtons, and the rod has its own
         radius where the case gives its diameter. Without, in units B = L = 1.
@@ -140,5 +145,11 @@ def _write_picture(path: Path, solution: Solution, rod: Geometry, scales: Scales
     from rodwell.report.pictures import PNG  # noqa: PLC0415
 
     ax = plot_rod(solution, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
-    ax.figure.savefig(path, **PNG)
+    if path.suffix.lower() == ".png":
+        ax.figure.savefig(path, **PNG)
+        return [path]
+    for collection in ax.collections:
+        collection.set_rasterized(True)  # ten thousand facets: as outlines a file of megabytes, with seams
+    undated = {"Date" if path.suffix.lower() == ".svg" else "CreationDate": None}
+    ax.figure.savefig(path, dpi=FINE, metadata=undated)
     return [path]
