@@ -30,35 +30,40 @@ def statuses(answer: Answer) -> tuple[Status, ...]:
     return tuple(status for status in found if status is not None)
 
 
+def judged(answer: Answer) -> float | None:
+    """The end force at s = 1 in B/L² that is judged: the one asked for, None where there is none."""
+    return answer.case.until
+
+
 def _buckling(answer: Answer) -> Status:
-    until, limit = answer.case.until, answer.critical[0].force
-    if until is None:
+    load, limit = judged(answer), answer.critical[0].force
+    if load is None:
         reason = f"straight as long as the end force at s = 1 is above {force_text(answer, limit)}"
         return Status("Buckling", OPEN, "no load given", reason)
-    if until >= limit:
-        level, margin = _margin(until, limit)
+    if load >= limit:
+        level, margin = _margin(load, limit)
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {force_text(answer, limit)}")
-    load = f"at {force_text(answer, until)}, beyond {force_text(answer, limit)}"
-    if answer.first[-1].stable:
-        return Status("Buckling", CAUTION, "buckled, stable", load)
-    return Status("Buckling", BAD, "buckled, shape unstable", f"{load}: the rod takes another shape")
+    reason = f"at {force_text(answer, load)}, beyond {force_text(answer, limit)}"
+    if answer.first.at(load).stable:
+        return Status("Buckling", CAUTION, "buckled, stable", reason)
+    return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
 
 
 def _contact(answer: Answer) -> Status:
-    until, lift = answer.case.until, answer.lift_off
+    load, lift = judged(answer), answer.lift_off
     subject = "Contact"
-    if until is None:
+    if load is None:
         if lift is None:
             return Status(subject, OPEN, "no load given", "no lift-off over the range computed")
         return Status(subject, OPEN, "no load given", f"leaves the wall at {force_text(answer, lift.force)}")
-    if until >= answer.critical[0].force and answer.first.lift_off_at_buckling:
+    if load >= answer.critical[0].force and answer.first.lift_off_at_buckling:
         return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
     if lift is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
-    if until <= lift.force:
+    if load <= lift.force:
         return Status(subject, BAD, "leaves the wall", f"lift-off is at {force_text(answer, lift.force)}")
-    level, margin = _margin(until, lift.force)
+    level, margin = _margin(load, lift.force)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
     return Status(subject, level, word, f"{margin} the lift-off load, {force_text(answer, lift.force)}")
 
@@ -111,12 +116,12 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
 
 
 def _about_the_load(answer: Answer) -> list[str]:
-    until, limit, lift = answer.case.until, answer.critical[0].force, answer.lift_off
-    if until is None:
+    load, limit, lift = judged(answer), answer.critical[0].force, answer.lift_off
+    if load is None:
         return ["Give the end force that acts as load.until in the case file: this page then judges it."]
-    if until >= limit:
+    if load >= limit:
         return []
     out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(answer, limit)}."]
-    if lift is not None and until <= lift.force and lift.force < limit:
+    if lift is not None and load <= lift.force and lift.force < limit:
         out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(answer, lift.force)}.")
     return out
