@@ -73,7 +73,7 @@ def _margin(force: float, limit: float) -> tuple[str, str]:
     share = (force - limit) / abs(limit) if abs(limit) >= SMALL_LOAD else None
     if share is None:
         return GOOD, "above"
-    return (CAUTION if share < CLOSE else GOOD), f"{100.0 * share:.3g} % of it away from"
+    return (CAUTION if share < CLOSE else GOOD), f"{100.0 * share:.3g} % short of"
 
 
 def _cylinder(answer: Answer) -> Status | None:
