@@ -201,6 +201,7 @@ def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monke
 
 
 def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) -> None:
+    from rodwell.report.content import Words
     from rodwell.report.pdf import pdf
     from rodwell.report.pictures import draw
     from rodwell.report.sections import case_report
@@ -216,6 +217,8 @@ def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) 
     )
     answer = rodwell.answer(case)
     report, pictures = case_report(answer), draw(answer, tmp_path)
+    paragraphs = [block.text for part in report.sections for block in part.blocks if isinstance(block, Words)]
+    assert all(text.endswith((".", ":")) for text in paragraphs)  # nothing is cut off
     more = replace(report, front=replace(report.front, steps=report.front.steps * 4))
     for content in (report, more):
         made = PdfReader(io.BytesIO(pdf(content, pictures)))

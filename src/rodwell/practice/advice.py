@@ -100,7 +100,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
     case, out = answer.case, []
     if not answer.converged:
         out.append(
-            f"Trust the digits that the errors leave, and run the case again with another analysis.rtol than "
+            "Trust only the digits that the errors leave; if they are enough, give a larger analysis.rtol than "
             f"{case.rtol:g}.".replace("-", "−")
         )
     out += _about_the_load(answer)

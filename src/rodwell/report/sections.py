@@ -170,8 +170,10 @@ def _inputs_and_loads(answer: Answer) -> Section:
     head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
     head += ["± from the inputs"] if uncertain else []
     lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(answer)]
-    note = "Change of the load in percent for one percent more of an input, the others constant, from exact "
-    "derivatives."
+    note = (
+        "Change of the load in percent for one percent more of an input, the others constant (elasticity), from "
+        "exact derivatives."
+    )
     if uncertain:
         written = ", ".join(f"{u.key} = {u.written}" for u in uncertain)
         note += f" The last column carries the uncertainties of the inputs ({written}) through to first order, as "
