@@ -30,7 +30,7 @@ nb_execution_mode = "force"  # the tutorial is executed while the pages are buil
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 shutil.copy(HERE.parent / "examples" / "tutorial.ipynb", HERE)
-exclude_patterns = ["_build", "_generated", "Thumbs.db", ".DS_Store"]
+exclude_patterns = ["_build", "_generated", "jupyter_execute", "Thumbs.db", ".DS_Store"]
 highlight_language = "none"
 smartquotes_action = "D"  # dashes only: primes are derivatives
 
