@@ -45,7 +45,6 @@ COMMANDS = {
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
     "verify": "verify examples/drill-string.toml --at -140kN --rtol 1e-6",
     "sensitivity": "sensitivity --weight 15 --alpha 90",
-    "run-pdf": "run examples/field-drill-pipe.toml --pdf --quiet",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }
 """Output shown on the pages, by name of the file; run in the order given."""

@@ -41,7 +41,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         }
     )
     out = tmp_path_factory.mktemp("report") / "out"
-    names = write_results(rodwell.answer(case), out, with_pdf=True)
+    names = write_results(rodwell.answer(case), str(out), with_pdf=True)
     assert sorted(file.name for file in out.iterdir()) == list(names)
     return out
 

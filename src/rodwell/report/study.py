@@ -20,7 +20,7 @@ from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
 
-def write_study(study: Study, out: Path, *, with_pdf: bool = False) -> tuple[str, ...]:
+def write_study(study: Study, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
     """Write report (HTML), curves (PNG, SVG), table (CSV, XLSX), data (JSON) and the file to ``out``: all, or none.
 
     ``with_pdf`` adds the report as PDF. Returns the names of the files.
@@ -32,7 +32,7 @@ def write_study(study: Study, out: Path, *, with_pdf: bool = False) -> tuple[str
     """
     if with_pdf:
         check_pdf()
-    with whole_folder(out) as folder:
+    with whole_folder(Path(out)) as folder:
         save_figure(plot_study(study), folder / "curves")
         pictures = {"curves": ("svg", (folder / "curves.svg").read_bytes())}
         report = study_report(study)

@@ -32,7 +32,7 @@ FILES = {
 }
 
 
-def write_results(answer: Answer, out: Path, *, with_pdf: bool = False) -> tuple[str, ...]:
+def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
     """Write report, figures, tables, data and case to the folder ``out``: all files, or none.
 
     ``with_pdf`` adds the report as PDF. Returns the names of the files.
@@ -44,7 +44,7 @@ def write_results(answer: Answer, out: Path, *, with_pdf: bool = False) -> tuple
     """
     if with_pdf:
         check_pdf()
-    with whole_folder(out) as folder:
+    with whole_folder(Path(out)) as folder:
         pictures = draw(answer, folder)
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
         rod = viewer(answer.shown, answer.case.scales, still=still)
