@@ -94,10 +94,10 @@ def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[
     return largest_of(lambda s: np.abs(fields_at(problem, family, state, s)[name]))
 
 
-def largest_of(size: Callable[[FloatArray], FloatArray]) -> tuple[float, float]:
+def largest_of(size: Callable[[FloatArray], FloatArray], zooms: int = ZOOMS) -> tuple[float, float]:
     """Largest value of a function along the rod and its (first) place: ever closer between neighbours on a grid."""
     s = np.linspace(0.0, 1.0, GRID)
-    for _ in range(ZOOMS):
+    for _ in range(zooms):
         sizes = size(s)
         i = int(np.argmax(sizes >= (1.0 - ROUND_OFF) * np.max(sizes)))
         value, place = float(np.max(sizes)), float(s[i])

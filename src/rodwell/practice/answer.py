@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell._version import __version__
 from rodwell.analysis import ahead
@@ -29,6 +29,9 @@ from rodwell.practice.figures import (
 )
 from rodwell.practice.uncertainty import Spread, spread_of_load
 from rodwell.problem import ends_text
+
+if TYPE_CHECKING:
+    from rodwell.practice.assessment import Assessment
 
 
 @dataclass(frozen=True)
@@ -78,9 +81,18 @@ class Answer:
     def converged(self) -> bool:
         """Whether every reported number meets the tolerance: branches, special points and key figures."""
         rtol = self.case.rtol
-        return all(branch.converged for branch in self.branches) and all(
-            figure.error <= rtol * figure.scale for figure in self.figures.values()
+        return (
+            all(branch.converged for branch in self.branches)
+            and all(figure.error <= rtol * figure.scale for figure in self.figures.values())
+            and self.assessment.converged
         )
+
+    @cached_property
+    def assessment(self) -> Assessment:
+        """Stress and safety, the safe window and its limits, the loads that act, formulas beside the exact loads."""
+        from rodwell.practice.assessment import Assessment  # noqa: PLC0415 - it looks at answers
+
+        return Assessment(self)
 
     @cached_property
     def worst_certificate(self) -> Certificate:
@@ -120,8 +132,9 @@ class Answer:
             out += real_force(out[-1], self.case)
         if self.at_lift_off is not None:
             out += state_figures(self.at_lift_off)
-            if self.case.cylinder is not None and self.case.scales is not None:
-                out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
+        out += self.assessment.figures
+        if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
+            out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {figure.name: figure for figure in out}
 
     @property
@@ -161,6 +174,7 @@ class Answer:
             "yield_strength_Pa": case.yield_strength,
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
+            "assessment": self.assessment.as_dict(),
             "sensitivities": [load.as_dict() | _spread(spread) for load, spread in self._loads],
             "converged": self.converged,
             "certificate": self.worst_certificate.as_dict(),

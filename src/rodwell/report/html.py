@@ -12,10 +12,11 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
+from rodwell.report.strength import strength_section
 from rodwell.report.templates import embedded, template
 from rodwell.report.viewer import viewer
 
-PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴"}
+PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
 
 
 def number(value: float, error: float) -> str:
@@ -36,7 +37,7 @@ def rows(answer: Answer) -> list[dict[str, str]]:
             {
                 "label": figure.label,
                 "physical": figure.text(answer.case),
-                "plain": f"{number(figure.value, figure.error)} {_unit(figure)}",
+                "plain": f"{number(figure.value, figure.error)} {_unit(figure)}".rstrip(),
                 "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
                 "note": figure.note,
             }
@@ -108,6 +109,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
             special=_special(answer),
             pictures=images,
             rod=rod,
+            strength=strength_section(answer, images.get("along-rod", "")),
             wall=_sentence(answer.shown.wall.meaning),
             sensitivities=_sensitivities(answer),
             certificate=_certificate(answer.worst_certificate),

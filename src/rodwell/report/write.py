@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
+from rodwell.practice.along import along_table
 from rodwell.practice.answer import Answer
 from rodwell.report.html import render
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
@@ -14,12 +15,14 @@ from rodwell.report.viewer import write_viewer
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.tables import write_csv
 from rodwell.store.text import write_json
 
 FILES = {
     "report.html": "the report, self-contained",
     "rod-3d.html": "the rod in its cylinder, to turn and zoom",
     "answer.json": "key figures and special points",
+    "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
@@ -39,6 +42,7 @@ def write_results(answer: Answer, out: Path) -> None:
         write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
         write_json(answer.as_dict(), folder / "answer.json")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
+        write_csv(along_table(answer), folder / "along-rod.csv")
         write_answer(answer, folder / "branches.nc")
 
 
