@@ -89,7 +89,7 @@ def test_run_writes_everything(
     text = run(capsys, monkeypatch, "run", str(EXAMPLE), "--out", str(out))
     assert "124.6 kN" in text
     assert "Written to" in text
-    pictures = {f"{name}.png" for name in ("bifurcation", "modes", "wall-loads", "cylinder", "rod-3d")}
+    pictures = {f"{name}.png" for name in ("bifurcation", "modes", "wall-loads", "cylinder", "rod-3d", "along-rod")}
     assert {file.name for file in out.iterdir()} == set(FILES) | pictures
     assert list(out.parent.iterdir()) == [out]
     assert (out / "case.toml").read_text(encoding="utf-8") == EXAMPLE.read_text(encoding="utf-8")

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from rodwell.analysis.special import LIFT_OFF
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.audit import Row, load_rows
@@ -39,7 +38,7 @@ class Window:
     buckling, lift_off
         Force and error estimate; ``lift_off`` None where none was found.
     limits
-        What else gives on the way, and lift-off, the least compressive first.
+        What gives on the way, the least compressive first; the last is the end of the window.
     bottom
         Compression at the lower end s = 0 at buckling, against which widths are given in percent.
     """
@@ -51,10 +50,14 @@ class Window:
 
     @property
     def width(self) -> tuple[float, float] | None:
-        """How much compression can be added between buckling and lift-off, and its error estimate."""
-        if self.lift_off is None:
+        """How much compression can be added from buckling to the end of the window, and its error estimate.
+
+        The end is lift-off, or the loss of stability before it; None where neither was found.
+        """
+        end = self.end
+        if end is None or end.force is None:
             return None
-        return self.buckling[0] - self.lift_off[0], self.buckling[1] + self.lift_off[1]
+        return self.buckling[0] - end.force, self.buckling[1] + end.error
 
     @property
     def percent(self) -> float | None:
@@ -62,22 +65,14 @@ class Window:
         return None if self.width is None or self.bottom <= 0.0 else 100.0 * self.width[0] / self.bottom
 
     @property
-    def first(self) -> Limit | None:
-        """What limits first."""
-        return self.limits[0] if self.limits else None
+    def end(self) -> Limit | None:
+        """Where the window ends: lift-off, or the loss of stability before it."""
+        return next((limit for limit in self.limits if limit.kind in (LIFTS_OFF, UNSTABLE)), None)
 
     @property
     def stable_until(self) -> Limit | None:
         """Where the buckled shape loses its stability before lift-off, None if it does not."""
         return next((limit for limit in self.limits if limit.kind == UNSTABLE), None)
-
-    @property
-    def stable_width(self) -> float | None:
-        """The part of the width in which the buckled shape is stable, in B/L²."""
-        lost = self.stable_until
-        if lost is not None and lost.force is not None:
-            return max(self.buckling[0] - lost.force, 0.0) if lost.buckled else 0.0
-        return None if self.width is None else self.width[0]
 
 
 @dataclass(frozen=True)
@@ -139,7 +134,7 @@ class Assessment:
         return tuple(state for state in out if state is not None)
 
     def _at(self, load: AppliedLoad) -> AtLoad:
-        problem, branch, lift = self.case.problem, self.branch, self.answer.lift_off
+        problem, branch = self.case.problem, self.branch
         name = "at the applied load"
         if len(self.case.applied) > 1:
             name += f" {1 + self.case.applied.index(load)}"
@@ -147,24 +142,14 @@ class Assessment:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
         if branch.lift_off_at_buckling:
             return AtLoad(load, LEFT)
-        if lift is not None and load.force <= lift.force and branch.force[: lift.after + 1].min() >= load.force:
-            return AtLoad(load, LEFT)
+        end = self.window.end
+        if end is not None and end.force is not None and load.force <= end.force:
+            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE)
         try:
             solution = branch.at(load.force)
         except (InputError, NotConvergedError) as found:
             return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {found}")
-        if not solution.stable or self._lost_before(load.force):
-            return AtLoad(load, OTHER_SHAPE)
         return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
-
-    def _lost_before(self, force: float) -> bool:
-        """Whether the shape of mode 1 loses its stability before lift-off at less compression than a load."""
-        for point in self.branch.special_points:
-            if point.kind == LIFT_OFF or point.force < force:
-                return False
-            if point.index_after > 0:
-                return True
-        return False
 
     def stress(self, state: LoadedRod) -> RodStress | None:
         """Largest von Mises stress in the rod in a state, None where the section is not known."""
@@ -226,8 +211,8 @@ class Assessment:
 
     @property
     def limiting(self) -> Limit | None:
-        """The first limit other than lift-off, None if there is none before it."""
-        return next((limit for limit in self.window.limits if limit.kind != LIFTS_OFF), None)
+        """What gives first before the window ends, None if nothing does."""
+        return next((limit for limit in self.window.limits if limit.kind not in (LIFTS_OFF, UNSTABLE)), None)
 
     @property
     def converged(self) -> bool:

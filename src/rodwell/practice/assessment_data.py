@@ -46,13 +46,13 @@ def _at_bottom(a: Assessment) -> list[Figure]:
 def _window(a: Assessment) -> list[Figure]:
     """Width of the window, and the limits on the way."""
     out, window = [], a.window
-    width = window.width
-    if width is not None and not a.branch.lift_off_at_buckling:
+    width, end = window.width, window.end
+    if width is not None and end is not None and not a.branch.lift_off_at_buckling:
         parts = [] if window.percent is None else [f"{window.percent:.4g} % of the compression at s = 0 at buckling"]
-        parts.append("stable throughout" if window.stable_until is None else f"stable over {_share(a)} of it")
+        parts.append(f"ends by {end.name}")
         if a.limiting is not None:
             parts.append(f"limited before by {a.limiting.name}")
-        label = "Safe window: compression from buckling to lift-off, buckled but on the wall"
+        label = "Safe window: compression from buckling on, buckled but stable and on the wall"
         out.append(Figure("window", label, *width, "force", force_scale(window.buckling[0]), "; ".join(parts)))
     for limit in window.limits:
         if limit.kind == LIFTS_OFF or limit.force is None:
@@ -61,11 +61,6 @@ def _window(a: Assessment) -> list[Figure]:
         out.append(Figure(f"limit_{limit.kind}", label, limit.force, limit.error, "force",
                           force_scale(limit.force) + a.case.problem.axial_weight, _place(limit)))  # fmt: skip
     return out
-
-
-def _share(a: Assessment) -> str:
-    stable, width = a.window.stable_width, a.window.width
-    return "none" if not stable or width is None else f"{100.0 * stable / width[0]:.3g} %"
 
 
 def _place(limit: Limit) -> str:
@@ -103,7 +98,7 @@ def assessment_dict(a: Assessment) -> dict[str, Any]:
             "lift_off": None if window.lift_off is None else _force(a, *window.lift_off),
             "width": None if window.width is None else _force(a, *window.width),
             "percent_of_compression_at_bottom": window.percent,
-            "stable_width": None if window.stable_width is None else _force(a, window.stable_width, 0.0),
+            "ends_by": None if window.end is None else window.end.kind,
             "limits": [
                 {
                     "kind": limit.kind,

@@ -9,12 +9,13 @@ import numpy as np
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.fields import ZOOMS, largest_of
-from rodwell.analysis.special import CRITICAL, LIFT_OFF
+from rodwell.analysis.special import CRITICAL, LIFT_OFF, SpecialPoint
 from rodwell.numerics.location import bracketed_root
 from rodwell.practice.case import Case
 from rodwell.practice.loaded import Along, LoadedRod, on_mesh
 from rodwell.practice.strength import rod_section
 from rodwell.practice.supports import most_used
+from rodwell.problem import Problem
 
 LIFTS_OFF, UNSTABLE, YIELDS, CYLINDER, SUPPORT = "lift-off", "stability", "yield", "cylinder", "support"
 NAMES = {
@@ -96,61 +97,60 @@ def uses(case: Case) -> tuple[Use, ...]:
 def limits(case: Case, branch: Branch, critical: float) -> tuple[Limit, ...]:
     """Every limit of a rod on the way to lift-off of its first mode, the least compressive first.
 
-    What lies beyond lift-off (or the end of the branch) is not looked for: the rod has left the wall there.
+    The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached.
 
     Raises
     ------
     NotConvergedError
         If one that was passed could not be located.
     """
-    found = [limit for use in uses(case) if (limit := _limit(use, branch, critical)) is not None]
-    lift = branch.lift_off
-    if lift is not None:
-        s = lift.s[0] if lift.s else None
-        found.append(Limit(LIFTS_OFF, lift.force, lift.error, s, buckled=not branch.lift_off_at_buckling))
-    found += _instability(branch)
+    end = end_of_the_way(branch)
+    found = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
+    if end is not None:
+        buckled = end.kind != CRITICAL
+        kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
+        found.append(Limit(kind, end.force, end.error, end.s[0] if end.s else None, buckled))
     return tuple(sorted(found, key=lambda limit: -np.inf if limit.force is None else -limit.force))
 
 
-def _instability(branch: Branch) -> list[Limit]:
-    """The first loss of stability before lift-off, in the order of travel."""
-    for point in branch.special_points:
-        if point.kind == LIFT_OFF:
-            return []
-        if point.index_after > 0:
-            return [Limit(UNSTABLE, point.force, point.error, buckled=point.kind != CRITICAL)]
-    return []
-
-
-def _limit(use: Use, branch: Branch, critical: float) -> Limit | None:
-    """Where a strength is used up: on the straight rod, or on the branch up to lift-off; None if it is not."""
-    problem = branch.problem
-
-    def straight(force: float) -> LoadedRod:
-        return LoadedRod("straight", problem, force)
-
-    if use.of(straight(critical))[0] >= 1.0:
-        least = 0.5 * problem.axial_weight  # as much tension at the top as compression at the bottom
-        if least <= critical or use.of(straight(least))[0] >= 1.0:
-            return Limit(use.kind, None, s=use.of(straight(critical))[1], buckled=False)
-        share = bracketed_root(
-            lambda t: use.of(straight(least + t * (critical - least)))[0] - 1.0,
-            0.0, 1.0, use.of(straight(least))[0] - 1.0, use.of(straight(critical))[0] - 1.0,
-        )  # fmt: skip
-        force = least + share * (critical - least)
-        error = ROUND_OFF * (abs(least) + abs(critical))
-        return Limit(use.kind, force, error, use.of(straight(force))[1], buckled=False)
-    lift = branch.lift_off
+def end_of_the_way(branch: Branch) -> SpecialPoint | None:
+    """Lift-off, or where the shape loses its stability before; None where the branch ends on the wall and stable."""
     if branch.lift_off_at_buckling:
+        return branch.lift_off
+    return next((p for p in branch.special_points if p.kind == LIFT_OFF or p.index_after > 0), None)
+
+
+def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) -> Limit | None:
+    """Where a strength is used up: on the straight rod, or on the branch up to its end; None if it is not."""
+    problem = branch.problem
+    at_buckling, place = use.of(LoadedRod("", problem, critical))
+    if at_buckling >= 1.0:
+        return _of_straight(use, problem, critical, at_buckling - 1.0) or Limit(use.kind, None, s=place, buckled=False)
+    if end is not None and end.kind == CRITICAL:
         return None
-    last = len(branch) - 1 if lift is None else lift.after
+    last = len(branch) - 1 if end is None else end.after
     for i in range(1, last + 1):
         state = LoadedRod("", problem, branch[i].force, solution=branch[i])
         if use.of(state, 1)[0] >= NEAR and use.of(state)[0] >= 1.0:
             return _located(use, branch, i - 1)
-    if lift is not None and use.of(LoadedRod("", problem, lift.force, solution=lift.solution))[0] >= 1.0:
+    if end is not None and use.of(LoadedRod("", problem, end.force, solution=end.solution))[0] >= 1.0:
         return _located(use, branch, last)
     return None
+
+
+def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> Limit | None:
+    """Where the straight rod uses a strength up before it buckles; None if it does so at any load."""
+
+    def over(share: float) -> float:
+        return use.of(LoadedRod("", problem, least + share * (critical - least)))[0] - 1.0
+
+    least = 0.5 * problem.axial_weight  # as much tension at the top as compression at the bottom
+    at_least = over(0.0)
+    if least <= critical or at_least >= 0.0:
+        return None
+    force = least + bracketed_root(over, 0.0, 1.0, at_least, excess) * (critical - least)
+    error = ROUND_OFF * (abs(least) + abs(critical))
+    return Limit(use.kind, force, error, use.of(LoadedRod("", problem, force))[1], buckled=False)
 
 
 def _located(use: Use, branch: Branch, i: int) -> Limit:

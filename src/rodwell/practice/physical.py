@@ -152,7 +152,7 @@ def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
             raise InputError(
                 f"load.{key}",
                 getattr(load, key),
-                "tells of load.until and load.applied: give one of them too, or leave it out",
+                "tells of load.until and load.applied: give load.until or load.applied too, or leave it out",
             )
 
 

@@ -73,21 +73,16 @@ def _window(answer: Answer) -> str:
     window = answer.assessment.window
     if answer.first.lift_off_at_buckling:
         return "; it leaves the wall as soon as it buckles"
-    if window.width is None or window.lift_off is None or window.width[0] <= 0.0:
+    end, width = window.end, window.width
+    if end is None or width is None:
         return ""
+    if not end.buckled:
+        return "; the shape it buckles into is unstable from the start"
     percent = "" if window.percent is None else f" ({window.percent:.3g} %{_at_bottom(answer)})"
-    lost = window.stable_until
-    stable = ", stable," if lost is None else ""
-    text = f"; buckled, it stays on the wall{stable} for another {_size(answer, window.width[0])}{percent}"
-    text += " until it lifts off"
-    if lost is not None and lost.force is not None:
-        text += (
-            ", but its shape is unstable from the start"
-            if not lost.buckled
-            else f", but its shape is stable only to {force_text(answer, lost.force)}"
-        )
+    text = f"; buckled, it stays on the wall, stable, for another {_size(answer, width[0])}{percent} until it "
+    text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     state = answer.assessment.at_lift_off
-    if state is not None and answer.assessment.stress(state) is not None:
+    if end.kind == LIFTS_OFF and state is not None and answer.assessment.stress(state) is not None:
         text += f", {_stress(answer, state)}"
     yields = _yield(answer)
     if yields is not None:
@@ -138,7 +133,11 @@ def _at(answer: Answer, at: AtLoad) -> str:
     if at.what == STRAIGHT:
         text = f"{start} the rod is straight and stable, {_apart(answer, at, critical.force, 'buckling')}"
     elif at.what == BUCKLED:
-        far = "" if lift is None else f", {_apart(answer, at, lift.force, 'lift-off')}"
+        end = assessment.window.end
+        far = ""
+        if end is not None and end.force is not None:
+            what = "lift-off" if end.kind == LIFTS_OFF else "the loss of its stability"
+            far = f", {_apart(answer, at, end.force, what)}"
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
         lost = assessment.window.stable_until
@@ -160,10 +159,10 @@ def _at(answer: Answer, at: AtLoad) -> str:
 
 
 def _apart(answer: Answer, at: AtLoad, force: float, what: str) -> str:
-    """How far a load lies from another, measured where it was given: "12 % below lift-off (−38.5 kN there)"."""
+    """How far a load lies from another, measured where it was given: "12 % short of lift-off (−38.5 kN there)"."""
     more = answer.case.problem.axial_weight if at.load.bottom else 0.0
     here, other = more - at.load.force, more - force
-    word = "below" if here <= other else "beyond"
+    word = "short of" if here <= other else "beyond"
     scales = answer.case.scales
     there = f"{-other:.6g} B/L²".replace("-", "−") if scales is None else scales.text(-other, "force")
     far = _size(answer, abs(other - here)) if other <= 0.0 or here < 0.0 else f"{100.0 * abs(1.0 - here / other):.3g} %"

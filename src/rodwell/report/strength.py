@@ -88,15 +88,14 @@ def _window(a: Assessment) -> str:
     window = a.window
     if a.branch.lift_off_at_buckling:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
-    if window.width is None:
+    end, width = window.end, window.width
+    if end is None or width is None:
         return f"No lift-off was found down to {_text(a, a.answer.until, 'force')} at s = 1."
+    if not end.buckled:
+        return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
-    text = f"From buckling to lift-off {_text(a, window.width[0], 'force')} of compression can be added{percent}"
-    lost = window.stable_until
-    if lost is None:
-        text += "; the buckled shape is stable all the way (under dead loads)"
-    elif window.stable_width is not None:
-        text += f"; the buckled shape is stable over the first {_text(a, window.stable_width, 'force')} of it only"
+    text = f"From buckling to {end.name} {_text(a, width[0], 'force')} of compression can be added{percent}"
+    text += "; the buckled shape lies on the wall and is stable all the way (under dead loads)"
     limit = a.limiting
     return text + ("." if limit is None else f". What limits first is {limit.name}.")
 
