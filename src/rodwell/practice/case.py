@@ -290,7 +290,8 @@ def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schem
     try:
         return model.model_validate(given)
     except ValidationError as error:
-        found = [(f"load.{key}", value, what) for key, value, what in explain(error, within=("load",))]
+        explained = explain(error, within=("load",))
+        found = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
         raise CaseError(source, found) from None
 
 
