@@ -10,6 +10,7 @@ from rodwell.practice.audit import Row
 from rodwell.practice.figures import Figure, force_scale
 from rodwell.practice.limits import LIFTS_OFF, Limit
 from rodwell.practice.loaded import LoadedRod
+from rodwell.practice.units import plain
 
 
 def assessment_figures(a: Assessment) -> list[Figure]:
@@ -22,8 +23,9 @@ def assessment_figures(a: Assessment) -> list[Figure]:
     for support in a.supports(state):
         label = f"Largest load on a support {state.name}, part of its capacity: {support.text}"
         error = support.error / support.capacity
-        out.append(Figure(f"support_{support.kind}_used", label, support.utilisation, error, "1", 1.0,
-                          f"{100.0 * support.utilisation:.3g} % of its capacity"))  # fmt: skip
+        out.append(Figure(f"support_{support.kind}_used", label, support.utilisation, error, "1",
+                          max(1.0, support.utilisation),
+                          f"{plain(100.0 * support.utilisation, 3)} % of its capacity"))  # fmt: skip
     return out
 
 

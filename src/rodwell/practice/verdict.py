@@ -6,6 +6,7 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, AtLoad
 from rodwell.practice.limits import LIFTS_OFF, UNSTABLE, YIELDS, Limit
 from rodwell.practice.loaded import LoadedRod
+from rodwell.practice.units import plain
 from rodwell.practice.wording import force_text
 from rodwell.problem import ends_text
 
@@ -78,7 +79,7 @@ def _window(answer: Answer) -> str:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    percent = "" if window.percent is None else f" ({window.percent:.3g} %{_at_bottom(answer)})"
+    percent = "" if window.percent is None else f" ({plain(window.percent, 3)} %{_at_bottom(answer)})"
     text = f"; buckled, it stays on the wall, stable, for another {_size(answer, width[0])}{percent} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     state = answer.assessment.at_lift_off
@@ -116,7 +117,7 @@ def _stress(answer: Answer, state: LoadedRod) -> str:
     if found.safety is None:
         return text
     text += f", safety factor {found.safety[0]:.3g} against yield"
-    return text if found.safety[0] >= 1.0 else text + ": it yields"
+    return text if found.safety[0] >= 1.0 or state.name == "at lift-off" else text + ": it yields"
 
 
 def _at(answer: Answer, at: AtLoad) -> str:
@@ -133,11 +134,10 @@ def _at(answer: Answer, at: AtLoad) -> str:
     if at.what == STRAIGHT:
         text = f"{start} the rod is straight and stable, {_apart(answer, at, critical.force, 'buckling')}"
     elif at.what == BUCKLED:
-        end = assessment.window.end
-        far = ""
-        if end is not None and end.force is not None:
-            what = "lift-off" if end.kind == LIFTS_OFF else "the loss of its stability"
-            far = f", {_apart(answer, at, end.force, what)}"
+        far, last = "", assessment.window.end
+        if last is not None and last.force is not None:
+            what = "lift-off" if last.kind == LIFTS_OFF else "the loss of its stability"
+            far = f", {_apart(answer, at, last.force, what)}"
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
         lost = assessment.window.stable_until
@@ -165,7 +165,11 @@ def _apart(answer: Answer, at: AtLoad, force: float, what: str) -> str:
     word = "short of" if here <= other else "beyond"
     scales = answer.case.scales
     there = f"{-other:.6g} B/L²".replace("-", "−") if scales is None else scales.text(-other, "force")
-    far = _size(answer, abs(other - here)) if other <= 0.0 or here < 0.0 else f"{100.0 * abs(1.0 - here / other):.3g} %"
+    far = (
+        _size(answer, abs(other - here))
+        if other <= 0.0 or here < 0.0
+        else f"{plain(100.0 * abs(1.0 - here / other), 3)} %"
+    )
     return f"{far} {word} {what} ({there}{' effective' if at.load.real else ''} there)"
 
 
