@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import rodwell
-from rodwell import Answer, Case, Problem, answer
+from rodwell import Answer, Case, InputError, Problem, answer
 from rodwell.analysis.straight import straight_fields
 from rodwell.practice.along import along, along_table, shown
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT
@@ -386,3 +388,83 @@ def test_figures_put_depth_downwards_in_inclined_holes(base: dict[str, Any], tur
     values = drawn.get_xdata() if turned else drawn.get_ydata()
     assert np.max(values) * 1e6 == pytest.approx(peak[0], rel=2e-3)
     assert any("at buckling" in line.get_label() for line in force.lines)
+
+
+def test_section_of_the_report(drilling: Answer) -> None:
+    """The numbers of the answer, in its units, and every table that the case has."""
+    from rodwell.report.strength import strength_section
+
+    page = strength_section(drilling, "data:,")
+    lift, scales = drilling.lift_off, drilling.case.scales
+    assert lift is not None
+    assert scales is not None
+    for words in (
+        "At the loads that act",
+        "The safe window",
+        "Stress in the rod",
+        "Formulas of practice beside",
+        "data:,",
+    ):
+        assert words in page
+    assert scales.text(lift.force, "force", 6) in page
+    assert "−140 kN at the bottom, s = 0 (effective)" in page
+    assert "Dawson–Paslay" in page
+    bare = strength_section(plain({}), "data:,")
+    assert "Stress in the rod" not in bare
+    assert "At the loads that act" not in bare
+
+
+def test_answer_as_data(drilling: Answer) -> None:
+    data = json.loads(json.dumps(drilling.as_dict(), allow_nan=False))["assessment"]
+    assert data["verdict"] == verdict(drilling)
+    assert [state["name"] for state in data["states"]] == ["at buckling", "at lift-off", "at the applied load"]
+    assert data["applied"][0] | {"force": 0} == {
+        "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "why": "",
+        "state": "at the applied load",
+    }  # fmt: skip
+    assert all("error" in one["force"] for one in data["states"])
+    assert data["window"]["ends_by"] == LIFTS_OFF
+
+
+BAD = [
+    ({"load": {"applied": -20}}, "load.applied", "needs a unit"),
+    ({"load": {"applied": "-20 kg"}}, "load.applied", "must be a force"),
+    ({"load": {"applied": []}}, "load.applied", "from 1 to 12 forces"),
+    ({"load": {"applied": ["-20 kN", "nan N"]}}, "load.applied", "must be finite"),
+    ({"load": {"applied": "-20..-50 kN in 3"}}, "load.applied", "is not a number with a unit"),
+    ({"load": {"aplied": "-20 kN"}}, "load.aplied", "did you mean 'applied'"),
+    ({"load": {"applied": "-50 kN", "until": "-20 kN"}}, "load.until", "ends before load.applied"),
+    ({"load": {"applied": "-50 kN"}, "pressure": {"inside": "1 MPa"}}, "load.kind", "say whether load.applied is"),
+    ({"load": {"at": "bottom"}}, "load.at", "give load.until or load.applied too"),
+    ({"supports": {}}, "supports", "give force, moment or torque"),
+    ({"supports": {"force": "0 N"}}, "supports.force", "must be above 0"),
+    ({"supports": {"moment": "3 kN"}}, "supports.moment", "must be a moment"),
+    ({"supports": {"torqe": "3 kN m"}}, "supports.torqe", "did you mean 'torque'"),
+    ({"supports": 5}, "supports", "must be a section"),
+]
+
+
+@pytest.mark.parametrize(("more", "field", "phrase"), BAD, ids=[f"{field}-{phrase[:14]}" for _, field, phrase in BAD])
+def test_bad_loads_and_supports_are_refused(more: dict[str, Any], field: str, phrase: str) -> None:
+    with pytest.raises(InputError) as found:
+        Case.from_dict({**PIPE, **more})
+    assert found.value.field == field
+    assert phrase in found.value.problem
+
+
+def test_bad_loads_without_dimensions() -> None:
+    given = {"dimensionless": {"weight": 15}}
+    for value in ("-20 kN", [True], [-20.0, float("nan")]):
+        with pytest.raises(InputError, match=r"load\.applied"):
+            Case.from_dict({**given, "load": {"applied": value}})
+    with pytest.raises(InputError, match="no capacities"):
+        Case.from_dict({**given, "supports": {"force": "1 N"}})
+
+
+def test_a_list_of_loads_is_no_parameter_study(tmp_path: Path) -> None:
+    from rodwell.practice.study import is_study
+
+    text = '[rod]\nlength = "30 m"\n[load]\napplied = ["-20 kN", "-30 kN"]\n'
+    for content, varies in ((text, False), (text.replace('"30 m"', '["30 m", "40 m"]'), True)):
+        (tmp_path / "case.toml").write_text(content, encoding="utf-8")
+        assert is_study(tmp_path / "case.toml") is varies
