@@ -13,7 +13,7 @@ import pytest
 import rodwell
 from rodwell import Answer, Case, InputError, Problem, answer
 from rodwell.analysis.straight import straight_fields
-from rodwell.practice.along import along, along_table, shown
+from rodwell.practice.along import along, along_table, along_tables, shown
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT
 from rodwell.practice.audit import audit
 from rodwell.practice.capacity import cylinder_stress
@@ -141,6 +141,17 @@ def test_errors_cover_what_a_finer_tolerance_changes() -> None:
     assert exact is not None
     assert found is not None
     assert 0.0 < abs(found.value - exact.value) <= found.error + exact.error
+
+
+def test_error_of_a_limit_covers_what_a_finer_tolerance_changes() -> None:
+    limits = []
+    for rtol in (1e-10, 1e-4):
+        result = answer(case(BAR, rod={"yield_strength": "80 MPa"}, analysis={"rtol": rtol}))
+        limits.append(next(one for one in result.assessment.window.limits if one.kind == YIELDS))
+    exact, found = limits
+    assert exact.force is not None
+    assert found.force is not None
+    assert 0.0 < abs(found.force - exact.force) <= found.error + exact.error
 
 
 def test_the_same_in_other_units() -> None:
@@ -345,7 +356,7 @@ def test_table_along_the_rod(drilling: Answer) -> None:
     table, states = along_table(drilling), along(drilling)
     assert [one.state.name for one in states] == ["at buckling", "at lift-off", "at the applied load"]
     assert shown(drilling, states).state.name == "at the applied load"
-    assert len(table.rows) == 3 * 201
+    assert len(table.rows) == 3 * len(states[0].s)
     first = dict(zip(table.columns, table.rows[0], strict=True))
     bottom = drilling.figures["critical_load_1_bottom"].physical(drilling.case)
     assert bottom is not None
@@ -394,7 +405,7 @@ def test_section_of_the_report(drilling: Answer) -> None:
     """The numbers of the answer, in its units, and every table that the case has."""
     from rodwell.report.strength import strength_section
 
-    page = strength_section(drilling, "data:,")
+    page = strength_section(drilling, {"along-rod": "data:,"})
     lift, scales = drilling.lift_off, drilling.case.scales
     assert lift is not None
     assert scales is not None
@@ -409,7 +420,7 @@ def test_section_of_the_report(drilling: Answer) -> None:
     assert scales.text(lift.force, "force", 6) in page
     assert "−140 kN at the bottom, s = 0 (effective)" in page
     assert "Dawson–Paslay" in page
-    bare = strength_section(plain({}), "data:,")
+    bare = strength_section(plain({}), {"along-rod": "data:,"})
     assert "Stress in the rod" not in bare
     assert "At the loads that act" not in bare
 
@@ -468,3 +479,31 @@ def test_a_list_of_loads_is_no_parameter_study(tmp_path: Path) -> None:
     for content, varies in ((text, False), (text.replace('"30 m"', '["30 m", "40 m"]'), True)):
         (tmp_path / "case.toml").write_text(content, encoding="utf-8")
         assert is_study(tmp_path / "case.toml") is varies
+
+
+def test_largest_stress_of_a_long_string_is_not_passed_over() -> None:
+    """124 half waves: the largest stress at lift-off on a grid of 40 001 places; 201 of them miss 7 %."""
+    result = answer(
+        case(PIPE, rod={"length": "1500 m"}, hole={"angle_from_vertical": "60 deg"}, analysis={"rtol": 1e-5})
+    )
+    a = result.assessment
+    assert a.section is not None
+    assert a.at_lift_off is not None
+    found = a.stress(a.at_lift_off)
+    assert found is not None
+    assert found.value == pytest.approx(
+        np.max(a.section.von_mises(a.at_lift_off.fields(np.linspace(0, 1, 40001)))), rel=1e-5
+    )
+    assert len(along(result)[0].s) > 1000
+
+
+def test_tables_of_each_state_as_a_workbook(drilling: Answer, tmp_path: Path) -> None:
+    import openpyxl
+
+    from rodwell.store.tables import write_xlsx
+
+    write_xlsx(along_tables(drilling), tmp_path / "along.xlsx")
+    book = openpyxl.load_workbook(tmp_path / "along.xlsx")
+    assert book.sheetnames == ["at buckling", "at lift-off", "at the applied load"]
+    assert book["at lift-off"].cell(2, 1).value == 0.0
+    assert book["at lift-off"].max_row >= 202

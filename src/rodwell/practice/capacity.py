@@ -86,4 +86,4 @@ def _largest(
     solution: Solution, family: Family, state: State, cylinder: Cylinder, scales: Scales
 ) -> tuple[float, float]:
     """Largest stress and its place on one mesh."""
-    return largest_of(lambda s: cylinder.von_mises(fields_at(solution.problem, family, state, s), scales))
+    return largest_of(lambda s: cylinder.von_mises(fields_at(solution.problem, family, state, s), scales), state.space)

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.branches import Branch
-from rodwell.analysis.fields import ZOOMS, largest_of
+from rodwell.analysis.fields import ZOOMS
 from rodwell.analysis.special import CRITICAL, LIFT_OFF, SpecialPoint
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.families import Family, State
 from rodwell.numerics.location import bracketed_root
 from rodwell.practice.case import Case
-from rodwell.practice.loaded import Along, LoadedRod, on_mesh
+from rodwell.practice.loaded import LoadedRod, OnMesh, on_mesh
 from rodwell.practice.strength import rod_section
 from rodwell.practice.supports import most_used
 from rodwell.problem import Problem
@@ -71,7 +73,7 @@ class Use:
     """
 
     kind: str
-    size: Callable[[Along, int], tuple[float, float | None]]
+    size: Callable[[OnMesh, int], tuple[float, float | None]]
 
     def of(self, state: LoadedRod, zooms: int = ZOOMS) -> tuple[float, float | None]:
         """Largest part used and its place, on the fine mesh."""
@@ -83,11 +85,11 @@ def uses(case: Case) -> tuple[Use, ...]:
     out, rod, scales = [], rod_section(case), case.scales
     if rod is not None and rod.strength is not None:
         strength = rod.strength
-        out.append(Use(YIELDS, lambda at, n: largest_of(lambda s: rod.von_mises(at(s)) / strength, n)))
+        out.append(Use(YIELDS, lambda at, n: at.largest(lambda f: rod.von_mises(f) / strength, n)))
     if case.cylinder is not None and scales is not None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
-        out.append(Use(CYLINDER, lambda at, n: largest_of(lambda s: cylinder.von_mises(at(s), scales) / bears, n)))
+        out.append(Use(CYLINDER, lambda at, n: at.largest(lambda f: cylinder.von_mises(f, scales) / bears, n)))
     if case.supports is not None and scales is not None:
         supports = case.supports
         out.append(Use(SUPPORT, lambda at, _n: (most_used(at, supports, scales), None)))
@@ -98,11 +100,6 @@ def limits(case: Case, branch: Branch, critical: float) -> tuple[Limit, ...]:
     """Every limit of a rod on the way to lift-off of its first mode, the least compressive first.
 
     The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached.
-
-    Raises
-    ------
-    NotConvergedError
-        If one that was passed could not be located.
     """
     end = end_of_the_way(branch)
     found = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
@@ -154,10 +151,18 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
 
 
 def _located(use: Use, branch: Branch, i: int) -> Limit:
-    """The limit between points i and i+1, located on both meshes."""
-    solution, error = branch.zero_between(
-        i, lambda family, state: use.size(on_mesh(branch.problem, family, state), ZOOMS)[0] - 1.0
-    )
+    """The limit between points i and i+1, located on both meshes.
+
+    If that fails, the last point before it, with the step as its error: the answer then counts as not converged.
+    """
+
+    def excess(family: Family, state: State) -> float:
+        return use.size(on_mesh(branch.problem, family, state), ZOOMS)[0] - 1.0
+
+    try:
+        solution, error = branch.zero_between(i, excess)
+    except NotConvergedError:
+        solution, error = branch[i], abs(branch[i + 1].force - branch[i].force)
     return Limit(
         use.kind, solution.force, error, use.of(LoadedRod("", branch.problem, solution.force, 0.0, solution))[1]
     )

@@ -7,17 +7,32 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.analysis.fields import fields_at, largest_of
+from rodwell.analysis.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.straight import straight_fields
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
-from rodwell.numerics.spaces import FloatArray
+from rodwell.numerics.spaces import FloatArray, SplineSpace
 from rodwell.problem import Problem
 
 Fields = dict[str, FloatArray]
-Along = Callable[[FloatArray], Fields]
+
+
+@dataclass(frozen=True)
+class OnMesh:
+    """Fields of one state on one mesh as a function of places s (m,); no mesh for the straight rod."""
+
+    fields: Callable[[FloatArray], Fields]
+    space: SplineSpace | None = None
+
+    def __call__(self, s: FloatArray) -> Fields:
+        """Fields at places s (m,), in units B = L = 1."""
+        return self.fields(s)
+
+    def largest(self, size: Callable[[Fields], FloatArray], zooms: int = ZOOMS) -> tuple[float, float]:
+        """Largest value along the rod of something made from the fields, and its (first) place."""
+        return largest_of(lambda s: size(self.fields(s)), self.space, zooms)
 
 
 @dataclass(frozen=True)
@@ -62,10 +77,10 @@ class LoadedRod:
         return self.force - self.problem.axial_weight
 
     @property
-    def along(self) -> tuple[Along, ...]:
-        """Functions from places s (m,) to fields: on the coarse and the fine mesh, or one for the straight rod."""
+    def along(self) -> tuple[OnMesh, ...]:
+        """The state on the coarse and the fine mesh; one entry for the straight rod, which is known exactly."""
         if self.solution is None:
-            return (lambda s: straight_fields(self.problem, self.force, s),)
+            return (OnMesh(lambda s: straight_fields(self.problem, self.force, s)),)
         return tuple(on_mesh(self.solution.problem, *level) for level in self.solution.levels)
 
     def fields(self, s: FloatArray) -> Fields:
@@ -74,7 +89,7 @@ class LoadedRod:
 
     def largest(self, size: Callable[[Fields], FloatArray]) -> Largest:
         """Largest value along the rod of something made from its fields, with its error."""
-        values, places = zip(*(largest_of(_composed(size, at)) for at in self.along), strict=True)
+        values, places = zip(*(at.largest(size) for at in self.along), strict=True)
         return Largest(values[-1], float(estimated_error(values[-1], values[0])), places[-1])
 
     @property
@@ -99,10 +114,6 @@ class LoadedRod:
         return (0.0, 0.0) if self.solution is None else self.solution.number(Measured.SHORTENING)
 
 
-def _composed(size: Callable[[Fields], FloatArray], along: Along) -> Callable[[FloatArray], FloatArray]:
-    return lambda s: size(along(s))
-
-
-def on_mesh(problem: Problem, family: Family, state: State) -> Along:
+def on_mesh(problem: Problem, family: Family, state: State) -> OnMesh:
     """Fields of one state on one mesh, as a function of places s (m,)."""
-    return lambda s: fields_at(problem, family, state, s)
+    return OnMesh(lambda s: fields_at(problem, family, state, s), state.space)

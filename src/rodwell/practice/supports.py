@@ -8,7 +8,7 @@ import numpy as np
 
 from rodwell.analysis.balance import end_loads
 from rodwell.numerics.ladder import estimated_error
-from rodwell.practice.loaded import Along, Fields, LoadedRod
+from rodwell.practice.loaded import Fields, LoadedRod, OnMesh
 from rodwell.practice.scales import Scales
 from rodwell.practice.schema import Supports
 
@@ -59,7 +59,7 @@ def support_loads(state: LoadedRod, capacities: Supports, scales: Scales) -> tup
     return tuple(out)
 
 
-def most_used(along: Along, capacities: Supports, scales: Scales) -> float:
+def most_used(along: OnMesh, capacities: Supports, scales: Scales) -> float:
     """Largest part of a capacity that a support uses, from the fields of a state on one mesh."""
     units = {"force": scales.factor("force")}
     parts = []
