@@ -19,4 +19,8 @@ for at in a.applied:
         at.what,
         "" if stress is None else f"{stress.value / 1e6:.2f} MPa at s/L = {stress.s:.3f}",
     )
-print(a.window.width, a.window.percent, [limit.kind for limit in a.window.limits])
+unit = case.scales.factor("force")
+print(
+    f"window: {a.window.width[0] * unit:.0f} N, {a.window.percent:.1f} %; limits:",
+    *(limit.name for limit in a.window.limits),
+)

@@ -40,7 +40,7 @@ class LocalLimits:
     @property
     def applies(self) -> bool:
         """Whether the string is long enough for local limits to say something."""
-        return self.half_waves >= FEWEST_HALF_WAVES and self.critical.value is not None
+        return self.critical.value is not None
 
 
 @dataclass(frozen=True)

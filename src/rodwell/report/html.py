@@ -109,7 +109,7 @@ def render(answer: Answer, pictures: dict[str, tuple[str, bytes]]) -> str:
             special=_special(answer),
             pictures=images,
             rod=rod,
-            strength=strength_section(answer, images.get("along-rod", "")),
+            strength=strength_section(answer, images),
             wall=_sentence(answer.shown.wall.meaning),
             sensitivities=_sensitivities(answer),
             certificate=_certificate(answer.worst_certificate),
