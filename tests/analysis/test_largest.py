@@ -24,4 +24,5 @@ def test_first_place_of_equal_values() -> None:
     assert largest_of(np.ones_like) == (1.0, 0.0)
     assert largest_of(np.zeros_like) == (0.0, 0.0)
     assert largest_of(lambda s: s) == (1.0, 1.0)
-    assert largest_of(lambda s: np.sin(20.0 * s), zooms=1)[1] == pytest.approx(np.pi / 40.0, abs=0.5)
+    value, place = largest_of(lambda s: np.sin(20.0 * s), zooms=1)
+    assert np.sin(20.0 * place) == value > 0.99

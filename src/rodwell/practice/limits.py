@@ -32,6 +32,9 @@ NAMES = {
 NEAR = 0.9
 """From this part of a strength on, its largest value along the rod is looked for closely."""
 
+LOOKS = 17
+"""Forces at which the straight rod is looked at for one that it bears."""
+
 ROUND_OFF = 1e-12
 """Relative error of a load found for the straight rod."""
 
@@ -141,10 +144,12 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
     def over(share: float) -> float:
         return use.of(LoadedRod("", problem, least + share * (critical - least)))[0] - 1.0
 
-    least = 0.5 * problem.axial_weight  # as much tension at the top as compression at the bottom
-    at_least = over(0.0)
-    if least <= critical or at_least >= 0.0:
+    # what is used is convex in the force, and least where neither end is far from zero force
+    forces = [force for force in np.linspace(0.0, problem.axial_weight, LOOKS) if force > critical]
+    parts = [use.of(LoadedRod("", problem, float(force)))[0] for force in forces]
+    if not parts or min(parts) >= 1.0:
         return None
+    least, at_least = float(forces[int(np.argmin(parts))]), min(parts) - 1.0
     force = least + bracketed_root(over, 0.0, 1.0, at_least, excess) * (critical - least)
     error = ROUND_OFF * (abs(least) + abs(critical))
     return Limit(use.kind, force, error, use.of(LoadedRod("", problem, force))[1], buckled=False)

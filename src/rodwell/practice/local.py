@@ -52,12 +52,12 @@ class Exceeded:
 
 
 def string_of(case: Case) -> String | None:
-    """The local rod of a case, clamped at both ends; None without dimensions or weight."""
+    """The local rod of a case, with its end conditions; None without dimensions or weight."""
     problem, scales = case.problem, case.scales
     if scales is None or not problem.weight > 0.0:
         return None
-    return String(scales.stiffness, problem.weight * scales.factor("force_per_length"),
-                  problem.clearance * scales.length)  # fmt: skip
+    weight = problem.weight * scales.factor("force_per_length")
+    return String(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
 
 
 def half_waves(case: Case) -> float:
