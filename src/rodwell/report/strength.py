@@ -8,7 +8,7 @@ from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, As
 from rodwell.practice.audit import Row
 from rodwell.practice.limits import LIFTS_OFF, Limit
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.units import SI, System
+from rodwell.practice.units import SI, System, plain
 from rodwell.practice.verdict import local_sentence
 from rodwell.report.content import Block, Grid, Picture, Section, Words
 from rodwell.report.templates import template
@@ -185,12 +185,18 @@ def _limits(a: Assessment) -> Grid:
                 "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
                 _text(a, limit.force, "force", 6),
                 _text(a, limit.force - weight, "force", 6),
-                _text(a, limit.error, "force", 1),
+                _error(_text(a, limit.error, "force", 1)),
                 note.removeprefix("; "),
             )
         )
     head = ("What", "End force at s = 1", "Effective force at s = 0", "± error", "Remark")
     return Grid(head, tuple(rows), numeric=(1, 2, 3))
+
+
+def _error(text: str) -> str:
+    """An error with its unit, small numbers without an exponent: "700 nN", not "7e+02 nN"."""
+    value, _, unit = text.partition(" ")
+    return f"{plain(float(value.replace('−', '-')), 1)} {unit}".replace("-", "−")
 
 
 def _upper(text: str) -> str:
@@ -204,7 +210,7 @@ def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
     row = (
         f"{state.name}, {'straight' if state.straight else 'buckled'}",
         system.text(found.value, "stress", 6),
-        system.text(found.error, "stress", 1),
+        _error(system.text(found.error, "stress", 1)),
         f"s/L = {found.s:.4g}, {found.fibre}",
         *(system.text(part, "stress") for part in (found.axial, found.bending, found.torsion)),
     )
