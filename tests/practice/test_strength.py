@@ -426,8 +426,9 @@ def test_section_of_the_report(drilling: Answer) -> None:
 
 
 def test_answer_as_data(drilling: Answer) -> None:
-    data = json.loads(json.dumps(drilling.as_dict(), allow_nan=False))["assessment"]
-    assert data["verdict"] == verdict(drilling)
+    whole = json.loads(json.dumps(drilling.as_dict(), allow_nan=False))
+    assert whole["verdict"] == verdict(drilling)
+    data = whole["assessment"]
     assert [state["name"] for state in data["states"]] == ["at buckling", "at lift-off", "at the applied load"]
     assert data["applied"][0] | {"force": 0} == {
         "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "why": "",

@@ -144,9 +144,10 @@ class Answer:
     def as_dict(self) -> dict[str, Any]:
         """Return the answer as plain data, for JSON."""
         case, problem = self.case, self.case.problem
-        lift = self.lift_off
+        lift, assessment = self.lift_off, self.assessment.as_dict()
         return {
             "title": case.title,
+            "verdict": assessment.pop("verdict"),
             "rodwell_version": __version__,
             "conventions": "units B = L = 1 unless si, field or mm; end force at s = 1, tension positive"
             + (", effective" if case.with_fluids else "")
@@ -174,7 +175,7 @@ class Answer:
             "yield_strength_Pa": case.yield_strength,
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
-            "assessment": self.assessment.as_dict(),
+            "assessment": assessment,
             "sensitivities": [load.as_dict() | _spread(spread) for load, spread in self._loads],
             "converged": self.converged,
             "certificate": self.worst_certificate.as_dict(),
