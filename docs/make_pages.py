@@ -207,14 +207,20 @@ MEANINGS: dict[str, dict[str, str]] = {
         "until": "end force to which branches are followed, **tension positive** (compression negative); "
         "chosen from the loads found if not given",
         "twist": "end twisting moment T₁ at s = 1, a dead load",
-        "at": "where `until` acts: `top` (s = 1, the upper end) or `bottom` (s = 0)",
-        "kind": "what `until` is: the `effective` force, or the `real` one in the wall of the pipe; must be said "
-        "beside `[pressure]`",
+        "applied": "the load that acts, or a list, **tension positive**: [what becomes of the rod there](strength.md)",
+        "at": "where `until` and `applied` act: `top` (s = 1, the upper end) or `bottom` (s = 0)",
+        "kind": "what `until` and `applied` are: the `effective` force, or the `real` one in the wall; must "
+        "be said beside `[pressure]`",
     },
     "cylinder": {
         "outer_diameter": "outer diameter of the cylinder; the whole section, for its strength, may be left out",
         "inner_diameter": "inner diameter; that of the hole, if hole.diameter is given",
         "yield_strength": "strength against which the largest equivalent stress is set",
+    },
+    "supports": {
+        "force": "largest force that a support of rod or cylinder can bear, at either end",
+        "moment": "largest bending moment across its axis",
+        "torque": "largest twisting moment about its axis",
     },
     "mud": {
         "density": "of the fluid on both sides of the pipe, instead of `inside` and `outside`",
@@ -239,6 +245,7 @@ def case_keys() -> str:
     """Every key of a case file: one table for each section; the schema says which keys there are."""
     kinds = {"Number": "number", "int": "whole number", "InnerLength": "length", "Stiffness": "bending stiffness"}
     kinds |= {"ForcePerLength": "force per length", "Ends": "text", "Name": "text", "FluidDensity": "density"}
+    kinds |= {"Forces": "force", "PositiveForce": "force", "PositiveMoment": "moment"}
     kinds |= {"End": "text", "ForceKind": "text", "list[str]": "list of text"}
     parts = []
     for section, model in SECTIONS.items():

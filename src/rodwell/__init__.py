@@ -25,6 +25,7 @@ _HOME = {
     "Case": "rodwell.practice.case",
     "CertifiedLoads": "rodwell.analysis.certify",
     "Answer": "rodwell.practice.answer",
+    "Assessment": "rodwell.practice.assessment",
     "Audit": "rodwell.practice.audit",
     "answer": "rodwell.practice.answer",
     "audit": "rodwell.practice.audit",
@@ -88,6 +89,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.verify import verify
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer
+    from rodwell.practice.assessment import Assessment
     from rodwell.practice.audit import Audit, audit
     from rodwell.practice.case import Case
     from rodwell.practice.screening import Screening, screen

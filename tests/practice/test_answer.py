@@ -89,7 +89,7 @@ def test_run_writes_everything(
     text = run(capsys, monkeypatch, "run", str(EXAMPLE), "--out", str(out))
     assert "124.6 kN" in text
     assert "Written to" in text
-    pictures = {f"{name}.png" for name in ("bifurcation", "modes", "wall-loads", "cylinder", "rod-3d")}
+    pictures = {f"{name}.png" for name in ("bifurcation", "modes", "wall-loads", "cylinder", "rod-3d", "along-rod")}
     drawn = {name.replace("png", "svg") for name in pictures} - {"rod-3d.svg"}
     assert {file.name for file in out.iterdir()} == set(FILES) | pictures | drawn
     assert list(out.parent.iterdir()) == [out]

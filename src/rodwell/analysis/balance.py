@@ -89,7 +89,11 @@ def reactions(solution: Solution) -> tuple[Reaction, ...]:
 def _reactions(
     problem: Problem, family: Family, state: State
 ) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
-    f = fields_at(problem, family, state, np.array([0.0, 1.0]))
+    return end_loads(fields_at(problem, family, state, np.array([0.0, 1.0])))
+
+
+def end_loads(f: dict[str, FloatArray]) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
+    """Force and moment of the supports on rod and cylinder, by (which, s), from the fields at s = 0 and s = 1."""
     axes = frames(f["xi1"], f["eta"], f["xi2"])
     out = {}
     for end, sign in ((0, -1.0), (1, 1.0)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -32,8 +32,9 @@ from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.numerics.continuation import Trace
 from rodwell.numerics.events import INDEX, TURN, Found
-from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.location import LocationError, Span
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
+from rodwell.numerics.location import LocationError, Span, locate
 from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import FORCE
 from rodwell.problem import Problem
@@ -215,15 +216,38 @@ class Branch(Shown):
         except LocationError as problem:
             raise NotConvergedError(f"no state at {self.parameter} = {value:g}: {problem}") from None
 
-    def _between(self, i: int, value: float) -> Solution:
-        """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
+    def zero_between(self, i: int, function: Callable[[Family, State], float]) -> tuple[Solution, float]:
+        """State between points i and i+1 at which a function of it changes sign, and the error of the parameter there.
+
+        Located along the branch on both meshes, like special points; ``function`` takes the equations and the state on
+        one mesh, and must have opposite signs at the two points.
+
+        Raises
+        ------
+        NotConvergedError
+            If no such state could be found.
+        """
+        try:
+            ladder, (coarse, fine) = self._spans(i)
+            ends = function(fine.family, fine.first), function(fine.family, fine.last)
+            place = locate(coarse, fine, lambda span, state: function(span.family, state), ends)
+        except LocationError as problem:
+            raise NotConvergedError(f"no zero between points {i} and {i + 1}: {problem}") from None
+        point = ladder.point(place.coarse, place.fine)
+        return self._solution(point, ladder), place.gap / CLAIMED_GAIN + ROUND_OFF * abs(point.lam)
+
+    def _spans(self, i: int) -> tuple[Ladder, tuple[Span, Span]]:
+        """The stretch of the branch between points i and i+1 on both meshes."""
         ladder, last = self._trace.ladders[i + 1], self._trace.points[i + 1]
         _, first = ladder.adopt(self._trace.ladders[i], self._trace.points[i])
         if first is None:
             raise LocationError("the point before it could not be solved on a finer mesh")
-        coarse = Span(ladder.coarse, first.coarse, last.coarse).at_lam(value)
-        fine = Span(ladder.fine, first.fine, last.fine).at_lam(value)
-        near = ladder.point(coarse, fine)
+        return ladder, (Span(ladder.coarse, first.coarse, last.coarse), Span(ladder.fine, first.fine, last.fine))
+
+    def _between(self, i: int, value: float) -> Solution:
+        """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
+        ladder, (coarse, fine) = self._spans(i)
+        near = ladder.point(coarse.at_lam(value), fine.at_lam(value))
         return self._solution(ladder.at(near, value) or near, ladder)
 
     @cached_property

@@ -20,6 +20,15 @@ GRID = 201
 ZOOMS = 5
 """Times that the search for the largest value of a field looks ten times closer: nine digits of the value."""
 
+CLOSER = 21
+"""Places of each closer look."""
+
+NEAR, MOST_PEAKS = 0.05, 12
+"""Peaks on the grid within this part of the largest are looked at closely, at most so many of them."""
+
+EQUAL = 1e-10
+"""Peaks that differ by less than this part count as equal: the largest value is then at the first of them."""
+
 ROUND_OFF = 1e-13
 """Values that differ by less than this part count as equal: the largest value is then at the first of their places."""
 
@@ -91,18 +100,39 @@ def gauss_calculus() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
 
 def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
     """Largest size of a field and its place."""
-    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s)[name]))
+    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s)[name]), state.space)
 
 
-def largest_of(size: Callable[[FloatArray], FloatArray]) -> tuple[float, float]:
-    """Largest value of a function along the rod and its (first) place: ever closer between neighbours on a grid."""
+def largest_of(
+    size: Callable[[FloatArray], FloatArray], space: SplineSpace | None = None, zooms: int = ZOOMS
+) -> tuple[float, float]:
+    """Largest value of a function along the rod and its (first) place: ever closer between neighbours on a grid.
+
+    The grid is that of the samples of ``space``, if these are more: no half wave of a long rod is passed over. All
+    peaks that come near the largest are looked at closely, since a grid does not tell which of them is the highest.
+    """
     s = np.linspace(0.0, 1.0, GRID)
-    for _ in range(ZOOMS):
-        sizes = size(s)
-        i = int(np.argmax(sizes >= (1.0 - ROUND_OFF) * np.max(sizes)))
-        value, place = float(np.max(sizes)), float(s[i])
-        s = np.linspace(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)], 21)
-    return value, place
+    if space is not None and space.samples[0].size > GRID:
+        s = space.samples[0]
+    s, sizes = s[None, :], size(s)[None, :]
+    peaks = _peaks(sizes[0]) if zooms > 1 else np.argmax(sizes, axis=1)
+    for _ in range(zooms - 1):
+        rows = np.arange(s.shape[0]) if s.shape[0] > 1 else np.zeros(peaks.size, dtype=int)
+        left, right = s[rows, np.maximum(peaks - 1, 0)], s[rows, np.minimum(peaks + 1, s.shape[1] - 1)]
+        s = np.linspace(left, right, CLOSER, axis=1)
+        sizes = size(s.ravel()).reshape(s.shape)
+        peaks = np.argmax(sizes >= (1.0 - ROUND_OFF) * np.max(sizes, axis=1, keepdims=True), axis=1)
+    values = np.max(sizes, axis=1)
+    first = int(np.argmax(values >= (1.0 - EQUAL) * np.max(values)))
+    return float(np.max(values)), float(s[first, peaks[first]])
+
+
+def _peaks(sizes: FloatArray) -> FloatArray:
+    """Numbers of the peaks of values on a grid that come near the largest, in order; of equal neighbours the first."""
+    up = np.concatenate([[True], sizes[1:] > sizes[:-1]])
+    down = np.concatenate([sizes[:-1] >= sizes[1:], [True]])
+    found = np.flatnonzero(up & down & (sizes >= (1.0 - NEAR) * np.max(sizes)))
+    return np.asarray(np.sort(found[np.argsort(-sizes[found], kind="stable")[:MOST_PEAKS]]))
 
 
 def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rodwell.practice.answer import Answer
+from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.meaning import SMALL_LOAD, force_text
 
 GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
@@ -26,13 +27,19 @@ class Status:
 
 def statuses(answer: Answer) -> tuple[Status, ...]:
     """Buckling, contact with the wall and strength under the force asked for, and the numbers themselves."""
-    found = (_buckling(answer), _contact(answer), _cylinder(answer), _numbers(answer))
+    found = (_buckling(answer), _contact(answer), _rod(answer), _cylinder(answer), _numbers(answer))
     return tuple(status for status in found if status is not None)
 
 
 def judged(answer: Answer) -> float | None:
-    """The end force at s = 1 in B/L² that is judged: the one asked for, None where there is none."""
-    return answer.case.until
+    """The end force at s = 1 in B/L² that is judged: the most compressive load that acts, or else the one asked for."""
+    applied = _most(answer)
+    return answer.case.until if applied is None else applied.force
+
+
+def _most(answer: Answer) -> AppliedLoad | None:
+    """The most compressive load that acts."""
+    return min(answer.case.applied, key=lambda load: load.force, default=None)
 
 
 def _buckling(answer: Answer) -> Status:
@@ -41,7 +48,7 @@ def _buckling(answer: Answer) -> Status:
         reason = f"straight as long as the end force at s = 1 is above {force_text(answer, limit)}"
         return Status("Buckling", OPEN, "no load given", reason)
     if load >= limit:
-        level, margin = _margin(load, limit)
+        level, margin = _margin(answer, load, limit)
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {force_text(answer, limit)}")
     reason = f"at {force_text(answer, load)}, beyond {force_text(answer, limit)}"
@@ -63,17 +70,32 @@ def _contact(answer: Answer) -> Status:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
     if load <= lift.force:
         return Status(subject, BAD, "leaves the wall", f"lift-off is at {force_text(answer, lift.force)}")
-    level, margin = _margin(load, lift.force)
+    level, margin = _margin(answer, load, lift.force)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
     return Status(subject, level, word, f"{margin} the lift-off load, {force_text(answer, lift.force)}")
 
 
-def _margin(force: float, limit: float) -> tuple[str, str]:
-    """Level of a force that has not reached a limit, and how far from it that is."""
-    share = (force - limit) / abs(limit) if abs(limit) >= SMALL_LOAD else None
+def _margin(answer: Answer, force: float, limit: float) -> tuple[str, str]:
+    """Level of a force that has not reached a limit, and how far from it that is, measured where the load was given."""
+    most = _most(answer)
+    size = abs(limit - answer.case.problem.axial_weight) if most is not None and most.bottom else abs(limit)
+    share = (force - limit) / size if size >= SMALL_LOAD else None
     if share is None:
         return GOOD, "above"
     return (CAUTION if share < CLOSE else GOOD), f"{100.0 * share:.3g} % short of"
+
+
+def _rod(answer: Answer) -> Status | None:
+    """Strength of the rod under the most compressive load that acts, or else at lift-off or buckling."""
+    a = answer.assessment
+    at = min(a.applied, key=lambda one: one.load.force) if a.applied else None
+    state = (a.at_lift_off or a.at_buckling) if at is None else at.state
+    found = None if state is None else a.stress(state)
+    if state is None or found is None or found.safety is None:
+        return None
+    factor = found.safety[0]
+    level = BAD if factor < 1.0 else CAUTION if factor < 1.0 / (1.0 - CLOSE) else GOOD
+    return Status("Rod", level, "yields" if factor < 1.0 else "holds", f"safety factor {factor:.3g} {state.name}")
 
 
 def _cylinder(answer: Answer) -> Status | None:
@@ -118,7 +140,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
 def _about_the_load(answer: Answer) -> list[str]:
     load, limit, lift = judged(answer), answer.critical[0].force, answer.lift_off
     if load is None:
-        return ["Give the end force that acts as load.until in the case file: this page then judges it."]
+        return ["Give the end force that acts as load.applied in the case file: this page then judges it."]
     if load >= limit:
         return []
     out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(answer, limit)}."]

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from rodwell.analysis.measures import Measured
+    from rodwell.practice.assessment import Assessment
 
 
 @dataclass(frozen=True)
@@ -84,9 +85,18 @@ class Answer(Shown):
     def converged(self) -> bool:
         """Whether every reported number meets the tolerance: branches, special points and key figures."""
         rtol = self.case.rtol
-        return all(branch.converged for branch in self.branches) and all(
-            figure.error <= rtol * figure.scale for figure in self.figures.values()
+        return (
+            all(branch.converged for branch in self.branches)
+            and all(figure.error <= rtol * figure.scale for figure in self.figures.values())
+            and self.assessment.converged
         )
+
+    @cached_property
+    def assessment(self) -> Assessment:
+        """Stress and safety, the safe window and its limits, the loads that act, formulas beside the exact loads."""
+        from rodwell.practice.assessment import Assessment  # noqa: PLC0415 - it looks at answers
+
+        return Assessment(self)
 
     @cached_property
     def worst_certificate(self) -> Certificate:
@@ -126,8 +136,9 @@ class Answer(Shown):
             out += real_force(out[-1], self.case)
         if self.at_lift_off is not None:
             out += state_figures(self.at_lift_off)
-            if self.case.cylinder is not None and self.case.scales is not None:
-                out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
+        out += self.assessment.figures
+        if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
+            out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {figure.name: figure for figure in out}
 
     def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None) -> Axes:
@@ -141,9 +152,10 @@ class Answer(Shown):
     def as_dict(self) -> dict[str, Any]:
         """Return the answer as plain data, for JSON."""
         case, problem = self.case, self.case.problem
-        lift = self.lift_off
+        lift, assessment = self.lift_off, self.assessment.as_dict()
         return {
             "title": case.title,
+            "verdict": assessment.pop("verdict"),
             "rodwell_version": __version__,
             "conventions": "units B = L = 1 unless si, field or mm; end force at s = 1, tension positive"
             + (", effective" if case.with_fluids else "")
@@ -171,6 +183,7 @@ class Answer(Shown):
             "yield_strength_Pa": case.yield_strength,
             "figures": {name: figure.as_dict(case) for name, figure in self.figures.items()},
             "branches": [_branch_dict(branch) for branch in self.branches],
+            "assessment": assessment,
             "sensitivities": [load.as_dict() | _spread(spread) for load, spread in self._loads],
             "converged": self.converged,
             "certificate": self.worst_certificate.as_dict(),

@@ -171,13 +171,26 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
-    known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra or {})
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
-    rod = rod_of(problem, tuple(known.items()))
-    order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
-    rows = tuple(_row(formula, rod, loads) for formula in order)
+    rod = _known_rod(case, extra or {})
+    rows = load_rows(case, loads, extra)
     others = tuple(_other(f, rod, loads[0], problem) for f in FORMULAS.values() if f.kind not in AGAINST)
     return Audit(problem, scales, title, loads, notes, rows, others)
+
+
+def load_rows(
+    case: Case | Problem, loads: tuple[Load, ...], extra: Mapping[str, float] | None = None
+) -> tuple[Row, ...]:
+    """Hold every formula of a load against exact ones that are known: the first critical load first."""
+    rod = _known_rod(case, extra or {})
+    order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
+    return tuple(_row(formula, rod, loads) for formula in order)
+
+
+def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> Rod:
+    """The rod with all that the case and ``extra`` tell of it."""
+    known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra)
+    return rod_of(case.problem if isinstance(case, Case) else case, tuple(known.items()))
 
 
 def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> Rod:

@@ -30,6 +30,12 @@ class Cylinder:
         """Second moment of area in m⁴."""
         return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
 
+    def von_mises(self, f: dict[str, FloatArray], scales: Scales) -> FloatArray:
+        """Equivalent stress at the outer surface in Pa, (m,), from fields along the rod in units B = L = 1."""
+        per_moment = 0.5 * self.outer_diameter / self.inertia * scales.factor("moment")
+        bending = per_moment * np.hypot(f["mu"], f["cylinder_M3"])
+        return np.asarray(np.sqrt(bending**2 + 3.0 * (0.5 * per_moment * f["T2"]) ** 2))
+
 
 @dataclass(frozen=True)
 class Stress:
@@ -71,18 +77,13 @@ def cylinder_stress(state: Solution, cylinder: Cylinder, scales: Scales) -> Stre
     σ = M R/I with M = √(μ² + (λ cos η)²) and τ = T₂ R/2I from the moments in the cylinder, (59). The pressing of
     the rod on the wall where it lies, and loads that do not come from the rod, are not in it.
     """
-    per_moment = 0.5 * cylinder.outer_diameter / cylinder.inertia * scales.factor("moment")
-    values, places = zip(*(_largest(state, *level, per_moment) for level in state.levels), strict=True)
+    values, places = zip(*(_largest(state, *level, cylinder, scales) for level in state.levels), strict=True)
     error = float(estimated_error(values[1], values[0]))
     return Stress(values[1], error, places[1], values[1] / cylinder.yield_strength)
 
 
-def _largest(solution: Solution, family: Family, state: State, per_moment: float) -> tuple[float, float]:
+def _largest(
+    solution: Solution, family: Family, state: State, cylinder: Cylinder, scales: Scales
+) -> tuple[float, float]:
     """Largest stress and its place on one mesh."""
-
-    def stress(s: FloatArray) -> FloatArray:
-        f = fields_at(solution.problem, family, state, s)
-        bending = per_moment * np.hypot(f["mu"], f["cylinder_M3"])
-        return np.asarray(np.sqrt(bending**2 + 3.0 * (0.5 * per_moment * f["T2"]) ** 2))
-
-    return largest_of(stress)
+    return largest_of(lambda s: cylinder.von_mises(fields_at(solution.problem, family, state, s), scales), state.space)

@@ -16,12 +16,13 @@ from rodwell.analysis.accuracy import checked_rtol
 from rodwell.display import Shown
 from rodwell.errors import InputError
 from rodwell.practice import schema
+from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.capacity import Cylinder, cylinder_of
 from rodwell.practice.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.practice.explain import SECTIONS, explain
 from rodwell.practice.facts import Fact
 from rodwell.practice.fluids import NO_FLUIDS, Fluids
-from rodwell.practice.physical import check_force_words, physical
+from rodwell.practice.physical import check_force_words, check_reach, physical
 from rodwell.practice.scales import Scales
 from rodwell.practice.strings import PhysicalRod
 from rodwell.practice.uncertainty import Moved, UncertainInput, split
@@ -76,6 +77,12 @@ class Case(Shown):
         Mud and pressures; forces of a case with them are effective ones.
     facts
         What followed from the inputs on the way to the problem: weight, forces, clearance, and sources.
+    applied
+        The loads that act, of ``load.applied``.
+    supports
+        What each support can bear, if given.
+    gravity
+        In m/s².
     """
 
     title: str
@@ -92,6 +99,9 @@ class Case(Shown):
     rod: PhysicalRod | None = None
     fluids: Fluids = NO_FLUIDS
     facts: tuple[Fact, ...] = ()
+    applied: tuple[AppliedLoad, ...] = ()
+    supports: schema.Supports | None = None
+    gravity: float = 9.80665
 
     @property
     def yield_strength(self) -> float | None:
@@ -244,12 +254,15 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     if isinstance(load, schema.Load):
         found = physical(parsed, load, catalogue)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
-                    rod=found.rod, fluids=found.fluids, facts=found.facts, **common)  # fmt: skip
+                    rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
+                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
     else:
-        problem, until = _dimensionless(parsed.dimensionless, load)
-        case = Case(problem=problem, scales=None, until=until, **common)
+        problem, until, applied = _dimensionless(parsed.dimensionless, load)
+        case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
     if case.until is not None and not math.isfinite(case.until):
         raise InputError("load.until", load.until, "must be finite")
+    if not all(math.isfinite(item.force) for item in case.applied):
+        raise InputError("load.applied", load.applied, "must be finite")
     return case
 
 
@@ -257,6 +270,7 @@ def _check_sections(parsed: schema.CaseFile) -> None:
     """Refuse what a case without dimensions cannot use."""
     reasons = {
         "cylinder": "a dimensionless case has no stresses",
+        "supports": "a dimensionless case has no capacities",
         "mud": "the weight of a dimensionless case is that in its fluids",
         "pressure": "the forces of a dimensionless case are effective ones",
         "catalogue": "a dimensionless case has no pipe",
@@ -277,7 +291,8 @@ def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schem
     try:
         return model.model_validate(given)
     except ValidationError as error:
-        found = [(f"load.{key}", value, what) for key, value, what in explain(error, within=("load",))]
+        explained = explain(error, within=("load",))
+        found = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
         raise CaseError(source, found) from None
 
 
@@ -289,8 +304,10 @@ def _named(field: str, compute: Any) -> Any:
         raise InputError(field, problem.value, problem.problem) from None
 
 
-def _dimensionless(given: schema.Dimensionless | None, load: schema.DimensionlessLoad) -> tuple[Problem, float | None]:
-    """Problem, and end force at s = 1: N(s) = F + γ cos α (s − 1)."""
+def _dimensionless(
+    given: schema.Dimensionless | None, load: schema.DimensionlessLoad
+) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
+    """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
     try:
         problem = Problem(
@@ -304,7 +321,11 @@ def _dimensionless(given: schema.Dimensionless | None, load: schema.Dimensionles
     except InputError as found:
         section = "load" if found.field == "twist" else "dimensionless"
         raise InputError(f"{section}.{found.field}", found.value, found.problem) from None
-    if load.until is None:
+    if load.until is None and load.applied is None:
         check_force_words(load)
-        return problem, None
-    return problem, load.until + (problem.axial_weight if load.at == "bottom" else 0.0)
+    bottom = load.at == "bottom"
+    more = problem.axial_weight if bottom else 0.0
+    until = None if load.until is None else load.until + more
+    applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
+    check_reach(until, applied)
+    return problem, until, applied

@@ -12,6 +12,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.Rod,
     "hole": schema.Hole,
     "cylinder": schema.Cylinder,
+    "supports": schema.Supports,
     "dimensionless": schema.Dimensionless,
     "load": schema.Load,
     "analysis": schema.Analysis,

@@ -7,11 +7,16 @@ axial force is the effective one, N = N_real − pᵢ Aᵢ + pₒ Aₒ (tension 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 from rodwell.errors import InputError
+from rodwell.numerics.spaces import FloatArray
 from rodwell.practice import schema
 from rodwell.practice.facts import Fact
 from rodwell.practice.strings import PhysicalRod
+
+Drop = TypeVar("Drop", float, FloatArray)
+"""A height in m, or heights (m,)."""
 
 ROUND_OFF = 1e-12
 
@@ -37,10 +42,15 @@ class Fluids:
             displaced = rod.bore_area + rod.weight_in_air / (rod.density * gravity)
         return rod.weight_in_air + gravity * (self.inside * rod.bore_area - self.outside * displaced)
 
-    def effective_minus_real(self, rod: PhysicalRod, gravity: float, drop: float = 0.0) -> float:
-        """−pᵢ Aᵢ + pₒ Aₒ in N, at a place ``drop`` metres of height below s = 1."""
+    def pressures(self, gravity: float, drop: Drop) -> tuple[Drop, Drop]:
+        """Pressures in Pa inside and outside, at places ``drop`` metres of height below s = 1."""
         inside = self.inside_pressure + self.inside * gravity * drop
         outside = self.outside_pressure + self.outside * gravity * drop
+        return inside, outside
+
+    def effective_minus_real(self, rod: PhysicalRod, gravity: float, drop: float = 0.0) -> float:
+        """−pᵢ Aᵢ + pₒ Aₒ in N, at a place ``drop`` metres of height below s = 1."""
+        inside, outside = self.pressures(gravity, drop)
         return outside * rod.outer_area - inside * rod.bore_area
 
 

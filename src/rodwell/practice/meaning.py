@@ -6,7 +6,11 @@ import numpy as np
 
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
+from rodwell.practice.verdict import load_sentences, verdict, window_sentences
+from rodwell.practice.wording import force_text, place_text
 from rodwell.problem import ends_text
+
+__all__ = ["ASSUMPTIONS", "assumptions", "force_text", "place_text", "sentences"]
 
 ASSUMPTIONS = (
     "end force and end torque are dead loads at s = 1",
@@ -38,41 +42,12 @@ def assumptions(answer: Answer) -> tuple[str, ...]:
     return (ends_text(answer.case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
 
 
-def force_text(answer: Answer, value: float, error: float | None = None) -> str:
-    """A force in the reader's units: SI first where the case has dimensions."""
-    plain = f"{value:.6g} B/L²".replace("-", "−")
-    if error is not None:
-        plain = f"{value:.10g} ± {error:.1e} B/L²".replace("-", "−")
-    if answer.case.scales is None:
-        return plain
-    return f"{answer.case.scales.text(value, 'force')} ({plain})"
-
-
-def place_text(answer: Answer, s: float) -> str:
-    """A place along the rod."""
-    if answer.case.scales is None:
-        return f"s/L = {s:.6g}"
-    return f"{answer.case.scales.text(s, 'length')} from the end s = 0 (s/L = {s:.6g})"
-
-
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
-    out = [_verdict(answer), _mode(answer)]
+    out = [verdict(answer), *load_sentences(answer), _mode(answer)]
     out += _applied(answer)
-    out += [_lift_off(answer), _stability(answer), _wall(answer), _inputs(answer)]
+    out += [_lift_off(answer), _stability(answer), *window_sentences(answer), _wall(answer), _inputs(answer)]
     return [sentence for sentence in out if sentence]
-
-
-def _verdict(answer: Answer) -> str:
-    first = answer.critical[0]
-    if first.force > 0.0:
-        return (
-            "The rod buckles under its own weight: it stays straight only if the end s = 1 is held in tension of at "
-            f"least {force_text(answer, first.force)}."
-        )
-    return (
-        f"The straight rod is stable until the compression at the end s = 1 reaches {force_text(answer, -first.force)}."
-    )
 
 
 def _mode(answer: Answer) -> str:

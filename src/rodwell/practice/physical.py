@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rodwell.errors import InputError
 from rodwell.practice import schema
+from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.catalogue import Catalogue
 from rodwell.practice.facts import Fact
 from rodwell.practice.fluids import Fluids, checked_weight, fluid_facts, fluids_of
@@ -18,13 +19,15 @@ from rodwell.problem import Problem, checked_ends
 
 @dataclass(frozen=True)
 class Physical:
-    """A case with dimensions: problem, scales, effective end force at s = 1 in B/L² (or None), and how."""
+    """A case with dimensions: problem, scales, effective end forces at s = 1 in B/L², and how; gravity in m/s²."""
 
     problem: Problem
     scales: Scales
     until: float | None
+    applied: tuple[AppliedLoad, ...]
     rod: PhysicalRod
     fluids: Fluids
+    gravity: float
     facts: tuple[Fact, ...]
 
 
@@ -56,8 +59,8 @@ def physical(parsed: schema.CaseFile, load: schema.Load, catalogue: Catalogue) -
     problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
     facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
     facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
-    until, how = _end_force(load, parsed, problem, scales, rod, fluids)
-    return Physical(problem, scales, until, rod, fluids, (*facts, *how))
+    until, applied, how = _end_force(load, parsed, problem, scales, rod, fluids)
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how))
 
 
 def _problem(
@@ -98,29 +101,48 @@ def _end_force(
     scales: Scales,
     rod: PhysicalRod,
     fluids: Fluids,
-) -> tuple[float | None, list[Fact]]:
-    """The effective end force at s = 1 in B/L² from load.until, wherever and however that is measured.
+) -> tuple[float | None, tuple[AppliedLoad, ...], list[Fact]]:
+    """Effective end forces at s = 1 in B/L² from load.until and load.applied, wherever and however they are measured.
 
     The real force becomes the effective one where it is measured; from the bottom to the top the effective force
     grows by the buoyed weight along the axis, N(s) = F + γ cos α (s − 1).
     """
-    if load.until is None:
+    if load.until is None and load.applied is None:
         check_force_words(load)
-        return None, []
+        return None, (), []
     if parsed.pressure is not None and load.kind is None:
-        what = 'is missing: with [pressure], say whether load.until is the "real" force in the wall of the pipe or the '
+        key = "until" if load.until is not None else "applied"
+        what = (
+            f'is missing: with [pressure], say whether load.{key} is the "real" force in the wall of the pipe or the '
+        )
         raise InputError("load.kind", None, what + '"effective" one')
     assert parsed.hole is not None
     bottom, gravity = load.at == "bottom", parsed.hole.gravity
-    until = load.until
     drop = rod.length * math.cos(math.radians(problem.alpha)) if bottom and problem.alpha < 90.0 else 0.0
-    if load.kind == "real":
-        until += fluids.effective_minus_real(rod, gravity, drop)
-    force = until / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+    less = fluids.effective_minus_real(rod, gravity, drop) if load.kind == "real" else 0.0
     where = "bottom, s = 0" if bottom else "top, s = 1"
-    given = f"from {load.kind or 'effective'} {scales.system.text(load.until, 'force', 6)} at the {where}"
-    fact = Fact("end force asked for, effective, at s = 1", force * scales.factor("force"), "force", given)
-    return force, [fact]
+    facts = []
+
+    def at_top(given: float, what: str) -> float:
+        force = (given + less) / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+        how = f"from {load.kind or 'effective'} {scales.system.text(given, 'force', 6)} at the {where}"
+        facts.append(Fact(f"{what}, effective, at s = 1", force * scales.factor("force"), "force", how))
+        return force
+
+    until = None if load.until is None else at_top(load.until, "end force asked for")
+    applied = tuple(
+        AppliedLoad(at_top(given, "applied end force"), given, bottom, load.kind == "real")
+        for given in load.applied or ()
+    )
+    check_reach(until, applied)
+    return until, applied, facts
+
+
+def check_reach(until: float | None, applied: tuple[AppliedLoad, ...]) -> None:
+    """Refuse applied loads that lie beyond load.until."""
+    if until is None or not applied or min(load.force for load in applied) >= until:
+        return
+    raise InputError("load.until", None, "ends before load.applied: give one that is at least as compressive, or none")
 
 
 def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
@@ -128,7 +150,9 @@ def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
     for key in ("at", "kind"):
         if getattr(load, key, None) is not None:
             raise InputError(
-                f"load.{key}", getattr(load, key), "tells of load.until: give load.until too, or leave it out"
+                f"load.{key}",
+                getattr(load, key),
+                "tells of load.until and load.applied: give load.until or load.applied too, or leave it out",
             )
 
 

@@ -39,6 +39,8 @@ InnerLength = Annotated[float, _quantity("length", least=0.0)]
 Angle = Annotated[float, _quantity("angle")]
 Force = Annotated[float, _quantity("force")]
 Moment = Annotated[float, _quantity("moment")]
+PositiveForce = Annotated[float, _quantity("force", above=0.0)]
+PositiveMoment = Annotated[float, _quantity("moment", above=0.0)]
 Stress = Annotated[float, _quantity("stress", above=0.0)]
 Density = Annotated[float, _quantity("density", above=0.0)]
 ForcePerLength = Annotated[float, _quantity("force per length", least=0.0)]
@@ -77,6 +79,22 @@ Units = Annotated[Literal["si", "field", "mm"], _one_of(*SYSTEMS)]
 
 MOST_MODES = 12
 """Branches that one case may ask for."""
+
+MOST_LOADS = 12
+"""Loads that one case may apply."""
+
+
+def _several(value: object) -> object:
+    """One value as a list of one."""
+    if not isinstance(value, list | tuple):
+        return [value]
+    if not 1 <= len(value) <= MOST_LOADS:
+        raise ValueError(f"must hold from 1 to {MOST_LOADS} forces")
+    return value
+
+
+Forces = Annotated[tuple[Force, ...], BeforeValidator(_several)]
+Numbers = Annotated[tuple[Number, ...], BeforeValidator(_several)]
 
 
 class Section(BaseModel):
@@ -121,6 +139,20 @@ class Cylinder(Section):
     yield_strength: Stress
 
 
+class Supports(Section):
+    """[supports]: what each support of the rod's ends and of the cylinder's ends can bear, for the check against it."""
+
+    force: PositiveForce | None = None
+    moment: PositiveMoment | None = None
+    torque: PositiveMoment | None = None
+
+    @model_validator(mode="after")
+    def _something(self) -> Supports:
+        if self.force is None and self.moment is None and self.torque is None:
+            raise ValueError("is empty: give force, moment or torque, or leave the section out")
+        return self
+
+
 class Mud(Section):
     """[mud]: the fluids in and around the rod, whose weight and lift make its weight the buoyed one."""
 
@@ -156,6 +188,7 @@ class Load(Section):
     """[load]: what is applied at the ends (in physical units)."""
 
     until: Force | None = None
+    applied: Forces | None = None
     twist: Moment = 0.0
     at: End | None = None
     kind: ForceKind | None = None
@@ -165,6 +198,7 @@ class DimensionlessLoad(Section):
     """[load] beside [dimensionless]."""
 
     until: Number | None = None
+    applied: Numbers | None = None
     twist: Number = 0.0
     at: End | None = None
 
@@ -183,6 +217,7 @@ class CaseFile(Section):
     rod: Rod | None = None
     hole: Hole | None = None
     cylinder: Cylinder | None = None
+    supports: Supports | None = None
     dimensionless: Dimensionless | None = None
     load: dict[str, Any] = Field(default_factory=dict)
     analysis: Analysis = Analysis()

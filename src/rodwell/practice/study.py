@@ -196,8 +196,9 @@ def is_study(path: Path) -> bool:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return False
-    sections = (section for name, section in data.items() if isinstance(section, dict) and name not in LISTS)
-    return any(is_varied(value) for section in sections for value in section.values())
+    sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
+    values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
+    return any(is_varied(value) for name, value in values if name not in LISTS)
 
 
 def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:

@@ -14,12 +14,13 @@ from rodwell.practice.units import in_unit_of
 MOST_POINTS = 400
 """Points that one study may have."""
 
-LISTS = ("catalogue",)
-"""Sections in which a list is a list, not an input that varies."""
+LISTS = ("catalogue", "load.applied")
+"""Sections and keys in which a list is a list, not an input that varies."""
 
 FIXED = {
     "analysis": "cannot vary: it says how the cases are computed",
     "cylinder": "cannot vary: a study computes no stresses in the cylinder",
+    "supports": "cannot vary: a study computes no loads on supports",
     "load.until": "cannot vary: a study ends at lift-off",
 }
 """Sections and keys that cannot vary, and why."""
@@ -90,9 +91,9 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
                 raise InputError(section, values, "cannot vary")
             continue
         for key, value in values.items():
-            if section in LISTS or not is_varied(value):
-                continue
             name = f"{section}.{key}"
+            if section in LISTS or name in LISTS or not is_varied(value):
+                continue
             why = FIXED.get(section) or FIXED.get(name)
             if why is not None:
                 raise InputError(name, value, why)

@@ -11,12 +11,14 @@ import matplotlib as mpl
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
+from rodwell.plots.along import plot_along
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
+from rodwell.practice.along import along, shown
 from rodwell.practice.answer import Answer
 
 PNG: Any = {"dpi": 140, "pil_kwargs": {"compress_level": 2}}
@@ -33,6 +35,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             "wall-loads": plot_wall_loads(answer.first, scales),
             "cylinder": plot_cylinder_moments(answer.shown, scales),
             "rod-3d": plot_rod(answer.shown, scales),
+            "along-rod": _along(answer),
         }
         out = {}
         for name, ax in axes.items():
@@ -46,6 +49,12 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             out[name] = ("svg", buffer.getvalue())
             (folder / f"{name}.svg").write_bytes(buffer.getvalue())
     return out
+
+
+def _along(answer: Answer) -> Any:
+    """Force and stress along the rod."""
+    states, assessment = along(answer), answer.assessment
+    return plot_along(states, shown(answer, states), answer.case.scales, assessment.local, answer.case.yield_strength)
 
 
 def draw_diagram(diagram: Diagram, folder: Path) -> None:

@@ -11,6 +11,7 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.figures import Figure
 from rodwell.practice.meaning import assumptions, sentences
 from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.strength import strength_sections
 from rodwell.report.texts import (
     certificate,
     conversions,
@@ -27,6 +28,9 @@ from rodwell.report.texts import (
 DECISIVE = (
     "critical_load_1",
     "lift_off_load",
+    "window",
+    "rod_stress_lift_off",
+    "safety_factor_lift_off",
     "largest_wall_force",
     "total_wall_force",
     "cylinder_stress",
@@ -50,6 +54,7 @@ def case_report(answer: Answer) -> Report:
         sections=(
             Section("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
             key_figures(answer),
+            *strength_sections(answer),
             _pictures(answer),
             _special_points(answer),
             _inputs_and_loads(answer),

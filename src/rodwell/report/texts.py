@@ -10,7 +10,7 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figures import Figure
 
-PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴"}
+PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
 
 
 def number(value: float, error: float) -> str:
@@ -37,7 +37,7 @@ def rows(answer: Answer) -> list[dict[str, str]]:
             {
                 "label": figure.label,
                 "physical": figure.text(answer.case),
-                "plain": f"{number(figure.value, figure.error)} {unit(figure)}",
+                "plain": f"{number(figure.value, figure.error)} {unit(figure)}".rstrip(),
                 "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
                 "note": figure.note,
             }

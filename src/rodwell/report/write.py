@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
+from rodwell.practice.along import along_table
 from rodwell.practice.answer import Answer
 from rodwell.practice.answer_tables import answer_tables
 from rodwell.report.page import render
@@ -27,6 +28,7 @@ FILES = {
     "answer.json": "key figures and special points",
     "tables.xlsx": "key figures and special points as a workbook",
     "key-figures.csv": "the key figures as a table",
+    "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
@@ -58,6 +60,7 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
         write_csv(tables[0], folder / "key-figures.csv")
         write_xlsx(tables, folder / "tables.xlsx")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
+        write_csv(along_table(answer), folder / "along-rod.csv")
         write_answer(answer, folder / "branches.nc")
         return tuple(sorted(file.name for file in folder.iterdir()))
 

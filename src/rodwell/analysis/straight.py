@@ -1,0 +1,29 @@
+"""The straight rod under an end force: every field that is not zero, in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.numerics.spaces import FloatArray
+from rodwell.problem import Problem
+
+ZERO = ("y", "eta", "rod_F2", "rod_F3", "rod_M2", "rod_M3", "cylinder_F1", "cylinder_F2", "cylinder_F3", "T2", "mu",
+        "cylinder_M3")  # fmt: skip
+
+
+def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, FloatArray]:
+    """Fields of the straight rod at ``s`` (m,), in units B = L = 1; names as in the nomenclature.
+
+    ``force`` is the end force at s = 1, tension positive: the axial force is N(s) = F + γ cos α (s − 1), the contact
+    pressure that of the lateral weight.
+    """
+    s = np.asarray(s, dtype=float)
+    out = {name: np.zeros_like(s) for name in ZERO}
+    return out | {
+        "z": s,
+        "xi1": problem.twist / problem.torsional_stiffness * s,
+        "xi2": np.full_like(s, np.pi if problem.on_top else 0.0),
+        "rod_F1": force + problem.axial_weight * (s - 1.0),
+        "rod_M1": np.full_like(s, -problem.twist),
+        "contact_pressure": np.full_like(s, -problem.foundation),
+    }

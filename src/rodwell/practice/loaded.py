@@ -1,0 +1,119 @@
+"""The rod under one end force: straight, or buckled and lying on the wall. All that is asked of it, on both meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rodwell.analysis.fields import ZOOMS, fields_at, largest_of
+from rodwell.analysis.measures import Measured
+from rodwell.analysis.solution import Solution
+from rodwell.analysis.straight import straight_fields
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import estimated_error
+from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.problem import Problem
+
+Fields = dict[str, FloatArray]
+
+
+@dataclass(frozen=True)
+class OnMesh:
+    """Fields of one state on one mesh as a function of places s (m,); no mesh for the straight rod."""
+
+    fields: Callable[[FloatArray], Fields]
+    space: SplineSpace | None = None
+
+    def __call__(self, s: FloatArray) -> Fields:
+        """Fields at places s (m,), in units B = L = 1."""
+        return self.fields(s)
+
+    def largest(self, size: Callable[[Fields], FloatArray], zooms: int = ZOOMS) -> tuple[float, float]:
+        """Largest value along the rod of something made from the fields, and its (first) place."""
+        return largest_of(lambda s: size(self.fields(s)), self.space, zooms)
+
+
+@dataclass(frozen=True)
+class Largest:
+    """Largest value of something along the rod, its error estimate, and the (first) place s/L."""
+
+    value: float
+    error: float
+    s: float
+
+
+@dataclass(frozen=True)
+class LoadedRod:
+    """The rod in one state.
+
+    Attributes
+    ----------
+    name
+        What the state is: "at buckling", "at lift-off", "at the applied load".
+    problem
+        The problem.
+    force, error
+        End force F at s = 1 in B/L², tension positive, and how well it is known (0: it was given).
+    solution
+        The buckled state; None for the straight rod.
+    """
+
+    name: str
+    problem: Problem
+    force: float
+    error: float = 0.0
+    solution: Solution | None = field(default=None, repr=False)
+
+    @property
+    def straight(self) -> bool:
+        """Whether the rod is straight."""
+        return self.solution is None
+
+    @property
+    def at_bottom(self) -> float:
+        """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α."""
+        return self.force - self.problem.axial_weight
+
+    @property
+    def along(self) -> tuple[OnMesh, ...]:
+        """The state on the coarse and the fine mesh; one entry for the straight rod, which is known exactly."""
+        if self.solution is None:
+            return (OnMesh(lambda s: straight_fields(self.problem, self.force, s)),)
+        return tuple(on_mesh(self.solution.problem, *level) for level in self.solution.levels)
+
+    def fields(self, s: FloatArray) -> Fields:
+        """Fields at places s (m,), in units B = L = 1; for the straight rod those that are asked for here."""
+        return self.along[-1](s)
+
+    def largest(self, size: Callable[[Fields], FloatArray]) -> Largest:
+        """Largest value along the rod of something made from its fields, with its error."""
+        values, places = zip(*(at.largest(size) for at in self.along), strict=True)
+        return Largest(values[-1], float(estimated_error(values[-1], values[0])), places[-1])
+
+    @property
+    def contact(self) -> Largest:
+        """Largest contact force per length on the wall, |p|, in B/L³."""
+        if self.solution is None:
+            return self.largest(lambda f: np.abs(f["contact_pressure"]))
+        peak = self.solution.wall.contact
+        return Largest(peak.value, peak.error, peak.s)
+
+    @property
+    def total_contact(self) -> tuple[float, float]:
+        """Contact force on the wall in all, all directions added, and its error estimate, in B/L²."""
+        if self.solution is not None:
+            return self.solution.total_wall_force
+        weight = self.problem.lateral_weight
+        return weight, float(estimated_error(weight, weight))
+
+    @property
+    def shortening(self) -> tuple[float, float]:
+        """Approach of the ends by buckling, 1 − z(1), and its error estimate, in L."""
+        return (0.0, 0.0) if self.solution is None else self.solution.number(Measured.SHORTENING)
+
+
+def on_mesh(problem: Problem, family: Family, state: State) -> OnMesh:
+    """Fields of one state on one mesh, as a function of places s (m,)."""
+    return OnMesh(lambda s: fields_at(problem, family, state, s), state.space)

@@ -1,0 +1,228 @@
+"""The part of the report on strength: loads that act, the safe window, stresses, formulas beside the exact loads."""
+
+from __future__ import annotations
+
+from rodwell.practice.along import along, shown
+from rodwell.practice.answer import Answer
+from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.practice.audit import Row
+from rodwell.practice.limits import LIFTS_OFF, Limit
+from rodwell.practice.loaded import LoadedRod
+from rodwell.practice.units import SI, System, plain
+from rodwell.practice.verdict import local_sentence
+from rodwell.report.content import Block, Grid, Picture, Section, Words
+
+WORDS = {
+    STRAIGHT: "straight, stable",
+    BUCKLED: "buckled, on the wall, stable",
+    OTHER_SHAPE: "beyond the stable part of mode 1: it takes another shape",
+    LEFT: "has left the wall",
+}
+
+
+def strength_sections(answer: Answer) -> tuple[Section, ...]:
+    """Return the sections on strength: those that the case has something to say on."""
+    a = answer.assessment
+    return (*_at_loads(a), _window(a), *_stress_section(a), *_formulas(a))
+
+
+def _at_loads(a: Assessment) -> tuple[Section, ...]:
+    """What becomes of the rod at each load that acts."""
+    if not a.applied:
+        return ()
+    stressed, strong = a.section is not None, _strong(a)
+    borne = a.case.cylinder is not None or a.case.supports is not None
+    columns = [
+        ("Load as given", "given", True),
+        ("Effective, at s = 1", "force", True),
+        ("The rod", "what", True),
+        ("Largest contact per length", "contact", True),
+        ("Contact in all", "total", True),
+        ("Approach of the ends", "shortening", True),
+        ("Largest von Mises", "stress", stressed),
+        ("Safety factor", "safety", strong),
+        ("Most used capacity", "used", borne),
+    ]
+    shown_columns = [(head, name) for head, name, wanted in columns if wanted]
+    rows = [_applied(a, at) for at in a.applied]
+    table = Grid(
+        tuple(head for head, _ in shown_columns),
+        tuple(tuple(row.get(name, "") for _, name in shown_columns) for row in rows),
+        numeric=tuple(i for i in range(len(shown_columns)) if i not in (0, 2)),
+    )
+    note = (
+        "Tension positive. The approach of the ends is that by buckling. Where the rod has left the wall, or mode 1 "
+        "has lost its stability, no numbers are given."
+    )
+    return (Section("At the loads that act", (table, Words(note, "small"))),)
+
+
+def _strong(a: Assessment) -> bool:
+    return a.case.yield_strength is not None and a.section is not None
+
+
+def _window(a: Assessment) -> Section:
+    """Window, limits, and the figure along the rod."""
+    local = local_sentence(a.answer)
+    caption = "Effective axial force along the rod, tension positive"
+    caption += ", with the local limits of an endless rod at its lower end." if local else "."
+    if a.section is not None:
+        state = shown(a.answer, along(a.answer, 2)).state.name
+        caption += (
+            f" Stress in the rod {state}: axial from the real force, bending at the outer surface (either sign), and "
+            "the largest von Mises stress of each section."
+        )
+    alternative = f"Force{' and stress' if a.section is not None else ''} along the rod"
+    blocks: list[Block] = [Words(_window_text(a)), _limits(a)]
+    blocks += [Words(local, "small")] if local else []
+    return Section("The safe window, and what limits it", (*blocks, Picture("along-rod", alternative, caption)))
+
+
+def _stress_section(a: Assessment) -> tuple[Section, ...]:
+    if a.section is None:
+        return ()
+    head = ["State", "Largest von Mises", "± error", "Where", "axial there", "bending there, ±", "torsion there"]
+    rows = tuple(_stress(a, state) for state in a.states)
+    note = (
+        "Lamé's stresses from the pressures, the real axial force in the wall, bending √(M₂² + M₃²) and torsion M₁ of "
+        "the rod, at the inner and the outer surface; shear force and the pressing on the wall are neglected; nominal "
+        "dimensions. "
+    )
+    if _strong(a):
+        head.append("Safety factor")
+        strength = _system(a).text(a.case.yield_strength or 0.0, "stress")
+        note += f"Safety factor: yield strength {strength} over the von Mises stress."
+    else:
+        note += "Give rod.grade or rod.yield_strength for safety factors."
+    return (Section("Stress in the rod", (Grid(tuple(head), rows, (1, 2, 4, 5, 6, 7)), Words(note, "small"))),)
+
+
+def _formulas(a: Assessment) -> tuple[Section, ...]:
+    if not a.formulas:
+        return ()
+    head = ("Formula", "Load", "at", "Exact there", "Difference", "Verdict", "Beside", "Validity")
+    note = (
+        "Compression positive, at the place where the formula's force is measured: top s = 1, middle, bottom s = 0. "
+        "Difference: formula/exact − 1; unsafe: the formula's load is above the exact one. Helical formulas stand "
+        "beside lift-off, where a rod on the wall ends. rodwell audit compares every formula, coils included."
+    )
+    table = Grid(head, tuple(_formula(a, row) for row in a.formulas), numeric=(1, 3, 4))
+    return (Section("Formulas of practice beside the exact loads", (table, Words(note, "small"))),)
+
+
+def _system(a: Assessment) -> System:
+    return SI if a.case.scales is None else a.case.scales.system
+
+
+def _text(a: Assessment, value: float, dimension: str, digits: int = 5) -> str:
+    """A number in units B = L = 1 in those of the case."""
+    if a.case.scales is not None:
+        return a.case.scales.text(value, dimension, digits)
+    unit = {"force": "B/L²", "force_per_length": "B/L³", "length": "L"}[dimension]
+    return f"{value:.{digits}g} {unit}".replace("-", "−")
+
+
+def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
+    load, state = at.load, at.state
+    kind = "real" if load.real else "effective"
+    given = _system(a).text(load.given, "force", 6) if a.case.scales is not None else f"{load.given:.6g} B/L²"
+    row = {
+        "given": f"{given.replace('-', '−')} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
+        "force": _text(a, load.force, "force"),
+        "what": WORDS.get(at.what, at.why),
+    }
+    if state is None:
+        return row
+    found, used = a.stress(state), [support.utilisation for support in a.supports(state)]
+    cylinder = a.cylinder(state)
+    used += [] if cylinder is None else [cylinder.utilisation]
+    return row | {
+        "contact": _text(a, state.contact.value, "force_per_length", 4),
+        "total": _text(a, state.total_contact[0], "force", 4),
+        "shortening": _text(a, state.shortening[0], "length", 4) if not state.straight else "0",
+        "stress": "" if found is None else _system(a).text(found.value, "stress", 4),
+        "safety": "" if found is None or found.safety is None else f"{found.safety[0]:.3g}",
+        "used": f"{100.0 * max(used):.3g} %" if used else "",
+    }
+
+
+def _window_text(a: Assessment) -> str:
+    """The window in words."""
+    window = a.window
+    if a.branch.lift_off_at_buckling:
+        return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
+    end, width = window.end, window.width
+    if end is None or width is None:
+        return f"No lift-off was found down to {_text(a, a.answer.until, 'force')} at s = 1."
+    if not end.buckled:
+        return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
+    percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
+    text = f"From buckling to {end.name} {_text(a, width[0], 'force')} of compression can be added{percent}"
+    text += "; the buckled shape lies on the wall and is stable all the way (under dead loads)"
+    limit = a.limiting
+    return text + ("." if limit is None else f". What limits first is {limit.name}.")
+
+
+def _limits(a: Assessment) -> Grid:
+    """Buckling, and what gives after it, or before it."""
+    weight, first = a.case.problem.axial_weight, Limit("buckling", *a.window.buckling)
+    rows = []
+    for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
+        if limit.force is None:
+            rows.append((_upper(limit.name), "at any force", "", "", ""))
+            continue
+        note = "" if limit.s is None else f"at s/L = {limit.s:.4g}"
+        if limit is not first and limit.kind != LIFTS_OFF and not limit.buckled:
+            note += "; before the rod buckles, which it then does not do elastically"
+        rows.append(
+            (
+                "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
+                _text(a, limit.force, "force", 6),
+                _text(a, limit.force - weight, "force", 6),
+                _error(_text(a, limit.error, "force", 1)),
+                note.removeprefix("; "),
+            )
+        )
+    head = ("What", "End force at s = 1", "Effective force at s = 0", "± error", "Remark")
+    return Grid(head, tuple(rows), numeric=(1, 2, 3))
+
+
+def _error(text: str) -> str:
+    """An error with its unit, small numbers without an exponent: "700 nN", not "7e+02 nN"."""
+    value, _, unit = text.partition(" ")
+    return f"{plain(float(value.replace('−', '-')), 1)} {unit}".replace("-", "−")
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
+    """A state: its largest stress, the parts that make it up, and the safety factor."""
+    found, system = a.stress(state), _system(a)
+    assert found is not None
+    row = (
+        f"{state.name}, {'straight' if state.straight else 'buckled'}",
+        system.text(found.value, "stress", 6),
+        _error(system.text(found.error, "stress", 1)),
+        f"s/L = {found.s:.4g}, {found.fibre}",
+        *(system.text(part, "stress") for part in (found.axial, found.bending, found.torsion)),
+    )
+    return row if found.safety is None else (*row, f"{found.safety[0]:.4g}")
+
+
+def _formula(a: Assessment, row: Row) -> tuple[str, ...]:
+    """A formula: its load, the exact one, and how they compare."""
+    main = row.main
+    assert main is not None
+    assert row.value is not None
+    return (
+        row.formula.name,
+        _text(a, row.value, "force"),
+        row.formula.place or "",
+        _text(a, main.exact, "force"),
+        "–" if main.percent is None else f"{main.percent:+.1f} %".replace("-", "−"),
+        "safe" if main.safe else "unsafe",
+        {"critical": "critical load", "lift_off": "lift-off"}[row.against],
+        "inside" if row.valid else "outside: " + "; ".join(row.reasons),
+    )
