@@ -133,6 +133,48 @@ def test_the_touching_place_switches_where_both_places_touch() -> None:
     assert p == pytest.approx([0.0, 0.0], abs=1e-5)
 
 
+def crossings(weight: float, until: float) -> int:
+    """How often the largest contact pressure changes its sign on the first branch at α = 60°, by following it in F."""
+    branch = follow(Problem(weight, alpha=60.0), until=until)
+    return int(np.sum(np.diff(np.sign([state.number(Measured.P_MAX)[0] for state in branch])) != 0.0))
+
+
+def test_lift_off_curve_turns_back_where_modes_exchange() -> None:
+    """Fig. 6(a) near γ = 10.55: an S with two folds and a corner, told from states at fixed weights on either side."""
+    up = lift_off_curve(Problem(0.0, alpha=60.0), "weight", (9.5, 11.5))
+    down = lift_off_curve(Problem(0.0, alpha=60.0), "weight", (11.5, 9.5))
+    assert up.ended_because == down.ended_because == "end"
+    assert up.converged
+    assert down.converged
+    assert [mark.kind for mark in up.marks] == ["turn", "turn", "switch"]
+    for one, other in zip(up.marks, down.marks[::-1], strict=True):
+        assert one.x == pytest.approx(other.x, abs=one.x_error + other.x_error)
+    first, second, corner = up.marks
+    assert second.x < corner.x < first.x
+    beside = [second.x - 1e-3, second.x + 4e-4, corner.x + 1e-3, first.x - 1e-3, first.x + 1e-3]
+    assert [crossings(weight, -108.0) for weight in beside] == [1, 3, 3, 3, 1]
+    for weight, value in ((9.6, up), (first.x - 1e-3, up), (first.x + 1e-3, up), (11.4, down)):
+        lift = follow(Problem(weight, alpha=60.0)).lift_off
+        assert lift is not None
+        assert np.min(np.hypot(value.x - weight, value.values - lift.force)) < 0.1
+    point = next(p for p in up.points if p.x == corner.x)
+    assert point.solution is not None
+    places = np.array([0.2022197, 0.5489509])
+    assert point.solution.fields(places)["contact_pressure"] == pytest.approx([0.0, 0.0], abs=1e-4)
+
+
+def test_lift_off_curve_does_not_leap_to_the_other_mode() -> None:
+    """Close to the horizontal the first two modes nearly cross; the curve stays on the branch that leaves first."""
+    curve = lift_off_curve(Problem(0.0, alpha=89.9), "weight", (8.0, 18.0))
+    assert curve.ended_because == "end"
+    lift = follow(Problem(18.0, alpha=89.9)).lift_off
+    assert lift is not None
+    assert abs(curve.values[-1] - lift.force) <= curve.errors[-1] + lift.error
+    level = [follow(Problem(weight)).lift_off for weight in (17.702, 17.703)]  # where the horizontal rod's place jumps
+    assert [len(at.s) for at in level if at is not None] == [1, 2]
+    assert curve.marks[-1].x == pytest.approx(17.7027, abs=0.01)
+
+
 def test_secondary_curve_ends_at_the_double_point() -> None:
     """Just after mode switching there is a secondary bifurcation along the first branch (paper, section 4.1.2)."""
     curve = secondary_curve(Problem(15.0), (15.0, 8.0))
@@ -167,6 +209,22 @@ def test_twist_curve_agrees_with_single_problems() -> None:
     single = torsion(Problem(last.x)).again
     assert single is not None
     assert abs(last.value - single.value) <= last.error + single.error
+
+
+def test_twist_curve_turns_the_corner_of_the_load_without_twist() -> None:
+    from rodwell import torsion
+
+    curve = twist_curve(Problem(0.0), (18.0, 17.4), mirror=True)
+    assert curve.ended_because == "end"
+    assert curve.converged
+    (mark,) = curve.marks
+    assert mark.kind == "switch"
+    assert [torsion(Problem(mark.x + d), mirror=True).prepared.s[0] for d in (-1e-3, 1e-3)] == pytest.approx(
+        [0.5, 0.1678], abs=1e-3
+    )
+    single = torsion(Problem(17.4), mirror=True).again
+    assert single is not None
+    assert abs(curve.values[-1] - single.value) <= curve.errors[-1] + single.error
 
 
 @pytest.mark.parametrize(

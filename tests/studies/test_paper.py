@@ -237,15 +237,3 @@ def test_claims_name_their_place() -> None:
             assert claim.place
             assert claim.quantity
             assert (claim.formula is None) == (claim.rule != FORMULA)
-
-
-def test_lift_off_pieces_of_fig_6a_belong_to_the_first_mode() -> None:
-    """Each piece ends on the lift-off load of the first mode, followed from the straight rod at that weight."""
-    from rodwell.studies.paper.stability import VEERING
-
-    for limits in VEERING[60.0][1:]:
-        curve = rodwell.lift_off_curve(rodwell.Problem(0, alpha=60), "weight", limits)
-        lift = rodwell.follow(rodwell.Problem(limits[1], alpha=60)).lift_off
-        assert curve.x[-1] == limits[1]
-        assert lift is not None
-        assert curve.values[-1] == pytest.approx(lift.force, rel=1e-9)

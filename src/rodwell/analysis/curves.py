@@ -46,6 +46,8 @@ class CurvePoint:
         Whether all that was measured meets the tolerance.
     solution
         The state; None for the straight rod.
+    x_error
+        Estimate of the error of x, where the curve is so steep that x is solved for too; else 0.
     """
 
     x: float
@@ -54,6 +56,7 @@ class CurvePoint:
     s: tuple[float, ...] = ()
     converged: bool = True
     solution: Solution | None = field(default=None, repr=False)
+    x_error: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,8 @@ class Mark:
     ----------
     kind
         "double_point" (two critical loads are equal: modes switch), "veering" (two critical loads come closest without
-        meeting), "switch" (the place that lifts off jumps), or "turn" (the curve turns back in its parameter).
+        meeting), "switch" (two places lift off at once, and the curve goes on, at a corner, with the other one), or
+        "turn" (the curve turns back in its parameter).
     x, x_error
         Where, and the estimate of its error.
     value, error
@@ -161,6 +165,7 @@ class Curve:
                     self.over: float(p.x),
                     self.quantity: float(p.value),
                     "error": float(p.error),
+                    f"{self.over}_error": float(p.x_error),
                     "s": list(p.s),
                     "converged": bool(p.converged),
                 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,12 +10,11 @@ from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.curve_points import Seed, Spot, Zero
 from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, trace_curve
-from rodwell.analysis.curves import Curve, CurvePoint, Progress, checked_range
+from rodwell.analysis.curves import SWITCH, TURN, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.families import path, spline_ends
 from rodwell.analysis.follow import follow
-from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
-from rodwell.analysis.special import BRANCH_POINT, LIFT_OFF
+from rodwell.analysis.special import BRANCH_POINT, LIFT_OFF, SpecialPoint
 from rodwell.analysis.starts import kept_parity
 from rodwell.analysis.torsion import torsion
 from rodwell.errors import InputError, NotConvergedError
@@ -73,7 +72,7 @@ def lift_off_curve(
     lift = branch.lift_off
     if lift is None or lift.kind != LIFT_OFF:
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
-    zero = _Crossing(problem, over, _highest_pressure, touch=True)
+    zero = _Touching(problem, over)
     at_end = problem.but(**{over: end})
     vanishes = at_end.lateral_weight == 0.0
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
@@ -133,7 +132,7 @@ def secondary_curve(
             f"{over} = {start:g}: start elsewhere, or give until"
         )
     point = found[number - 1]
-    zero = _Crossing(problem, over, _Softest(point.solution), touch=False)
+    zero = _Branching(problem, over, point.solution)
     points, marks, why = trace_curve(zero, Seed(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
 
@@ -167,6 +166,11 @@ def twist_curve(
     ------
     NotConvergedError
         Also if either sense of twist makes the rod lift off at once (modes that touch at two places).
+
+    Notes
+    -----
+    Where the place that lifts off without twist changes, the prepared load has a corner, and with it this curve: also
+    a mark "switch".
     """
     rtol = checked_rtol(rtol)
     start, end = checked_range(problem, over, limits, ("weight", "alpha", "clearance"))
@@ -174,48 +178,66 @@ def twist_curve(
     prepared = torsion(at_start, mode, mirror=mirror, rtol=rtol)
     if prepared.again is None:
         raise NotConvergedError(f"at {over} = {start:g}: {prepared.meaning} Start the range elsewhere.")
-    zero = _TwistAtLiftOff(problem.but(twist=0.0), over, prepared.prepared.solution)
-    points, marks, why = trace_curve(zero, Seed(start, prepared.again.solution), end, progress)
-    return Curve("twist", f"mode {mode}" + (", mirror arm" if mirror else ""), at_start, over, points, marks, why)
+    corners = _switches(at_start, prepared.prepared, over, end)
+    zero = _TwistAtLiftOff(at_start, over, prepared.prepared.solution)
+    points: list[CurvePoint] = []
+    marks: list[Mark] = []
+    why, seed = "end", Seed(start, prepared.again.solution)
+    for corner in (*corners, None):
+        piece, more, why = trace_curve(zero, seed, end if corner is None else corner.x, progress)
+        points += piece[1:] if points else piece
+        marks += more
+        last = points[-1]
+        if why != "end" or corner is None or last.solution is None:
+            break
+        note = f"without twist, {corner.note}"
+        marks.append(Mark(SWITCH, corner.x, corner.x_error, last.value, last.error, note))
+        seed = Seed(corner.x, last.solution)
+    name = f"mode {mode}" + (", mirror arm" if mirror else "")
+    return Curve("twist", name, at_start, over, tuple(points), tuple(marks), why)
 
 
-class _Crossing(Zero):
-    """Zero of a function of a state in the plane of a load and another parameter."""
+def _switches(problem: Problem, prepared: SpecialPoint, over: str, end: float) -> tuple[Mark, ...]:
+    """Where the place that lifts off without twist changes: the prepared load, and so the twist, has a corner there."""
+    start = float(getattr(problem, over))
+    _, marks, _ = trace_curve(_Touching(problem, over), Seed(start, prepared.solution), end, None)
+    turns = [mark.x for mark in marks if mark.kind == TURN]
+    ahead = [
+        mark for mark in marks if mark.kind == SWITCH and (not turns or abs(mark.x - start) < abs(turns[0] - start))
+    ]
+    return tuple(sorted(ahead, key=lambda mark: abs(mark.x - start)))
 
-    def __init__(
-        self,
-        problem: Problem,
-        over: str,
-        function: Callable[[Family, State], float],
-        *,
-        touch: bool,
-        load: str = "force",
-    ) -> None:
+
+class _Touching(Zero):
+    """Lift-off: the contact pressure at its maximum vanishes."""
+
+    touch = True
+
+    def __init__(self, problem: Problem, over: str, load: str = "force") -> None:
         super().__init__(over, load)
-        self.problem, self.function, self.touch = problem, function, touch
+        self.problem = problem
 
-    def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, ladder.coarse.parity, self.over)
-        return ladder.on_path(path(problem, along, spot.value), spline_ends(problem), parity)
+    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
+        return _along_force(self.problem, self.over, ladder, spot)
 
     def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
         return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
 
+    def function(self, family: Family, state: State) -> float:
+        return self.touching.at(family, state)
 
-class _TwistAtLiftOff(_Crossing):
+
+class _TwistAtLiftOff(_Touching):
     """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
 
-    either_way = False
-
     def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
-        super().__init__(problem, over, _highest_pressure, touch=True, load="twist")
-        self.first = _Crossing(problem, over, _highest_pressure, touch=True)
-        self.lifting = lifting
+        super().__init__(problem, over, load="twist")
+        self.first, self.lifting = _Touching(problem, over), lifting
 
-    def ladder(self, ladder: Ladder, spot: Spot, along: str) -> Ladder:
-        near = Seed(spot.x, self.lifting)
-        self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force), "force").solution
+    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
+        if spot.x != getattr(self.lifting.problem, self.over):
+            near = Seed(spot.x, self.lifting)
+            self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force)).solution
         problem = self.problem.but(**{self.over: spot.x})
         parity = kept_parity(problem, ladder.coarse.parity, "twist")
         return ladder.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
@@ -224,9 +246,30 @@ class _TwistAtLiftOff(_Crossing):
         return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, ladder)
 
 
-def _highest_pressure(family: Family, state: State) -> float:
-    """Largest contact pressure, with the sign that makes contact negative."""
-    return float(pressure_maxima(family, state)[1].max())
+class _Branching(Zero):
+    """Loss of symmetry: an eigenvalue of the Hessian vanishes."""
+
+    touch = False
+
+    def __init__(self, problem: Problem, over: str, branching: Solution) -> None:
+        super().__init__(over, "force")
+        self.problem, self.softest = problem, _Softest(branching)
+
+    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
+        return _along_force(self.problem, self.over, ladder, spot)
+
+    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
+
+    def function(self, family: Family, state: State) -> float:
+        return self.softest(family, state)
+
+
+def _along_force(problem: Problem, over: str, ladder: Ladder, spot: Spot) -> Ladder:
+    """The same meshes with the equilibria along the end force at ``spot``."""
+    problem = problem.but(**{over: spot.x})
+    parity = kept_parity(problem, ladder.coarse.parity, over)
+    return ladder.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
 
 
 class _Softest:

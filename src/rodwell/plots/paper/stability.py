@@ -149,7 +149,7 @@ def draw_fig11(curves: Sequence[Curve]) -> Figure:
         for mark in first.marks:
             ax.plot(mark.x, mark.value, "o", ms=5, color="white", mec=INK, zorder=5)
         ax.set_xlim(0.0, 90.0)
-        ax.set_ylim(0.0, 36.0)
+        ax.set_ylim(0.0, 38.0)
         ax.set_xlabel(WEIGHT)
         letter(ax, r"first mode at $F = F_{lift}$, arm $\omega_2(1) > 0$")
         ax.set_ylabel("end twist $T_1$ at lift-off  [$B/L$]")

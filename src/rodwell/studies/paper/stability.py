@@ -28,10 +28,6 @@ STEPS = (0.15, 0.5, 1.0, 1.35)
 INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150.0), (0.0, 350.0))
 """Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
 
-VEERING = {60.0: ((0.0, 10.4), (20.0, 10.7), (20.0, 70.5), (300.0, 73.0))}
-"""Ranges over which lift-off curves are traced where they turn back on themselves next to a veering of the critical
-loads: at α = π/3 near γ = 10.55 and γ = 71. What lies in these narrow gaps is left out."""
-
 GRID = 601
 """Weights at which curves are drawn."""
 
@@ -153,9 +149,8 @@ def _inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
     critical = critical_curves(problem, "weight", (0.0, until), modes=3, rtol=work.rtol)
     if alpha == 0.0:
         return Stability(label, problem, until, critical, ())
-    ranges = VEERING.get(alpha, ((0.0, until),))
-    curves = sound(lift_off_curve(problem, "weight", limits, rtol=work.rtol) for limits in ranges)
-    return Stability(label, problem, until, critical, tuple((curve.x, curve.values) for curve in curves))
+    (curve,) = sound((lift_off_curve(problem, "weight", (0.0, until), rtol=work.rtol),))
+    return Stability(label, problem, until, critical, ((curve.x, curve.values),))
 
 
 def fig12b(work: Work) -> Stability:

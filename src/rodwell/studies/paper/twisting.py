@@ -8,8 +8,9 @@ from rodwell.studies.paper.claims import Claim, Known, Value
 from rodwell.studies.paper.stability import sound
 from rodwell.studies.paper.work import Work, rod
 
-FIG11 = ((62.0, 17.8), (62.0, 90.0))
-"""γ from and to which the curve is traced: back to where twist no longer lifts the rod off; beyond the switching."""
+FIG11 = ((62.0, 16.5), (62.0, 90.0))
+"""γ from and to which the curve is traced: back to where it leaves the figure on its way to infinity at γ = 15.047,
+below which twist no longer lifts the rod off; beyond the switching."""
 
 ODD = 30.0
 """A weight at which the first mode is antisymmetric."""
