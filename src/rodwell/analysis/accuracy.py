@@ -38,7 +38,7 @@ LARGEST_FORCE = 1e9
 ELEMENTS_PER_RADIAN = 0.85
 """Density of the first mesh of a branch, per radian of the local wavenumber."""
 
-LINEAR_ELEMENTS_PER_RADIAN = 0.6
+LINEAR_ELEMENTS_PER_RADIAN = 0.8
 """The same for critical loads: an eigenvalue converges with order 2(degree − 1), twice as fast as the shape."""
 
 

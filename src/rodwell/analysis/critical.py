@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.accuracy import (
-    ELEMENTS_PER_RADIAN,
-    LINEAR_ELEMENTS_PER_RADIAN,
     MOST_ELEMENTS,
-    POINTS,
     RTOL,
     checked_rtol,
-    first_space,
 )
 from rodwell.analysis.families import parameters, spline_ends
+from rodwell.analysis.meshes import linear_space
 from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics import eigen
@@ -156,12 +153,9 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
 
 
 def _starting_space(problem: Problem, count: int) -> SplineSpace:
-    """Mesh for the first ``count`` modes, from the load that the uniform rod under its mean force would take."""
-    foundation = max(problem.foundation, 0.0) / problem.clearance
-    waves = np.pi * (count + 1)
-    buckling = 2.0 * np.sqrt(foundation) + waves**2 + problem.axial_weight
-    space = first_space(problem, -buckling, density=LINEAR_ELEMENTS_PER_RADIAN, points=POINTS)
-    if space.elements * space.degree < 4 * count / ELEMENTS_PER_RADIAN:
+    """Mesh for the first ``count`` modes, with unknowns enough for the block of vectors that looks for them."""
+    space = linear_space(problem, count)
+    while space.elements + space.degree < 3 * count + 8:
         space = space.refined()
     return space
 

@@ -1,0 +1,118 @@
+"""First meshes for critical loads, as fine as the modes ask for and where they ask for it.
+
+With frozen coefficients and compression P(s) = −N(s), equation (64) has solutions exp(iks) with k⁴ − Pk² + b = 0,
+b = wₗ/Δ. Where P > 2√b they are waves, and (k₃ − k₁)² = P − 2√b: modes fill the part of the rod where that is
+positive, with ∫ (k₃ − k₁) ds growing by π from mode to mode. Elsewhere modes die away at the rate μ = ½√(2√b − P), or,
+beyond P = −2√b, at the rates √((N ∓ √(N² − 4b))/2). So under its own weight a long inclined rod buckles at its lower
+end only, and the mesh need not resolve what stands above. The meshes are a matter of cost: what is found on them is
+checked on finer ones, and by counts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.accuracy import DEGREE, LINEAR_ELEMENTS_PER_RADIAN
+from rodwell.numerics.spaces import FloatArray, SplineSpace, graded_mesh
+from rodwell.problem import Problem
+
+SPARE_MODES = 4
+"""How many modes more than asked for the mesh is made for."""
+
+LEAST_WAVENUMBER = 6.0 * np.pi
+"""Wavenumber in rad/L that is resolved everywhere: for light rods, where frozen coefficients say little."""
+
+DEAD = 40.0
+"""Where a solution has fallen by exp(−40) it need not be resolved any more."""
+
+GROWTH = 5.0
+"""Elements stay shorter than the distance to what is resolved, times about the density over this number."""
+
+PLACES = 257
+
+
+def linear_space(problem: Problem, count: int) -> SplineSpace:
+    """Return a spline space for the first ``count`` critical loads."""
+    load = wkb_load(problem, count + SPARE_MODES)
+    places = _places(problem, load)
+    mesh = graded_mesh(resolved(problem, places, load) + LEAST_WAVENUMBER, places, LINEAR_ELEMENTS_PER_RADIAN)
+    return SplineSpace(mesh, DEGREE)
+
+
+def wkb_load(problem: Problem, number: float) -> float:
+    """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
+    b, weight, whole = problem.foundation / problem.clearance, problem.axial_weight, number * np.pi
+    if b < 0.0:  # on top: the whole rod is in waves of k₃, the other root is imaginary
+        s = np.linspace(0.0, 1.0, PLACES)
+
+        def phase(load: float) -> float:
+            p = load + weight * (1.0 - s)
+            return float(np.trapezoid(np.sqrt(0.5 * (p + np.sqrt(p * p - 4.0 * b))), s))
+
+        low, high = -weight - 2.0 * np.sqrt(-b), 2.0 * np.sqrt(-b) + whole**2
+    else:
+        floor = 2.0 * np.sqrt(b)
+
+        def phase(load: float) -> float:
+            top, bottom = max(load - floor, 0.0), max(load + weight - floor, 0.0)
+            return _mean_root(top, bottom, min(1.0, bottom / weight) if weight > 0.0 else 1.0)
+
+        low, high = floor - weight, floor + whole**2
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if phase(middle) < whole else (low, middle)
+    return float(0.5 * (low + high))
+
+
+def _mean_root(a: float, b: float, length: float) -> float:
+    """∫ √u ds over a length on which u falls linearly from b to a; no digits are lost where a is close to b."""
+    p, q = np.sqrt(a), np.sqrt(b)
+    return float(2.0 / 3.0 * length * (a + p * q + b) / (p + q)) if p + q > 0.0 else 0.0
+
+
+def _places(problem: Problem, load: float) -> FloatArray:
+    """Places in [0, 1], close together near the ends and where the waves end."""
+    close = np.logspace(-9.0, 0.0, 91)
+    turning = _end_of_waves(problem, load)
+    near = [close, 1.0 - close, turning - close, turning + close, [turning]]
+    places = np.concatenate([np.linspace(0.0, 1.0, PLACES), *near])
+    return np.unique(places[(places >= 0.0) & (places <= 1.0)])
+
+
+def _end_of_waves(problem: Problem, load: float) -> float:
+    """Where P = 2√b: below, modes are waves."""
+    if problem.foundation < 0.0 or problem.axial_weight == 0.0:
+        return 1.0
+    excess = load + problem.axial_weight - 2.0 * np.sqrt(problem.foundation / problem.clearance)
+    return float(min(1.0, max(0.0, excess / problem.axial_weight)))
+
+
+def resolved(problem: Problem, places: FloatArray, load: float) -> FloatArray:
+    """Wavenumber in rad/L to be resolved at ``places`` (m,), from s = 0 to 1, at the compression −F = ``load``."""
+    b = problem.foundation / problem.clearance
+    p = load + problem.axial_weight * (1.0 - places)
+    floor = 2.0 * np.sqrt(abs(b))
+    root = np.sqrt(np.maximum(p * p - 4.0 * b, 0.0))
+    largest = np.where((np.abs(p) < floor) & (b > 0.0), abs(b) ** 0.25, np.sqrt(0.5 * (np.abs(p) + root)))
+    if b < 0.0 or problem.axial_weight == 0.0:
+        return np.asarray(largest)
+    waves = places <= _end_of_waves(problem, load)
+    tense = p < -floor
+    between = np.where(waves, 0.0, 0.5 * np.sqrt(np.maximum(floor - p, 0.0)))
+    slow = np.where(tense, 0.5 * floor / np.maximum(largest, 1e-300), between)
+    fast = np.where(tense, largest, between)
+    alive, sharp = (_integral(places, rate) < DEAD for rate in (slow, fast))
+    layers = (_integral(places, largest) < DEAD) | (_integral(places, largest)[-1] - _integral(places, largest) < DEAD)
+    fine = sharp | layers
+    wavenumber = np.where(fine, largest, np.where(alive, slow, 0.0))
+    edges = places[fine]
+    after = np.searchsorted(edges, places)
+    distance = np.minimum(
+        np.abs(places - edges[np.maximum(after - 1, 0)]), np.abs(places - edges[np.minimum(after, edges.size - 1)])
+    )
+    return np.asarray(np.maximum(wavenumber, np.where(fine, 0.0, np.minimum(GROWTH / (distance + 1e-12), largest))))
+
+
+def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
+    steps = 0.5 * (rate[1:] + rate[:-1]) * np.diff(places)
+    return np.concatenate([[0.0], np.cumsum(steps)])
