@@ -13,10 +13,10 @@ from rodwell.analysis.accuracy import (
     checked_rtol,
 )
 from rodwell.analysis.families import parameters, spline_ends
-from rodwell.analysis.meshes import linear_space
+from rodwell.analysis.meshes import linear_space, wkb_load
 from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_whole
-from rodwell.numerics import eigen
+from rodwell.numerics import assembly, eigen
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
 from rodwell.problem import Problem
@@ -167,23 +167,20 @@ def _solve(
     factors = second_variation(space.points, parameters(problem))
     ends = spline_ends(problem)
     stiffness, gram = ends.restrict(space.form(factors)), ends.restrict(space.slope_gram)
-    weighted = factors * space.weights
 
     def full(block: FloatArray) -> FloatArray:
         return np.array([ends.spread(free) for free in block])
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        fields = space.at_points(full(block))
-        size = len(block)
-        k = (fields * weighted).reshape(size, -1) @ fields.reshape(size, -1).T
-        g = (fields[:, 1] * space.weights) @ fields[:, 1].T
+        k, g = assembly.grams(space.table, space.weights, space.elements, factors, full(block))
         return k, g
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
     below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
     guess = None if start is None else (start[0], start[1][:, ends.free(space.size)])
     try:
-        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess)
+        near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
+        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)
     except eigen.EigenError as problem_found:
         raise NotConvergedError(f"critical loads: {problem_found}") from None
     return values, full(vectors)
@@ -202,16 +199,18 @@ def _with_symmetry(
         j = i + 1
         while j < len(values) and values[j] - values[i] < 1e-6 * (abs(values[i]) + 1.0):
             j += 1
+        if j == i + 1:  # even or odd by itself
+            i = j
+            continue
         slopes = np.array([space.at_points(v)[1] for v in out[i:j]])
         mirrored = np.array([space.at_points(v[::-1])[1] for v in out[i:j]])
         reflection = (slopes * space.weights) @ mirrored.T
         _, turn = np.linalg.eigh(0.5 * (reflection + reflection.T))
         out[i:j] = turn.T @ out[i:j]
-        if j > i + 1:  # values of the vectors as they are now
-            fields = [space.at_points(v) for v in out[i:j]]
-            quotients = np.array([np.sum(factors * f**2) / (space.weights @ f[1] ** 2) for f in fields])
-            order = np.argsort(quotients)
-            values[i:j], out[i:j] = quotients[order], out[i:j][order]
+        fields = [space.at_points(v) for v in out[i:j]]  # values of the vectors as they are now
+        quotients = np.array([np.sum(factors * f**2) / (space.weights @ f[1] ** 2) for f in fields])
+        order = np.argsort(quotients)
+        values[i:j], out[i:j] = quotients[order], out[i:j][order]
         i = j
     return values, out
 

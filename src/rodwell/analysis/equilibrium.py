@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis import ahead
-from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol, first_space
+from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol
 from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.measures import measured_ladder
+from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, Outcome, State

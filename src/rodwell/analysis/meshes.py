@@ -1,4 +1,4 @@
-"""First meshes for critical loads, as fine as the modes ask for and where they ask for it.
+"""First meshes, as fine as the modes ask for and where they ask for it.
 
 With frozen coefficients and compression P(s) = −N(s), equation (64) has solutions exp(iks) with k⁴ − Pk² + b = 0,
 b = wₗ/Δ. Where P > 2√b they are waves, and (k₃ − k₁)² = P − 2√b: modes fill the part of the rod where that is
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.accuracy import DEGREE, LINEAR_ELEMENTS_PER_RADIAN
+from rodwell.analysis.accuracy import DEGREE, ELEMENTS_PER_RADIAN, LINEAR_ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH
 from rodwell.numerics.spaces import FloatArray, SplineSpace, graded_mesh
 from rodwell.problem import Problem
 
@@ -28,6 +28,9 @@ DEAD = 40.0
 GROWTH = 5.0
 """Elements stay shorter than the distance to what is resolved, times about the density over this number."""
 
+FULLER = 2.5
+"""How many times the wavenumber of the linear equation buckled states ask for at most."""
+
 PLACES = 257
 
 
@@ -37,6 +40,40 @@ def linear_space(problem: Problem, count: int) -> SplineSpace:
     places = _places(problem, load)
     mesh = graded_mesh(resolved(problem, places, load) + LEAST_WAVENUMBER, places, LINEAR_ELEMENTS_PER_RADIAN)
     return SplineSpace(mesh, DEGREE)
+
+
+def first_space(problem: Problem, compression: float, tension: float = 0.0) -> SplineSpace:
+    """Spline space graded by the local wavenumber of (64) over a range of end forces.
+
+    Every solution of the linear equation with frozen coefficients, k⁴ + N(s) k² + wₗ/Δ = 0, has
+    |k| ≤ √|N(s)| + (wₗ/Δ)^¼. That covers half waves, decay lengths and the layers at clamped ends under
+    tension; it is largest where the axial weight adds most.
+
+    Parameters
+    ----------
+    problem
+        The problem.
+    compression, tension
+        Most compressive (lowest) and most tensile (highest) end force to be resolved, tension positive.
+
+    Elements grow where states have died away: beyond the part of the rod in which the lowest end force makes waves.
+    """
+    load = -compression
+    s = _places(problem, load)
+    weight = problem.axial_weight * (s - 1.0)
+    axial = np.maximum(np.abs(compression + weight), np.abs(tension + weight))
+    foundation = abs(problem.foundation) / problem.clearance
+    wavenumber = np.sqrt(axial) + foundation**0.25
+    if _waves(problem, load) and problem.turns == 0:
+        wavenumber = np.minimum(wavenumber, FULLER * resolved(problem, s, load))
+    wavenumber += 2.0 * np.pi * (1 + abs(problem.turns))
+    return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
+
+
+def _waves(problem: Problem, load: float) -> bool:
+    """Whether frozen coefficients have waves at the lower end: then the rest of a long rod may stay straight."""
+    b = problem.foundation / problem.clearance
+    return bool(b > 0.0 and load + problem.axial_weight > 2.0 * np.sqrt(b))
 
 
 def wkb_load(problem: Problem, number: float) -> float:
@@ -55,7 +92,7 @@ def wkb_load(problem: Problem, number: float) -> float:
 
         def phase(load: float) -> float:
             top, bottom = max(load - floor, 0.0), max(load + weight - floor, 0.0)
-            return _mean_root(top, bottom, min(1.0, bottom / weight) if weight > 0.0 else 1.0)
+            return _mean_root(top, bottom, 1.0 if bottom >= weight else bottom / weight)
 
         low, high = floor - weight, floor + whole**2
     for _ in range(60):
@@ -84,7 +121,7 @@ def _end_of_waves(problem: Problem, load: float) -> float:
     if problem.foundation < 0.0 or problem.axial_weight == 0.0:
         return 1.0
     excess = load + problem.axial_weight - 2.0 * np.sqrt(problem.foundation / problem.clearance)
-    return float(min(1.0, max(0.0, excess / problem.axial_weight)))
+    return 1.0 if excess >= problem.axial_weight else float(max(0.0, excess) / problem.axial_weight)
 
 
 def resolved(problem: Problem, places: FloatArray, load: float) -> FloatArray:

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, first_space
+from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.families import family, parameter_value
 from rodwell.analysis.measures import measured_ladder
+from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError

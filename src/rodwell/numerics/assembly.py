@@ -99,15 +99,57 @@ def variation(model, tags, table, points, weights, c, parameters, rates, v):
 def assemble_form(table, weights, elements, factors):
     """Band (n, p+1) of the quadratic form Σ_d ∫ factors[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds, ``factors`` (3, m) at the points."""
     local = table.shape[2]
+    wide = (local + 3) // 4 * 4  # whole vector registers
     per_element = weights.size // elements
     band = np.zeros((elements + local - 1, local))
-    for q in range(weights.size):
-        start = q // per_element
-        for d in range(3):
-            scale = weights[q] * factors[d, q]
-            if scale != 0.0:
-                for a in range(local):
-                    row = scale * table[q, d, a]
-                    for b in range(a + 1):
-                        band[start + b, a - b] += row * table[q, d, b]
+    block, basis = np.empty((local, wide)), np.zeros(wide)
+    for element in range(elements):
+        block[:] = 0.0
+        for q in range(element * per_element, (element + 1) * per_element):
+            for d in range(3):
+                scale = weights[q] * factors[d, q]
+                if scale != 0.0:
+                    for a in range(local):
+                        basis[a] = table[q, d, a]
+                    for b in range(local):
+                        column = scale * basis[b]
+                        for a in range(wide):
+                            block[b, a] += column * basis[a]
+        for b in range(local):
+            for a in range(b, local):
+                band[element + b, a - b] += block[b, a]
     return band
+
+
+@kernel
+def grams(table, weights, elements, factors, block):
+    """Matrices (k, k) of Σ_d ∫ factors[d] u⁽ᵈ⁾ v⁽ᵈ⁾ ds and of ∫ u'v' ds for functions with coefficients (k, n).
+
+    Formed from values at the quadrature points: squares do not cancel as the entries of a stiffness matrix do.
+    """
+    count, local = block.shape[0], table.shape[2]
+    wide = (count + 3) // 4 * 4  # whole vector registers; what is beyond the functions stays zero
+    per_element = weights.size // elements
+    energy, slope = np.zeros((count, wide)), np.zeros((count, wide))
+    u = np.empty((3, wide))
+    part = np.zeros((local, wide))
+    for element in range(elements):
+        for a in range(local):
+            for i in range(count):
+                part[a, i] = block[i, element + a]
+        for q in range(element * per_element, (element + 1) * per_element):
+            w = weights[q]
+            w0, w1, w2 = w * factors[0, q], w * factors[1, q], w * factors[2, q]
+            for d in range(3):
+                for i in range(wide):
+                    u[d, i] = 0.0
+                for a in range(local):
+                    value = table[q, d, a]
+                    for i in range(wide):
+                        u[d, i] += value * part[a, i]
+            for i in range(count):
+                f0, f1, f2, f3 = w0 * u[0, i], w1 * u[1, i], w2 * u[2, i], w * u[1, i]
+                for j in range(wide):
+                    energy[i, j] += f0 * u[0, j] + f1 * u[1, j] + f2 * u[2, j]
+                    slope[i, j] += f3 * u[1, j]
+    return energy[:, :count].copy(), slope[:, :count].copy()

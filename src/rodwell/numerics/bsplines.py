@@ -12,6 +12,9 @@ import numpy as np
 
 from rodwell.jit import kernel
 
+SPACING = 4.0 * np.finfo(np.float64).eps
+"""Round-off in the difference of two knots, which are numbers from 0 to 1."""
+
 
 @kernel
 def _step(knots, span, k, x, row):
@@ -95,12 +98,25 @@ def find_span(knots, degree, s):
 def tabulate(knots, degree, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
-    One place more than that counts as the right end of the last element.
+    One place more than that counts as the right end of the last element. The places must divide all elements alike:
+    where knots are evenly spaced, the table of one element is copied to the next.
     """
     table = np.empty((places.size, orders, degree + 1))
-    for q in range(places.size):
-        span = min(degree + q // per_element, knots.size - degree - 2)
-        basis_derivatives(knots, span, degree, places[q], table[q])
+    known, spacing = -1, 0.0  # first place of the last element that was tabulated among evenly spaced knots
+    elements = knots.size - 2 * degree - 1
+    for element in range(elements):
+        span, first = degree + element, element * per_element
+        even = _evenly_spaced(knots, span, degree)
+        width = knots[span + 1] - knots[span]
+        if even and known >= 0 and abs(width - spacing) <= SPACING:
+            table[first : first + per_element] = table[known : known + per_element]
+            continue
+        for q in range(first, first + per_element):
+            basis_derivatives(knots, span, degree, places[q], table[q])
+        if even:
+            known, spacing = first, width
+    for q in range(elements * per_element, places.size):
+        basis_derivatives(knots, knots.size - degree - 2, degree, places[q], table[q])
     return table
 
 
@@ -112,6 +128,16 @@ def tabulate_anywhere(knots, degree, places, orders):
         spans[q] = find_span(knots, degree, places[q])
         basis_derivatives(knots, spans[q], degree, places[q], table[q])
     return table, spans
+
+
+@kernel
+def _evenly_spaced(knots, span, degree):
+    """Whether all knots that the functions on a span depend on are evenly spaced, to round-off."""
+    width = knots[span + 1] - knots[span]
+    for k in range(span - degree, span + degree + 1):  # noqa: SIM110 - compiled
+        if abs(knots[k + 1] - knots[k] - width) > SPACING:
+            return False
+    return True
 
 
 @kernel

@@ -22,6 +22,9 @@ Gram = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """From vectors (k, n) to their Gram matrices (k, k) under K and G."""
 
 BLOCK_SPARE = 4
+FIRST_ITERATIONS, STEPS = 3, 2
+"""Steps of inverse iteration before the first Rayleigh–Ritz step, which costs ten times as much, and before each."""
+
 MOST_ITERATIONS = 200
 RESHIFT, SLOW = 6, 0.1
 """After so many iterations, if the last one gained less than this, the shift moves to just below the first value that
@@ -39,6 +42,11 @@ SMALL, ROUND_OFF = 1e-13, 1e-11
 
 class EigenError(RuntimeError):
     """The eigenvalues could not be confirmed."""
+
+
+def block_size(count: int) -> int:
+    """How many vectors are iterated for ``count`` eigenvalues."""
+    return count + max(BLOCK_SPARE, count // 2)
 
 
 def count_below(stiffness: FloatArray, gram: FloatArray, sigma: float) -> int:
@@ -61,6 +69,7 @@ def lowest(
     count: int,
     below: float,
     start: tuple[FloatArray, FloatArray] | None,
+    near: tuple[float, float] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """The ``count`` lowest eigenvalues, rising, and their vectors.
 
@@ -76,6 +85,8 @@ def lowest(
         A number below all eigenvalues.
     start
         Values (k,) and vectors (k, n) of a coarser mesh to start from, or None.
+    near
+        About where the first eigenvalue and number :func:`block_size` are, to spare counts; need not be right.
 
     Returns
     -------
@@ -87,17 +98,21 @@ def lowest(
         If fewer than ``count`` exist or the count of eigenvalues below does not agree.
     """
     n = stiffness.shape[0]
-    size = min(n, count + max(BLOCK_SPARE, count // 2))
+    size = min(n, block_size(count))
     if count > n:
         raise EigenError(f"only {n} modes on this mesh, {count} were asked for")
-    shift = _shift(stiffness, gram, below, size) if start is None else _shift_near(stiffness, gram, below, start[0])
+    shift = (
+        _shift(stiffness, gram, below, size, near) if start is None else _shift_near(stiffness, gram, below, start[0])
+    )
     factors = _factors(stiffness, gram, shift)
     block = np.random.default_rng(0).standard_normal((size, n))
     if start is not None:
         block[: min(size, len(start[1]))] = start[1][:size]
     previous, history, kept = np.full(count, np.inf), [np.inf], 0
     for iteration in range(1, MOST_ITERATIONS + 1):
-        moved = _inverse_step(factors, gram, block[kept:])
+        moved = block[kept:]
+        for _ in range(STEPS):
+            moved = _inverse_step(factors, gram, moved)
         values, block = _rayleigh_ritz(np.concatenate([block[:kept], moved]), quadrature)
         changes = np.abs(values[:count] - previous) / (np.abs(values[:count]) + 1.0)
         previous = values[:count].copy()
@@ -146,19 +161,30 @@ def _shift_above(stiffness: FloatArray, gram: FloatArray, values: FloatArray, ke
     return max(low - width, 0.5 * (known + low))
 
 
-def _shift(stiffness: FloatArray, gram: FloatArray, below: float, size: int) -> float:
-    """A shift below the first eigenvalue, nearer to it than a tenth of its distance to number ``size``."""
+def _shift(
+    stiffness: FloatArray, gram: FloatArray, below: float, size: int, near: tuple[float, float] | None = None
+) -> float:
+    """A shift below the first eigenvalue, nearer to it than a tenth of its distance to number ``size``.
+
+    ``near``: about where these two are, if that is known. Counts confirm it.
+    """
     low, high = below, below + max(1.0, abs(below))
+    if near is not None:
+        first, last = near
+        low, high = first - (last - first), last
+        if low <= below or count_below(stiffness, gram, low) > 0:
+            low = below
+        below = low
     while count_below(stiffness, gram, high) < size:
         low, high = high, high + 2.0 * (high - below)
-    first, top = (below, high), (low, high)
+    bottom, top = (below, high), (low, high)
     while True:
-        first = _halve(stiffness, gram, *first, 1)
+        bottom = _halve(stiffness, gram, *bottom, 1)
         top = _halve(stiffness, gram, *top, size)
-        spread = top[0] - first[1]
-        width = max(first[1] - first[0], top[1] - top[0])
-        if width < 0.1 * spread or width < 1e-12 * (abs(first[1]) + abs(below)):
-            return first[0] - BELOW * (top[1] - first[0])
+        spread = top[0] - bottom[1]
+        width = max(bottom[1] - bottom[0], top[1] - top[0])
+        if width < 0.1 * spread or width < 1e-12 * (abs(bottom[1]) + abs(below)):
+            return bottom[0] - BELOW * (top[1] - bottom[0])
 
 
 def _shift_near(stiffness: FloatArray, gram: FloatArray, below: float, values: FloatArray) -> float:
