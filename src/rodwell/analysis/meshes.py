@@ -22,14 +22,18 @@ SPARE_MODES = 4
 LEAST_WAVENUMBER = 6.0 * np.pi
 """Wavenumber in rad/L that is resolved everywhere: for light rods, where frozen coefficients say little."""
 
-DEAD = 40.0
-"""Where a solution has fallen by exp(−40) it need not be resolved any more."""
+DEAD = 30.0
+"""Where a solution has fallen by exp(−30) it need not be resolved any more."""
 
 GROWTH = 5.0
 """Elements stay shorter than the distance to what is resolved, times about the density over this number."""
 
 FULLER = 2.5
 """How many times the wavenumber of the linear equation buckled states ask for at most."""
+
+MANY, EVEN = 6.0, 1.5
+"""With more half waves than this, meshes of branches are finer by this factor where the waves are: the numbers that are
+measured, among them the largest contact pressure, tell little of the waves elsewhere."""
 
 PLACES = 257
 
@@ -66,6 +70,8 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     wavenumber = np.sqrt(axial) + foundation**0.25
     if _waves(problem, load) and problem.turns == 0:
         wavenumber = np.minimum(wavenumber, FULLER * resolved(problem, s, load))
+        if foundation**0.25 * _end_of_waves(problem, load) > MANY * np.pi:
+            wavenumber[s < _end_of_waves(problem, load)] *= EVEN
     wavenumber += 2.0 * np.pi * (1 + abs(problem.turns))
     return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
 

@@ -14,7 +14,6 @@ from rodwell.analysis.symmetry import ODD, Reflection
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
-from rodwell.problem import Problem
 
 MARKERS = {
     "critical": ("D", "critical load"),
@@ -41,11 +40,20 @@ HOLDS_ANGLE = ("clamped", "guided")
 """Ends that bend the rod: at others ω₂ vanishes."""
 
 
-def telling(problem: Problem) -> Measured:
-    """Ordinate that tells branches apart: ω₂ at an end that bends the rod, s = 1 if it can be; energy for a coil."""
+STRAIGHT_END = 1e-6
+"""Part of the curvature at the other end below which an end counts as straight."""
+
+
+def telling(branches: Sequence[Branch]) -> Measured:
+    """Ordinate that tells branches apart: ω₂ at an end that bends the rod, s = 1 if it can be; energy for a coil.
+
+    A long string under its weight buckles at its lower end only: ω₂(1) is then zero to all digits.
+    """
+    problem = branches[0].problem
     if problem.turns:
         return Measured.ENERGY
-    if problem.ends[1] in HOLDS_ANGLE:
+    last, first = (max(abs(b.numbers(at)).max() for b in branches) for at in (Measured.OMEGA2_1, Measured.OMEGA2_0))
+    if problem.ends[1] in HOLDS_ANGLE and last >= STRAIGHT_END * first:
         return Measured.OMEGA2_1
     return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_ANGLE else Measured.SHORTENING
 
@@ -66,7 +74,7 @@ def plot_bifurcation(
     lines are pale, since there the wall would have to pull.
     """
     ax = new_axes() if ax is None else ax
-    ordinate = telling(branches[0].problem) if ordinate is None else ordinate
+    ordinate = telling(branches) if ordinate is None else ordinate
     top = max(float(np.max(np.abs(b.numbers(ordinate)))) for b in branches)
     farthest = max(float(np.max(np.abs(b.force))) for b in branches)
     name, label = ORDINATES[ordinate]

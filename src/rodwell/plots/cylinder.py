@@ -10,6 +10,7 @@ import numpy as np
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.solution import Solution
+from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
 from rodwell.plots.style import GREY, MODES, SIZE, minus, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
@@ -21,16 +22,17 @@ PLACES = 601
 def plot_cylinder_moments(state: Solution, scales: Scales | None = None, ax: Any = None) -> Any:
     """Draw T₂, μ and λ cos η, (59), along the cylinder in one state; return the axes."""
     ax = new_axes() if ax is None else ax
-    f = state.fields(PLACES)
+    part = shown_part([state])
+    f = state.fields(drawn_places([state], part))
     curves = {"T2": "twisting, T₂", "mu": "bending, μ (about d₁)", "cylinder_M3": "bending, λ cos η (about u₂)"}
-    fz, uz = axis("z", scales, 1.0)
+    fz, uz = axis("z", scales, part)
     fm, um = axis("T2", scales, max(float(np.max(np.abs(f[name]))) for name in curves))
     ff, uf = axis("force", scales, abs(state.force))
     for (name, label), color in zip(curves.items(), MODES, strict=False):
         ax.plot(f["z"] * fz, f[name] * fm, color=color, lw=1.6, label=label)
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, float(f["z"][-1]) * fz)
-    ax.set_xlabel(f"distance along the cylinder from s = 0  [{uz}]")
+    ax.set_xlabel(f"distance along the cylinder from s = 0{straight_beyond(part)}  [{uz}]")
     ax.set_ylabel(f"moment in the cylinder  [{um}]")
     title = minus(f"F = {plain(state.force * ff, 4)} {uf} at s = 1\n(tension positive)")
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title=title)

@@ -11,6 +11,7 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.solution import Solution
+from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, minus, new_axes
 from rodwell.plots.units import axis
 from rodwell.practice.scales import Scales
@@ -23,8 +24,9 @@ SHOWN = 5
 def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = None, most: int = 4) -> Any:
     """Draw the buckling modes y(s), each scaled to a largest deflection of 1; return the axes."""
     ax = new_axes() if ax is None else ax
-    s = np.linspace(0.0, 1.0, 601)
-    fs, us = axis("z", scales, 1.0)
+    part = shown_part(critical[:most])
+    s = drawn_places(critical[:most], part)
+    fs, us = axis("z", scales, part)
     forces = critical.forces[:most]
     ff, uf = axis("force", scales, float(np.max(np.abs(forces))))
     for mode in critical[:most]:
@@ -33,9 +35,9 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
             label=minus(f"mode {mode.number}: F = {plain(mode.force * ff, 4)} {uf}"),
         )  # fmt: skip
     ax.axhline(0.0, color=INK, lw=0.8)
-    ax.set_xlim(0.0, fs)
+    ax.set_xlim(0.0, part * fs)
     ax.set_ylim(-1.25, 1.55)
-    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
     ax.set_ylabel("sideways deflection y, scaled")
     ax.legend(loc="upper center", ncols=2)
     return ax
@@ -59,9 +61,10 @@ def plot_contact_pressure(
     """Draw the contact pressure p along the rod at several loads, from buckling to lift-off; return the axes."""
     ax = new_axes() if ax is None else ax
     states = states_to_lift_off(branch) if states is None else states
-    s = np.linspace(0.0, 1.0, 601)
+    part = shown_part(states)
+    s = drawn_places(states, part)
     pressures = [state.fields(s)["contact_pressure"] for state in states]
-    fs, us = axis("z", scales, 1.0)
+    fs, us = axis("z", scales, part)
     fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
@@ -73,10 +76,10 @@ def plot_contact_pressure(
     ax.axhspan(0.0, 10.0 * abs(low) + 10.0 * high, color=WARN, alpha=0.07, lw=0)
     ax.axhline(0.0, color=WARN, lw=1.0)
     ax.set_ylim(low, high)
-    ax.set_xlim(0.0, fs)
-    place = _free_place(branch)
+    ax.set_xlim(0.0, part * fs)
+    place = _free_place(branch, part)
     ax.text(
-        place * fs,
+        place * part * fs,
         0.5 * high,
         "the wall would have to pull",
         color=WARN,
@@ -84,16 +87,16 @@ def plot_contact_pressure(
         va="center",
         fontsize=8.5,
     )
-    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
     ax.set_ylabel(f"contact pressure p  [{up}]\n(below 0: pressed on the wall)")
     _legend(ax)
     return ax
 
 
-def _free_place(branch: Branch) -> float:
-    """Where along the rod a remark stands farthest from the marks of lift-off: at the right, if that will do."""
+def _free_place(branch: Branch, part: float) -> float:
+    """Where a remark stands farthest from lift-off, as a share of the ``part`` shown: at the right, if that will do."""
     lift = branch.lift_off
-    marked = () if lift is None or branch.lift_off_at_buckling else lift.s
+    marked = () if lift is None or branch.lift_off_at_buckling else [s / part for s in lift.s]
     return max((0.995, 0.005, 0.5), key=lambda place: min((min(abs(place - s), 0.3) for s in marked), default=1.0))
 
 
@@ -117,16 +120,17 @@ def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
 def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: Any = None, legend: bool = True) -> Any:
     """Draw the twisting moment T₂ in the cylinder along its length (paper, Fig. 4(b)); return the axes."""
     ax = new_axes() if ax is None else ax
-    s = np.linspace(0.0, 1.0, 601)
+    part = shown_part(states)
+    s = drawn_places(states, part)
     curves = [state.fields(s)["T2"] for state in states]
-    fs, us = axis("z", scales, 1.0)
+    fs, us = axis("z", scales, part)
     ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
     for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
         ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {plain(state.force * ff, 4)} {uf}"))
     ax.axhline(0.0, color=GREY, lw=0.8)
-    ax.set_xlim(0.0, fs)
-    ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
+    ax.set_xlim(0.0, part * fs)
+    ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
     ax.set_ylabel(f"twisting moment T₂\nin the cylinder  [{ut}]")
     if not any(np.any(curve) for curve in curves):
         ax.set_yticks([0.0])

@@ -25,6 +25,12 @@ EFFECTIVE = (
 )
 """What is assumed of mud and pressures."""
 
+FADED = 1e-3
+"""Deflection, as part of the largest one, below which the rod counts as straight."""
+
+LOWER_PART = 0.5
+"""A mode that reaches less far up the rod is said to be confined to its lower end."""
+
 SMALL_LOAD = 1.0
 """A load below this, in B/L², is near zero: percentages of it say nothing."""
 
@@ -52,12 +58,19 @@ def sentences(answer: Answer) -> list[str]:
 
 def _mode(answer: Answer) -> str:
     first = answer.critical[0]
-    y = first.shape(np.linspace(0.0, 1.0, 2001))[1:-1]
+    s = np.union1d(np.linspace(0.0, 1.0, 2001), first.space.greville)[1:-1]
+    y = first.shape(s)
+    buckled = np.abs(y) > FADED
+    farthest, y = float(s[buckled][-1]), y[buckled]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
     why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
+    if farthest < LOWER_PART:
+        text += (
+            f" They lie between the end s = 0 and {place_text(answer, farthest)}; the rest of the rod stays straight."
+        )
     if len(answer.critical) > 1:
         gap = abs(answer.critical[1].force - first.force) / max(abs(first.force), 1e-300)
         if gap < 0.05:

@@ -120,7 +120,7 @@ def key_figures(answer: Answer) -> Section:
 def _pictures(answer: Answer) -> Section:
     at = " at lift-off" if answer.at_lift_off else ""
     wall = answer.shown.wall.meaning
-    ordinate = ORDINATES[telling(answer.case.problem)][1]
+    ordinate = ORDINATES[telling(answer.branches)][1]
     return Section(
         "From buckling to lift-off",
         (
