@@ -47,12 +47,13 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_long.COMMANDS,
     **make_paper.COMMANDS,
 }
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_wells", "make_braid", "make_report", "make_architecture",
+    "make_long", "make_wells", "make_braid", "make_report", "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 
