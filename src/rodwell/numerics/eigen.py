@@ -44,6 +44,11 @@ class EigenError(RuntimeError):
     """The eigenvalues could not be confirmed."""
 
 
+def _independent(block: FloatArray) -> FloatArray:
+    """Orthonormal vectors of the same span: those near the shift would drown the others."""
+    return np.ascontiguousarray(np.linalg.qr(block.T)[0].T)
+
+
 def block_size(count: int) -> int:
     """How many vectors are iterated for ``count`` eigenvalues."""
     return count + max(BLOCK_SPARE, count // 2)
@@ -111,9 +116,11 @@ def lowest(
     previous, history, kept = np.full(count, np.inf), [np.inf], 0
     for iteration in range(1, MOST_ITERATIONS + 1):
         moved = block[kept:]
-        for _ in range(STEPS):
-            moved = _inverse_step(factors, gram, moved)
+        for _ in range(STEPS if kept == 0 else 1):  # once some are kept the others would turn into them
+            moved = _independent(_inverse_step(factors, gram, moved))
         values, block = _rayleigh_ritz(np.concatenate([block[:kept], moved]), quadrature)
+        if len(values) < count:
+            raise EigenError("the vectors that are iterated became dependent")
         changes = np.abs(values[:count] - previous) / (np.abs(values[:count]) + 1.0)
         previous = values[:count].copy()
         history.append(float(np.max(changes)))

@@ -1,0 +1,190 @@
+"""How cost and memory grow: with the elements of a mesh, with the weight of the rod, with the number of modes.
+
+    python benchmarks/scaling.py            writes benchmarks/results/scaling.md and docs/_static/scaling.png
+
+Times are the best of several runs, since other work on the machine only ever adds. Memory is that of a process of its
+own for each size, less that of the smallest size.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(variable, "1")
+
+import matplotlib as mpl
+import numpy as np
+
+import rodwell
+from rodwell.analysis.accuracy import DEGREE
+from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.families import family
+from rodwell.numerics import assembly, banded
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.physics.exact_horizontal import horizontal_loads
+from rodwell.plots.style import MODES as COLORS
+from rodwell.plots.style import RC, new_axes
+
+HERE = Path(__file__).parent
+ELEMENTS = (100, 1_000, 10_000, 100_000)
+WEIGHTS = tuple(10.0**k for k in range(1, 10))
+INCLINATIONS = (90.0, 60.0, 0.0)
+MODES = (1, 3, 10, 30, 100)
+FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
+
+
+def best(work: Callable[[], object], times: int) -> float:
+    """Shortest time in seconds of several runs."""
+    spent = []
+    for _ in range(times):
+        start = time.perf_counter()
+        work()
+        spent.append(time.perf_counter() - start)
+    return min(spent)
+
+
+def newton(elements: int) -> Callable[[], object]:
+    """Assembly, factorisation and solution of one step of Newton's method, on a mesh that is there already."""
+    problem = rodwell.Problem(1e3)
+    space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), DEGREE)
+    states = family(problem, space, parity=0, wavenumber=20.0, scale=100.0)
+    c = 1e-4 * np.sin(6.0 * np.pi * space.greville)
+    c[:2] = c[-2:] = 0.0
+    row = np.zeros_like(c)
+    one = states.__class__(**{**states.__dict__, "most_steps": 1})
+    return lambda: one.correct(c, -600.0, row, 1.0, -600.0)
+
+
+def iteration(elements: int) -> Callable[[], object]:
+    """One step towards critical loads on a new mesh: tables, matrices, a count, inverse iteration, Gram matrices."""
+    rng = np.random.default_rng(0)
+
+    def work() -> None:
+        space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), DEGREE)
+        factors = np.array(
+            [np.full(space.points.size, 1.0), np.full(space.points.size, -2.0), np.ones(space.points.size)]
+        )
+        stiffness, gram = space.form(factors), space.slope_gram
+        stiffness[:, 0] += gram[:, 0]
+        banded.factorise(stiffness)
+        block = rng.standard_normal((5, space.size))
+        for vector in block:
+            banded.solve(stiffness, vector)
+        assembly.grams(space.table, space.weights, space.elements, factors, block)
+
+    return work
+
+
+WORKS = {"newton": newton, "critical": iteration}
+
+
+def memory(what: str, elements: int) -> float:
+    """Largest memory in MB of a process that does one work."""
+    command = [sys.executable, __file__, what, str(elements)]
+    return float(json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout))
+
+
+def alone(what: str, elements: int) -> None:
+    """Do one work in this process and print the largest memory it took."""
+    WORKS[what](elements)()
+    print(json.dumps(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0))
+
+
+def main() -> None:
+    for work in WORKS.values():
+        work(100)()  # compile
+    runs = {100: 50, 1_000: 20, 10_000: 6, 100_000: 3}
+    times = {what: [best(make(n), runs[n]) for n in ELEMENTS] for what, make in WORKS.items()}
+    least = {what: memory(what, ELEMENTS[0]) for what in WORKS}
+    sizes = {what: [memory(what, n) - least[what] for n in ELEMENTS] for what in WORKS}
+    by_weight = {
+        alpha: [best(lambda w=w, a=alpha: critical_loads(rodwell.Problem(w, alpha=a), 1), 5) for w in WEIGHTS]
+        for alpha in INCLINATIONS
+    }
+    by_modes = {
+        alpha: [best(lambda n=n, a=alpha: critical_loads(rodwell.Problem(1e6, alpha=a), n), 1 if n > 30 else 3) for n in MODES]
+        for alpha in INCLINATIONS
+    }
+    text = report(times, sizes, by_weight, by_modes) + "\n".join(horizontal()) + "\n"
+    print(text)
+    (HERE / "results" / "scaling.md").write_text(text, encoding="utf-8")
+    draw(times, by_weight, HERE.parent / "docs" / "_static" / "scaling.png")
+
+
+def report(times: dict, sizes: dict, by_weight: dict, by_modes: dict) -> str:
+    """Everything as Markdown."""
+    lines = [f"Measured on {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
+             f"rodwell {rodwell.__version__}.", ""]  # fmt: skip
+    lines += ["| elements | Newton step | per element | memory | step towards critical loads | per element | memory |"]
+    lines += ["| --- | --- | --- | --- | --- | --- | --- |"]
+    for i, n in enumerate(ELEMENTS):
+        cells = []
+        for what in WORKS:
+            t, size = times[what][i], sizes[what][i]
+            cells += [f"{1e3 * t:.3g} ms", f"{1e6 * t / n:.2f} µs", f"{size:.0f} MB" if i else "–"]
+        lines.append(f"| {n:,} | {' | '.join(cells)} |")
+    exponents = ", ".join(f"{what}: {exponent(ELEMENTS[1:], t[1:]):.2f}" for what, t in times.items())
+    lines += ["", f"Time goes with the elements to the power ({exponents}), from 1,000 to 100,000.", ""]
+    head = " | ".join(f"α = {alpha:g}°" for alpha in INCLINATIONS)
+    for title, values, table in (("γ", WEIGHTS, by_weight), ("modes, γ = 10⁶", MODES, by_modes)):
+        lines += [f"| first critical load, {title} | {head} |" if title == "γ" else f"| {title} | {head} |"]
+        lines += ["| --- | --- | --- | --- |"]
+        for i, value in enumerate(values):
+            lines.append(f"| {value:g} | " + " | ".join(f"{1e3 * table[a][i]:.3g} ms" for a in INCLINATIONS) + " |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def horizontal() -> list[str]:
+    """Lines of a table: horizontal rods up to the heaviest that are allowed, against the closed form (77)."""
+    lines = ["| b = wₗ/Δ, α = 90° | elements | first critical load | error estimate | off (77) |"]
+    lines += ["| --- | --- | --- | --- | --- |"]
+    for b in FOUNDATIONS:
+        clearance = max(1e-7, min(1e-2, 1e9 / b))
+        rod = rodwell.Problem(b * clearance, clearance=clearance)
+        mode = critical_loads(rod, 1)[0]
+        spent, exact = best(lambda r=rod: critical_loads(r, 1), 9), horizontal_loads(b, 1)[0]
+        off = abs(mode.force / exact - 1.0)
+        lines.append(f"| {b:.0e} | {mode.space.elements} | {1e3 * spent:.3g} ms | "
+                     f"{mode.error / abs(exact):.0e} | {off:.0e} |")  # fmt: skip
+    return lines
+
+
+def exponent(x: tuple[int, ...], y: list[float]) -> float:
+    """Slope of a straight line through the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
+def draw(times: dict, by_weight: dict, path: Path) -> None:
+    """Draw time against elements, and against weight."""
+    names = {"newton": "one Newton step", "critical": "one step towards critical loads"}
+    with mpl.rc_context(RC):
+        left = new_axes(size=(6.0, 6.4), nrows=2, index=1)
+        right = left.figure.add_subplot(2, 1, 2)
+        for color, (what, t) in zip(COLORS, times.items(), strict=False):
+            left.loglog(ELEMENTS, 1e3 * np.array(t), "o-", color=color, label=names[what])
+        left.set_xlabel("elements")
+        left.set_ylabel("time  [ms]")
+        left.legend()
+        for color, (alpha, t) in zip(COLORS, by_weight.items(), strict=False):
+            right.loglog(WEIGHTS, 1e3 * np.array(t), "o-", color=color, label=f"α = {alpha:g}°")
+        right.set_xlabel("weight γ = mg L³/B")
+        right.set_ylabel("first critical load  [ms]")
+        right.legend()
+        left.figure.savefig(path, dpi=140)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        alone(sys.argv[1], int(sys.argv[2]))
+    else:
+        main()
