@@ -2,8 +2,8 @@
 
     python benchmarks/scaling.py            writes benchmarks/results/scaling.md and docs/_static/scaling.png
 
-Times are the best of several runs, since other work on the machine only ever adds. Memory is that of a process of its
-own for each size, less that of the smallest size (Linux).
+Times are processor times, the best of several runs: other work on the machine only ever adds. Memory is that of a
+process of its own for each size, less that of the smallest size (Linux).
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
 
 
 def best(work: Callable[[], object], times: int) -> float:
-    """Shortest time in seconds of several runs."""
+    """Shortest processor time in seconds of several runs."""
     spent = []
     for _ in range(times):
-        start = time.perf_counter()
+        start = time.process_time()
         work()
-        spent.append(time.perf_counter() - start)
+        spent.append(time.process_time() - start)
     return min(spent)
 
 

@@ -162,3 +162,14 @@ def test_human_output_states_end_sign_and_error(
 )
 def test_numbers_show_the_digits_that_their_error_supports(value: float, error: float, text: str) -> None:
     assert number(value, error) == text
+
+
+def test_a_long_string_buckles_at_its_lower_end() -> None:
+    """Of 3,000 m the wave fades above the place where compression has fallen to 2√(B w sin α/r)."""
+    answer = rodwell.answer(rodwell.Case.read(EXAMPLE.with_name("long-string.toml")))
+    problem, first = answer.case.problem, answer.critical[0]
+    fades = 1.0 - (2.0 * np.sqrt(problem.lateral_weight / problem.clearance) + first.force) / problem.axial_weight
+    assert answer.converged
+    text = " ".join(sentences(answer))
+    place = float(re.search(r"Beyond .*?s/L = ([0-9.]+)\) the rod stays straight", text).group(1))  # type: ignore[union-attr]
+    assert 0.0 < fades < place < fades + 0.06

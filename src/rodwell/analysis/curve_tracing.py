@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.curve_checks import BECOMES_STRAIGHT, bracket, carried, leapt, on_meshes, straightens, vertex
 from rodwell.analysis.curve_points import NEAR, CurveLostError, Guess, Seed, Solved, Spot, Travel, Zero
 from rodwell.analysis.curves import SWITCH, TURN, CurvePoint, Mark, Progress
 from rodwell.errors import InputError
 from rodwell.numerics.ladder import CLAIMED_GAIN
 from rodwell.numerics.location import bracketed_root
-from rodwell.numerics.spaces import FloatArray, Prolongation
 
 FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.004, 0.02, 1e-7
 """Steps, as parts of the range in x and of the load, with amplitudes by their weight."""
@@ -42,9 +42,6 @@ UNIT = 0.01
 
 BESIDE = (1e-5, 1e-6, 1e-7, 1e-8)
 """Where the first point beyond a corner is sought, as parts of the range."""
-
-CLEAR, TINY = 0.3, 1e-4
-"""Cosine between tangents, and share of the load in them, from which their senses can be compared."""
 
 HARD_BY = 0.98
 """Where, on the way to a corner, it is looked whether the curve turned back before."""
@@ -124,8 +121,8 @@ class _Tracer:
             new = self._solve(last, guess, spot, self.way.travel if self._along_equilibria(last) else None)
             if (new.spot.x - self.end) * self.sign > 0.0:
                 return self._solve(last, new.guess, Spot(self.end, new.spot.value))
-        missed = self._length(_on_meshes(guess, last, new), spot, new)
-        if missed > BENT * self._way(last, new).length + 1e-9 and not _straightens(last, new):
+        missed = self._length(on_meshes(guess, last, new), spot, new)
+        if missed > BENT * self._way(last, new).length + 1e-9 and not straightens(last, new):
             self.way = self._tangent(last, GLANCE * step)
             raise CurveLostError("the curve bends too sharply")
         return new
@@ -154,7 +151,7 @@ class _Tracer:
 
     def _way(self, a: Solved, b: Solved) -> _Way:
         """The way from a point to another on the same or on finer meshes."""
-        before = _on_meshes(a.guess, a, b)
+        before = on_meshes(a.guess, a, b)
         coarse, fine = b.guess.coarse - before.coarse, b.guess.fine - before.fine
         dx, dv = b.spot.x - a.spot.x, b.spot.value - a.spot.value
         return _Way(Travel(coarse, fine, dv, dx, UNIT * self.range), self._length(before, a.spot, b))
@@ -168,11 +165,11 @@ class _Tracer:
     def _accept(self, new: Solved, step: float) -> str:
         """Add a point, with what is special between it and the last; returns why the curve ends there, or ""."""
         last = self.solved[-1]
-        if _straightens(last, new):
+        if straightens(last, new):
             if step > 10.0 * SMALLEST_STEP:
                 raise CurveLostError(BECOMES_STRAIGHT)
             return BECOMES_STRAIGHT
-        if step > 10.0 * SMALLEST_STEP and _leapt(last, new):
+        if step > 10.0 * SMALLEST_STEP and leapt(last, new):
             raise CurveLostError("another curve comes too close")
         if self.zero.touch and self.zero.touching.rival(new.solution)[0] > 0.0:
             self._turn_corner(last, new)
@@ -252,19 +249,19 @@ class _Tracer:
         row, row_lam, _, _ = family.covector(way.travel.fine, way.travel.value)
 
         def along(point: Solved) -> float:
-            return float(row @ _carried(point.guess.fine, point, c, 1)) + row_lam * point.spot.value
+            return float(row @ carried(point.guess.fine, point, c, 1)) + row_lam * point.spot.value
 
         start, whole = along(b), along(c) - along(b)
         three = [((along(point) - start) / whole, point) for point in (a, b, c)]
         change = np.inf
         for _ in range(MOST_VERTICES):
-            share = _vertex([(t, point.spot.x) for t, point in three])
+            share = vertex([(t, point.spot.x) for t, point in three])
             (low, _), (t, middle), (high, _) = three
             if share is None or not low < share < high or abs(share - t) < 1e-9:
                 break
             found = self._solve(c, *way.ahead(c, share - 1.0), way.travel)
             change = abs(found.spot.x - middle.spot.x)
-            three = _bracket([*three, (share, found)])
+            three = bracket([*three, (share, found)])
             if change <= STILL * abs(found.spot.x):
                 break
         t, turn = three[1]
@@ -275,63 +272,9 @@ class _Tracer:
         self.marks.append(Mark(TURN, turn.spot.x, float(x_error), turn.spot.value, turn.error, note))
 
 
-BECOMES_STRAIGHT = "the buckled rod becomes straight"
-STRAIGHT = 1e-3
-"""Amplitude, in radians around the cylinder, below which a curve of buckled states ends."""
-
 MOST_POINTS = 2000
 
 
 def _known(way: _Way | None) -> _Way:
     assert way is not None
     return way
-
-
-def _on_meshes(guess: Guess, a: Solved, b: Solved) -> Guess:
-    return Guess(_carried(guess.coarse, a, b, 0), _carried(guess.fine, a, b, 1))
-
-
-def _carried(c: FloatArray, a: Solved, b: Solved, mesh: int) -> FloatArray:
-    """Coefficients of a point on the meshes of another, the same or finer ones."""
-    old, new = a.solution.levels[mesh][0].space, b.solution.levels[mesh][0].space
-    return c if old.size == new.size else Prolongation(old, new)(c)
-
-
-def _vertex(three: list[tuple[float, float]]) -> float | None:
-    """Place of the vertex of the parabola through three points; None for a straight line."""
-    (a, fa), (b, fb), (c, fc) = three
-    left, right = (b - a) * (fb - fc), (b - c) * (fb - fa)
-    return None if left == right else b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right)
-
-
-def _bracket(points: list[tuple[float, Solved]]) -> list[tuple[float, Solved]]:
-    """Of points in order of place, the one with the extreme x and its neighbours."""
-    points = sorted(points, key=lambda item: item[0])
-    x = np.array([point.spot.x for _, point in points])
-    sense = 1.0 if x[1:-1].max() >= max(x[0], x[-1]) else -1.0
-    i = 1 + int(np.argmax(sense * x[1:-1]))
-    return points[i - 1 : i + 2]
-
-
-def _leapt(a: Solved, b: Solved) -> bool:
-    """Whether a step leapt to another curve, where two modes exchange their roles and curves come close.
-
-    At a fixed parameter the equilibria turn back in the load where one eigenvalue of the Hessian changes its sign, and
-    nowhere else (but where a symmetry is lost, which is no matter here): the two must agree.
-    """
-    family = b.solution.ladder.fine
-    if family.parity != 0:
-        return False
-    one, other = a.solution.point.fine, b.solution.point.fine
-    turned = float(other.row @ _carried(one.tangent, a, b, 1)) + other.row_lam * one.tangent_lam
-    shares = [abs(state.tangent_lam) / family.lam_scale for state in (one, other)]
-    if abs(turned) < CLEAR or min(shares) < TINY:
-        return False
-    return (-1.0) ** (other.index - one.index) * one.tangent_lam * other.tangent_lam * turned < 0.0
-
-
-def _straightens(a: Solved, b: Solved) -> bool:
-    """Whether the rod becomes straight on the way: nearly so, or buckled to the other side."""
-    before, after = (np.max(np.abs(point.guess.fine)) / point.solution.problem.clearance for point in (a, b))
-    turned = a.guess.fine.size == b.guess.fine.size and a.guess.fine @ b.guess.fine < 0.0
-    return bool(after < min(before, STRAIGHT) or turned)

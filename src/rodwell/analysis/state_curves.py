@@ -8,8 +8,9 @@ import numpy as np
 
 from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.curve_checks import BECOMES_STRAIGHT
 from rodwell.analysis.curve_points import Seed, Spot, Zero
-from rodwell.analysis.curve_tracing import BECOMES_STRAIGHT, trace_curve
+from rodwell.analysis.curve_tracing import trace_curve
 from rodwell.analysis.curves import SWITCH, TURN, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.families import path, spline_ends
 from rodwell.analysis.follow import follow

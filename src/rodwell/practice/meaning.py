@@ -68,9 +68,7 @@ def _mode(answer: Answer) -> str:
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
-        text += (
-            f" They lie between the end s = 0 and {place_text(answer, farthest)}; the rest of the rod stays straight."
-        )
+        text += f" Beyond {place_text(answer, farthest)} the rod stays straight."
     if len(answer.critical) > 1:
         gap = abs(answer.critical[1].force - first.force) / max(abs(first.force), 1e-300)
         if gap < 0.05:
