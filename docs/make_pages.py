@@ -20,6 +20,7 @@ from typing import Any
 
 import make_formulas
 import make_howto
+import make_long
 import make_paper
 import make_wells
 from click.testing import CliRunner
