@@ -17,10 +17,11 @@ from make_howto import DPI, table
 import rodwell
 from rodwell import Problem
 from rodwell.analysis import critical
-from rodwell.analysis.accuracy import DEGREE, first_space
+from rodwell.analysis.accuracy import DEGREE
 from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.families import spline_ends
 from rodwell.analysis.measures import Measured, measure, measured_ladder
+from rodwell.analysis.meshes import first_space
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Point
 from rodwell.numerics.spaces import Prolongation, SplineSpace

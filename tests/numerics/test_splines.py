@@ -40,6 +40,16 @@ def test_refinement_does_not_change_a_spline(mesh: np.ndarray, degree: int, seed
     assert fine.evaluate(Prolongation(space, fine)(c), s, 1) == pytest.approx(space.evaluate(c, s, 1), abs=1e-12)
 
 
+def test_tables_kept_for_places_serve_other_splines_and_do_not_pile_up() -> None:
+    space = SplineSpace(np.array([0.0, 0.1, 0.35, 0.8, 1.0]), 6)
+    rng = np.random.default_rng(2)
+    for places in [rng.random(40) for _ in range(9)] * 2:
+        for c in rng.standard_normal((2, space.size)):
+            one_by_one = np.hstack([space.evaluate(c, places[i : i + 1], 4) for i in range(places.size)])
+            np.testing.assert_allclose(space.evaluate(c, places, 4), one_by_one, rtol=1e-11, atol=1e-9)
+    assert len(space._tables) <= 6
+
+
 def test_quadrature_table_is_the_basis_at_the_points() -> None:
     space = SplineSpace(np.array([0.0, 0.1, 0.35, 0.8, 1.0]), 6)
     c = np.random.default_rng(1).standard_normal(space.size)

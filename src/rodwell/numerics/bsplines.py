@@ -82,6 +82,18 @@ def combine(local_tag, table, place, coefficients, first, out):
 
 
 @kernel
+def combine_all(local_tag, table, first, coefficients):
+    """Sums of the functions at all places of ``table`` (m, orders, p+1): (orders, m); see :func:`combine`."""
+    orders = table.shape[1]
+    values, u = np.empty((orders, first.size)), np.empty(orders)
+    for q in range(first.size):
+        combine(local_tag, table, q, coefficients, first[q], u)
+        for d in range(orders):
+            values[d, q] = u[d]
+    return values
+
+
+@kernel
 def find_span(knots, degree, s):
     """Index of the knot span that holds ``s``; the last one for the right end."""
     low, high = degree, knots.size - degree - 1

@@ -15,6 +15,9 @@ FloatArray = NDArray[np.float64]
 SAMPLES_PER_ELEMENT = 3
 TINY = 1e-300
 
+FEW, KEPT = 32, 6
+"""Places fewer than this are not worth a table, and tables kept for each space."""
+
 
 @lru_cache
 def _gauss(count: int) -> tuple[FloatArray, FloatArray]:
@@ -49,6 +52,7 @@ class SplineSpace:
         self.size = self.elements + degree
         self.per_element = degree - 1 if per_element is None else per_element
         self.tags = (0,) * (degree + 1), (0,) * self.per_element  # their lengths: what compiled loops must know
+        self._tables: dict[tuple[int, bytes], tuple[FloatArray, NDArray[np.int64]]] = {}
         self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
         nodes, weights = _gauss(self.per_element)
         half = 0.5 * np.diff(self.breaks)[:, None]
@@ -96,7 +100,26 @@ class SplineSpace:
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
         """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
         points = np.ascontiguousarray(places, dtype=float)
-        return np.asarray(bsplines.evaluate(self.knots, self.degree, coefficients, points, orders))
+        if points.size < FEW:
+            return np.asarray(bsplines.evaluate(self.knots, self.degree, coefficients, points, orders))
+        table, first = self._tabulated(points, orders)
+        return np.asarray(bsplines.combine_all(self.tags[0], table, first, coefficients))
+
+    def _tabulated(self, points: FloatArray, orders: int) -> tuple[FloatArray, NDArray[np.int64]]:
+        """Basis table and first functions at ``points``: tables of the last few sets of places are kept.
+
+        The states of a branch are all evaluated at the same places, and functions of the basis take ten times as long
+        as the sums over them.
+        """
+        key = orders, points.tobytes()
+        found = self._tables.pop(key, None)
+        if found is None:
+            table, spans = bsplines.tabulate_anywhere(self.knots, self.degree, points, orders)
+            found = np.asarray(table), np.asarray(spans) - self.degree
+        self._tables[key] = found  # the last in order of use
+        if len(self._tables) > KEPT:
+            del self._tables[next(iter(self._tables))]
+        return found
 
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m); (k, 3, m) of a block (k, size)."""

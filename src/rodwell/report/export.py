@@ -142,11 +142,11 @@ def _write_page(path: Path, solution: Solution, rod: Geometry, scales: Scales | 
 
 def _write_picture(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
     from rodwell.plots.rod3d import plot_rod  # noqa: PLC0415 - slow to import
-    from rodwell.report.pictures import PNG  # noqa: PLC0415
+    from rodwell.report.pictures import DPI, PNG  # noqa: PLC0415
 
     ax = plot_rod(solution, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
     if path.suffix.lower() == ".png":
-        ax.figure.savefig(path, **PNG)
+        ax.figure.savefig(path, dpi=DPI, **PNG)
         return [path]
     for collection in ax.collections:
         collection.set_rasterized(True)  # ten thousand facets: as outlines a file of megabytes, with seams

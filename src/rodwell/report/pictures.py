@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
@@ -21,7 +22,8 @@ from rodwell.plots.style import RC
 from rodwell.practice.along import along, shown
 from rodwell.practice.answer import Answer
 
-PNG: Any = {"dpi": 140, "pil_kwargs": {"compress_level": 2}}
+DPI = 140
+PNG: Any = {"pil_kwargs": {"compress_level": 2}}
 """Options of PNG files: the highest compression took longer than the drawing, for files a little smaller."""
 
 
@@ -39,15 +41,11 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
         }
         out = {}
         for name, ax in axes.items():
-            ax.figure.savefig(folder / f"{name}.png", **PNG)
             if name == "rod-3d":
-                out[name] = ("png", (folder / f"{name}.png").read_bytes())
-                continue
-            ax.figure.set_layout_engine("none")  # keep the layout found for the first file
-            buffer = io.BytesIO()
-            ax.figure.savefig(buffer, format="svg", metadata={"Date": None})
-            out[name] = ("svg", buffer.getvalue())
-            (folder / f"{name}.svg").write_bytes(buffer.getvalue())
+                out[name] = ("png", _as_png(ax.figure, folder / name))
+            else:
+                save_figure(ax.figure, folder / name)
+                out[name] = ("svg", (folder / f"{name}.svg").read_bytes())
     return out
 
 
@@ -72,6 +70,21 @@ def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
 
 def save_figure(figure: Any, path: Path) -> None:
     """Write a figure as PNG and SVG, ``path`` without suffix; the layout found for the first serves both."""
-    figure.savefig(path.with_suffix(".png"), **PNG)
-    figure.set_layout_engine("none")
-    figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})
+    _as_png(figure, path)
+    svg: Any = FigureCanvasSVG(figure)
+    svg.print_svg(path.with_suffix(".svg"), metadata={"Date": None})
+
+
+def _as_png(figure: Any, path: Path) -> bytes:
+    """Write a figure as PNG, ``path`` without suffix, and return the file.
+
+    Layout is done once and the canvases draw once each: ``savefig`` draws every figure once more for nothing.
+    """
+    figure.set_dpi(DPI)
+    canvas: Any = FigureCanvasAgg(figure)
+    if figure.get_layout_engine() is not None:
+        figure.get_layout_engine().execute(figure)
+        figure.set_layout_engine("none")
+    file = path.with_suffix(".png")
+    canvas.print_png(file, **PNG)
+    return file.read_bytes()
