@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -92,13 +93,17 @@ class _Segment:
 
     def __init__(self, ladder: Ladder, before: Point, after: Point) -> None:
         self.ladder, self.before, self.after = ladder, before, after
-        self.spans = (
-            Span(ladder.coarse.sharp(), before.coarse, after.coarse),
-            Span(ladder.fine.sharp(), before.fine, after.fine),
-        )
+
+    @cached_property
+    def spans(self) -> tuple[Span, Span]:
+        """The stretch on both meshes."""
+        coarse, fine = self.ladder.coarse.sharp(), self.ladder.fine.sharp()
+        return Span(coarse, self.before.coarse, self.after.coarse), Span(fine, self.before.fine, self.after.fine)
 
     def index_changes(self, turn: Place | None = None) -> list[_Placed]:
         """Changes of the stability index; together they make up the whole difference of the two ends."""
+        if turn is None and self.before.fine.index == self.after.fine.index:
+            return []
         turns, end = [] if turn is None else [turn.t], 1.0
         if turn is not None and self._meets(turn.fine):
             turns, end = [], SHORT_OF * turn.t
@@ -131,7 +136,7 @@ class _Segment:
 
     def turn(self) -> Place | None:
         """The place where λ turns back, if it does."""
-        first, last = self.spans[1].first.tangent_lam, self.spans[1].last.tangent_lam
+        first, last = self.before.fine.tangent_lam, self.after.fine.tangent_lam
         if first * last >= 0.0:
             return None
         place = locate(*self.spans, _sense, (first, last), ROUGHLY)

@@ -82,7 +82,10 @@ class State:
 
     def light(self) -> State:
         """Return the same state without the factors."""
-        return self if self.factors is None else replace(self, factors=None)
+        if self.factors is None:
+            return self
+        direction = self.tangent, self.tangent_lam, self.row, self.row_lam
+        return State(self.space, self.c, self.lam, *direction, self.index, self.energy)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""

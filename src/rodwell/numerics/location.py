@@ -35,12 +35,12 @@ class Span:
         where the Hessian is singular and the branch does not turn back.
         """
         a, b = self.first, self.last
-        length = a.along(b)
-        rate = float(a.row @ b.tangent + a.row_lam * b.tangent_lam)
         if t == 0.0:
             return a
         if t == 1.0:
             return b
+        length = a.along(b)
+        rate = float(a.row @ b.tangent + a.row_lam * b.tangent_lam)
         h0, h1 = (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * t * (3.0 - 2.0 * t)
         s0, s1 = length * t * (1.0 - t) ** 2, length / rate * t * t * (t - 1.0)
         c = h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent
