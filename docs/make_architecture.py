@@ -18,7 +18,7 @@ SOURCE = ROOT / "src" / "rodwell"
 
 PURPOSE = {
     "cli": "commands; the only one that prints",
-    "report": "HTML reports, viewer, export",
+    "report": "reports (HTML, PDF), viewer, export",
     "plots": "figures",
     "store": "NetCDF, tables, glTF, STL, VTK",
     "studies": "the paper, recomputed",
@@ -30,6 +30,7 @@ PURPOSE = {
     "jit": "compilation",
     "compiling": "first run",
     "errors": "what users read",
+    "display": "tables in notebooks",
     "_version": "the version",
 }
 

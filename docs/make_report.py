@@ -13,9 +13,10 @@ from rodwell.report.sections import case_report
 PPI = 110
 
 
-def pictures(out: Path) -> None:
+def pages(out: Path) -> dict[str, str]:
     """Draw the front of the report of the field example into ``out``."""
     answer = rodwell.answer(rodwell.Case.read(out / "examples" / "field-drill-pipe.toml"))
     with tempfile.TemporaryDirectory() as folder:
         sheets = typeset(case_report(answer), draw(answer, Path(folder)), format="png", ppi=PPI)
     (out / "front.png").write_bytes(sheets[0])
+    return {}

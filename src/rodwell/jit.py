@@ -32,9 +32,15 @@ def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
         return numba.njit(error_model="numpy", **options)(function)
 
 
-def formula(function: Callable[..., Any]) -> Any:
-    """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it."""
-    return register_jitable(error_model="numpy", forceinline=True)(function)
+def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
+    """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it into what calls it.
+
+    ``options`` are those of ``numba.njit``. A part of a kernel that depends on the *model* must be a formula too: a
+    kernel of its own would put machine code for every model on disk, and could not be read where that model is unknown.
+    """
+    if function is None:
+        return partial(formula, **options)
+    return register_jitable(error_model="numpy", forceinline=True, **options)(function)
 
 
 def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]

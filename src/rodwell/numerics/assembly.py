@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import density, kernel
+from rodwell.jit import density, formula, kernel
 from rodwell.numerics.bsplines import combine
 from rodwell.numerics.congruence import congruence
 
@@ -51,7 +51,7 @@ def assemble(model, tags, table, points, weights, c, parameters, rates, gradient
     return energy, rate
 
 
-@kernel(fastmath={"contract", "reassoc", "nsz"})
+@formula(fastmath={"contract", "reassoc", "nsz"})
 def _evaluate(model, tags, table, first, c, start, u):
     """Fields and two derivatives at the points of an element: ``u`` (points, 3 nf). The sums may be reordered."""
     for i in range(len(tags[1])):
@@ -63,7 +63,7 @@ def _evaluate(model, tags, table, first, c, start, u):
                 u[i, 3 * f + d] = total
 
 
-@kernel
+@formula
 def _scatter(model, tags, product, start, e, f, gradient, mixed, band):
     """Add the block of fields ``e`` and ``f`` of an element to gradient, mixed derivatives and lower band."""
     fields, local = len(model), len(tags[0])
