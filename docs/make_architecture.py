@@ -29,8 +29,8 @@ PURPOSE = {
     "numerics": "splines, Newton, continuation; no rod",
     "jit": "compilation",
     "compiling": "first run",
-    "errors": "what users read",
-    "display": "tables in notebooks",
+    "errors": "messages",
+    "display": "notebooks",
     "_version": "the version",
 }
 

@@ -95,7 +95,10 @@ def _draw(path: Path) -> None:
     for (name, level), style in zip(lines.items(), ("-", "--", "-.", ":"), strict=True):
         ax.axhline(level, color=GREY, lw=1.2, ls=style, label=name)
     ax.set_xlim(lengths[0], lengths[-1])
-    ax.set_ylim(0.9, 2.2)
+    ax.set_ylim(0.9, 2.45)
+    ticks = [length for length in (30, 100, 300, 1000, 3000) if lengths[0] <= length <= lengths[-1]]
+    ax.set_xticks(ticks, [f"{length:g}" for length in ticks])
+    ax.minorticks_off()
     ax.set_xlabel("length of the string  [m]")
     ax.set_ylabel("compression at the lower end\nover $2\\sqrt{B w \\sin\\alpha/r}$")
     ax.legend(loc="upper right")

@@ -216,6 +216,33 @@ alpha = 60
 """
 
 
+def test_strengths_used_at_lift_off() -> None:
+    """Capacities and strengths can vary; what is used of them goes with their inverse, and is that of single cases."""
+    given = string(
+        rod__yield_strength=["250 MPa", "500 MPa"], cylinder__outer_diameter="75 cm",
+        cylinder__yield_strength="300 MPa", supports__force="100..400 kN in 2",
+    )  # fmt: skip
+    found = rodwell.study(given)
+    assert len(found.points) == 4
+    weak, strong = found.points[0].used, found.points[3].used
+    assert weak["yield"].value == pytest.approx(2.0 * strong["yield"].value, rel=1e-9)
+    assert weak["support"].value == pytest.approx(4.0 * strong["support"].value, rel=1e-9)
+    single = rodwell.answer(rodwell.Case.from_dict(string(
+        rod__yield_strength="250 MPa", cylinder__outer_diameter="75 cm", cylinder__yield_strength="300 MPa",
+        supports__force="100 kN",
+    )))  # fmt: skip
+    scales = single.case.scales
+    assert scales is not None
+    stress = single.figures["cylinder_stress"].value * scales.factor("stress")
+    assert weak["cylinder"].value == pytest.approx(stress / 300e6, rel=1e-7)
+    assert 1.0 / weak["yield"].value == pytest.approx(single.figures["safety_factor_lift_off"].value, rel=1e-7)
+    header = study_table(found).columns
+    column = header.index("part of the yield strength of the rod used at lift-off")
+    assert study_table(found).rows[0][column] == weak["yield"].value
+    assert "Most of the yield strength of the rod used at lift-off" in " ".join(sentences(found))
+    assert study_dict(found)["points"][3]["used_at_lift_off"]["support"]["value"] == strong["support"].value
+
+
 def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
     file, out = tmp_path / "weights.toml", tmp_path / "out"
     file.write_text(FILE, encoding="utf-8")

@@ -6,15 +6,19 @@ import itertools
 import math
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.fields import ZOOMS
 from rodwell.analysis.follow import follow
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.ladder import estimated_error
 from rodwell.practice.case import Case, CaseError
+from rodwell.practice.limits import uses
+from rodwell.practice.loaded import LoadedRod
 from rodwell.practice.units import SI, System
 from rodwell.practice.varied import LISTS, Varied, is_varied, varied_inputs
 
@@ -51,6 +55,9 @@ class Point:
         s/L of the places that lift off.
     contact
         Largest contact force per length at lift-off; None where lift-off coincides with buckling.
+    used
+        Parts used at lift-off of the strengths that the case tells of, 1 is all: of the rod ("yield"), of the cylinder
+        and of the most loaded support, by kind.
     reasons
         Why results are missing, by name: "case", "critical", "lift_off", "contact".
     """
@@ -63,6 +70,7 @@ class Point:
     lift_off: Result | None = None
     places: tuple[float, ...] = ()
     contact: Result | None = None
+    used: Mapping[str, Result] = field(default_factory=dict)
     reasons: Mapping[str, str] | None = None
 
     def factor(self, dimension: str) -> float:
@@ -249,9 +257,22 @@ def _computed(number: int, at: tuple[int, ...], case: Case) -> Point:
     try:
         branch = follow(case.problem, mode, rtol=case.rtol)
         lift_off, places, contact = _at_lift_off(branch, reasons)
+        used = {} if contact is None else _used(case, branch)
     except (InputError, NotConvergedError) as problem:
-        reasons = {"lift_off": str(problem), "contact": "no lift-off"}
-    return Point(number, at, case, critical, waves, lift_off, places, contact, reasons or None)
+        reasons, used = {"lift_off": str(problem), "contact": "no lift-off"}, {}
+    return Point(number, at, case, critical, waves, lift_off, places, contact, used, reasons or None)
+
+
+def _used(case: Case, branch: Branch) -> dict[str, Result]:
+    """Parts of the strengths used at lift-off, with errors from the two meshes."""
+    assert branch.lift_off is not None
+    lift = branch.lift_off
+    state = LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution)
+    out = {}
+    for use in uses(case):
+        coarse, fine = (use.size(mesh, ZOOMS)[0] for mesh in state.along)
+        out[use.kind] = Result(fine, float(estimated_error(fine, coarse)))
+    return out
 
 
 def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Result | None, tuple[float, ...], Result | None]:

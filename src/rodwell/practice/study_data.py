@@ -15,6 +15,11 @@ NOTES = (
 )
 
 LOADS = {"critical": "buckles", "lift_off": "leaves the wall"}
+STRENGTHS = {
+    "yield": "yield strength of the rod",
+    "cylinder": "yield strength of the cylinder",
+    "support": "capacity of the most loaded support",
+}
 
 
 def units(study: Study) -> tuple[str, str]:
@@ -31,10 +36,18 @@ def study_table(study: Study) -> Table:
     for what in LOADS.values():
         columns += [f"{what}: compression at s = 1 [{force}]", f"± error [{force}]", f"{what}: at s = 0 [{force}]"]
     columns += ["half waves of the mode", "leaves the wall at s/L", f"largest contact force at lift-off [{per_length}]"]
-    columns += [f"± error of it [{per_length}]", "remarks"]
+    columns += [f"± error of it [{per_length}]"]
+    for kind in _told(study):
+        columns += [f"part of the {STRENGTHS[kind]} used at lift-off", "± error"]
+    columns.append("remarks")
     marked = {worst.number for name in LOADS if (worst := study.worst(name)) is not None}
     rows = tuple(_row(study, point) for point in study.points)
     return Table("Points", tuple(columns), rows, frozenset(marked), NOTES)
+
+
+def _told(study: Study) -> list[str]:
+    """Kinds of strength that the cases of a study tell of."""
+    return [kind for kind in STRENGTHS if any(kind in point.used for point in study.points)]
 
 
 def _row(study: Study, point: Point) -> tuple[Cell, ...]:
@@ -54,6 +67,9 @@ def _row(study: Study, point: Point) -> tuple[Cell, ...]:
     contact = point.contact
     cells += [point.half_waves, ", ".join(f"{s:.6g}" for s in point.places) or None]
     cells += [None, None] if contact is None else [contact.value * unit, contact.error * unit]
+    for kind in _told(study):
+        used = point.used.get(kind)
+        cells += [None, None] if used is None else [used.value, used.error]
     return (*cells, remarks(study, point))
 
 
@@ -134,6 +150,12 @@ def sentences(study: Study) -> list[str]:
             out.append(
                 "Negative compression is tension: there the rod buckles under its own weight unless it is pulled."
             )
+    for kind in _told(study):
+        used = {point.number: point.used[kind] for point in study.points if kind in point.used}
+        most = max(used, key=lambda number: used[number].value)
+        part = used[most].value
+        share = f"{100.0 * part:.3g} %" if part < 10.0 else f"{part:.3g} times all of it"
+        out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}, for {study.inputs(study.points[most])}.")
     lacking = [point for point in study.points if point.critical is None]
     if lacking:
         out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
@@ -175,6 +197,7 @@ def _point_dict(study: Study, point: Point) -> dict[str, Any]:
         "places": list(point.places),
         "reasons": dict(point.reasons or {}),
     }  # fmt: skip
+    out["used_at_lift_off"] = {kind: {"value": r.value, "error": r.error} for kind, r in point.used.items()}
     for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
         found = getattr(point, name)
         if found is None:

@@ -19,8 +19,6 @@ LISTS = ("catalogue", "load.applied")
 
 FIXED = {
     "analysis": "cannot vary: it says how the cases are computed",
-    "cylinder": "cannot vary: a study computes no stresses in the cylinder",
-    "supports": "cannot vary: a study computes no loads on supports",
     "load.until": "cannot vary: a study ends at lift-off",
 }
 """Sections and keys that cannot vary, and why."""
