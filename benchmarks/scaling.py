@@ -24,7 +24,7 @@ import matplotlib as mpl
 import numpy as np
 
 import rodwell
-from rodwell.analysis.accuracy import DEGREE
+from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.families import family
 from rodwell.numerics import assembly, banded
@@ -38,6 +38,7 @@ ELEMENTS = (100, 1_000, 10_000, 100_000)
 WEIGHTS = tuple(10.0**k for k in range(1, 10))
 INCLINATIONS = (90.0, 60.0, 0.0)
 MODES = (1, 3, 10, 30, 100)
+PROBLEMS = (1, 10, 100)
 FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
 
 
@@ -54,7 +55,7 @@ def best(work: Callable[[], object], times: int) -> float:
 def newton(elements: int) -> Callable[[], object]:
     """Assembly, factorisation and solution of one step of Newton's method, on a mesh that is there already."""
     problem = rodwell.Problem(1e3)
-    space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), DEGREE)
+    space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), DEGREE, POINTS_OF_BRANCH)
     states = family(problem, space, parity=0, wavenumber=20.0, scale=100.0)
     c = 1e-4 * np.sin(6.0 * np.pi * space.greville)
     c[:2] = c[-2:] = 0.0
@@ -115,10 +116,22 @@ def main() -> None:
         alpha: [best(lambda n=n, a=alpha: critical_loads(rodwell.Problem(1e6, alpha=a), n), 2) for n in MODES]
         for alpha in INCLINATIONS
     }
-    text = report(times, sizes, by_weight, by_modes) + "\n" + "\n".join(horizontal()) + "\n"
+    text = report(times, sizes, by_weight, by_modes) + "\n" + "\n".join([*problems(), "", *horizontal()]) + "\n"
     print(text)
     (HERE / "results" / "scaling.md").write_text(text, encoding="utf-8")
     draw(times, by_weight, HERE.parent / "docs" / "_static" / "scaling.png")
+
+
+def problems() -> list[str]:
+    """Time for each of several problems, α = 60°, weights evenly spread between 10 and 100."""
+    rows = ["| problems, γ from 10 to 100, α = 60° | first critical load, each | lift-off of mode 1, each |"]
+    rows += ["| --- | --- | --- |"]
+    for count in PROBLEMS:
+        those = [rodwell.Problem(float(w), alpha=60.0) for w in np.linspace(10.0, 100.0, count)]
+        loads = best(lambda those=those: [critical_loads(p, 1) for p in those], 3)
+        branches = best(lambda those=those: [rodwell.follow(p) for p in those], 2)
+        rows.append(f"| {count} | {1e3 * loads / count:.3g} ms | {1e3 * branches / count:.3g} ms |")
+    return rows
 
 
 def report(times: dict, sizes: dict, by_weight: dict, by_modes: dict) -> str:
