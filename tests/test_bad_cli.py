@@ -70,7 +70,7 @@ def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr("rodwell.practice.answer.answer", lambda *_: computed)
     monkeypatch.setattr("rodwell.report.write.draw", draw)
-    monkeypatch.setattr("rodwell.report.write.render", lambda *_: "<p>new report</p>")
+    monkeypatch.setattr("rodwell.report.pdf.render", lambda *_: "<p>new report</p>")
 
 
 @pytest.fixture
@@ -249,7 +249,7 @@ def disk_full(*_: object, **__: object) -> None:
 STAGES = [
     pytest.param("rodwell.practice.answer.answer", id="computing"),
     pytest.param("rodwell.report.write.draw", id="drawing"),
-    pytest.param("rodwell.report.write.render", id="rendering"),
+    pytest.param("rodwell.report.pdf.render", id="rendering"),
     pytest.param("rodwell.report.write.write_answer", id="writing-data"),
 ]
 

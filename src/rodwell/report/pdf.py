@@ -16,8 +16,9 @@ from typing import Any
 
 from rodwell.errors import InputError
 from rodwell.report.content import Report
-from rodwell.report.page import Pictures
+from rodwell.report.page import Pictures, render
 from rodwell.report.templates import HERE
+from rodwell.report.viewer import Viewer
 
 PDF = "report.pdf"
 """Name of the file in a results folder."""
@@ -35,6 +36,15 @@ def check_pdf(option: str = "--pdf") -> None:
     """
     if importlib.util.find_spec("typst") is None:
         raise InputError(option, None, "needs the package typst: pip install 'rodwell[pdf]'; report.html needs nothing")
+
+
+def write_report(
+    report: Report, pictures: Pictures, folder: Path, rod: Viewer | None = None, *, with_pdf: bool = False
+) -> None:
+    """Write the page of a report to ``folder``, and its PDF beside it if asked for."""
+    (folder / "report.html").write_text(render(report, pictures, rod), encoding="utf-8")
+    if with_pdf:
+        (folder / PDF).write_bytes(pdf(report, pictures))
 
 
 def pdf(report: Report, pictures: Pictures) -> bytes:

@@ -11,8 +11,7 @@ from rodwell.practice.advice import BAD, CAUTION, GOOD, Status
 from rodwell.practice.study import Point, Study
 from rodwell.practice.study_data import LOADS, NOTES, cells, head, load_text, remarks, sentences, study_table
 from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
-from rodwell.report.page import render
-from rodwell.report.pdf import PDF, check_pdf, pdf
+from rodwell.report.pdf import check_pdf, write_report
 from rodwell.report.pictures import save_figure
 from rodwell.report.texts import error_text
 from rodwell.store.folder import whole_folder
@@ -36,9 +35,7 @@ def write_study(study: Study, out: str | Path, *, with_pdf: bool = False) -> tup
         save_figure(plot_study(study), folder / "curves")
         pictures = {"curves": ("svg", (folder / "curves.svg").read_bytes())}
         report = study_report(study)
-        (folder / "report.html").write_text(render(report, pictures), encoding="utf-8")
-        if with_pdf:
-            (folder / PDF).write_bytes(pdf(report, pictures))
+        write_report(report, pictures, folder, with_pdf=with_pdf)
         table = study_table(study)
         write_csv(table, folder / "points.csv")
         write_xlsx([table], folder / "points.xlsx")

@@ -10,8 +10,7 @@ from rodwell.analysis.diagram import Diagram
 from rodwell.practice.along import along_table
 from rodwell.practice.answer import Answer
 from rodwell.practice.answer_tables import answer_tables
-from rodwell.report.page import render
-from rodwell.report.pdf import PDF, check_pdf, pdf
+from rodwell.report.pdf import check_pdf, write_report
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
 from rodwell.report.sections import case_report
 from rodwell.report.templates import embedded
@@ -51,9 +50,7 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
         rod = viewer(answer.shown, answer.case.scales, still=still)
         report = case_report(answer)
-        (folder / "report.html").write_text(render(report, pictures, rod), encoding="utf-8")
-        if with_pdf:
-            (folder / PDF).write_bytes(pdf(report, pictures))
+        write_report(report, pictures, folder, rod, with_pdf=with_pdf)
         write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
         write_json(answer.as_dict(), folder / "answer.json")
         tables = answer_tables(answer)
