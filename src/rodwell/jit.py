@@ -1,8 +1,7 @@
-"""How kernels are compiled, and the functions through which numerics and physics meet.
+"""How kernels are compiled.
 
-``numerics`` knows no rod and ``physics`` knows no solver: compiled numerics calls the functions below on a
-*model*, a named tuple whose type selects the implementation at compile time, with one entry for each field. A model
-comes with ``@numba.extending.overload(density)`` and, where contact is looked at, ``@overload(contact)``.
+``numerics`` knows no rod and ``physics`` knows no solver: compiled numerics works on a *model*, a named tuple whose
+class gives the formulas (:mod:`rodwell.numerics.assembly`) and selects them at compile time.
 """
 
 from __future__ import annotations
@@ -18,8 +17,7 @@ from numba.extending import register_jitable
 def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
 
-    ``options`` are those of ``numba.njit``. The density at one place asks for ``forceinline=True``: the reference
-    counts of its arrays, which inlining spares, took longer than its arithmetic.
+    ``options`` are those of ``numba.njit``.
 
     Where no folder for the cache can be written (a read-only installation without a home folder), the
     function is compiled anew in each process instead.
@@ -33,26 +31,11 @@ def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
 
 
 def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
-    """Mark a plain formula: Python and NumPy call it as it stands, compiled code compiles it into what calls it.
+    """Mark a part of kernels that is compiled into what calls it; Python can call it as it stands.
 
-    ``options`` are those of ``numba.njit``. A part of a kernel that depends on the *model* must be a formula too: a
-    kernel of its own would put machine code for every model on disk, and could not be read where that model is unknown.
+    ``options`` are those of ``numba.njit``. What depends on the *model* must be marked so: a kernel of its own
+    would put machine code for every model on disk, and could not be read where that model is unknown.
     """
     if function is None:
         return partial(formula, **options)
     return register_jitable(error_model="numpy", forceinline=True, **options)(function)
-
-
-def density(model, s, u, parameters, rates, gradient, hessian, mixed):  # type: ignore[no-untyped-def]
-    """Energy density of ``model`` and its derivatives at one place ``s``; returns energy and rate per length.
-
-    ``u`` (3 nf,) holds field f, derivative d at index ``3 f + d``, and may be changed. Written: ``gradient`` (3 nf,),
-    ``hessian`` (3 nf, 3 nf) and ``mixed`` (3 nf,), the derivative of the gradient along ``rates``, a direction in the
-    space of the ``parameters``. The rate is that derivative of the energy.
-    """
-    raise NotImplementedError("density is implemented per model, by numba.extending.overload")
-
-
-def contact(model, s, u, parameters):  # type: ignore[no-untyped-def]
-    """Contact pressure of ``model`` at one place from ``u``, the fields and three derivatives."""
-    raise NotImplementedError("contact is implemented per model, by numba.extending.overload")

@@ -67,7 +67,7 @@ def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> 
     c = space.project(amplitude * profile / np.max(np.abs(profile)), Ends((2, 2)))
     p = np.array([-100.0, 0.0, lateral, clearance, 0.0, 1.0, 0.0])
     grid, table = space.samples
-    places, values, _ = contact_maxima(RodOnCylinder(), space.tags[0], space.knots, 9, grid, table, c, p, 0.5)
+    places, values, _ = contact_maxima(RodOnCylinder(), space.tags[0], space.knots, grid, table, c, p, 0.5)
     dense = np.linspace(0.0, 1.0, 200_001)
     u = space.evaluate(c, dense, 4)
     return np.array([places, values]), np.array([dense, contact_pressure(dense, *u, p)])

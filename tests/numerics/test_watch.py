@@ -40,7 +40,7 @@ def test_softest_eigenvalues_against_dense_ones() -> None:
     ladder, point = branch.last
     watch = Watch()
     for _ in range(12):
-        watch.add(ladder, point.light(), 0.0)
+        watch.add(ladder, point, 0.0)
     family = ladder.coarse
     hessian = dense(family.free_part(family.assemble(point.coarse.c, point.coarse.lam)[2]))
     values, vectors = eigh(hessian, dense(family.free_part(family.space.slope_gram)))

@@ -1,4 +1,4 @@
-"""The one energy: generated kernels against their source, and against the formula of the theory in plain NumPy."""
+"""The one energy: generated formulas against their source, and against the formula of the theory in plain NumPy."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rodwell.physics import _kernels, energy
+from rodwell.physics import _density, energy
 from rodwell.physics.linear import second_variation
 from rodwell.physics.parameters import PARAMETERS
 
@@ -45,13 +45,12 @@ def density(s: float, u: np.ndarray, p: np.ndarray) -> float:
 
 
 def derivatives(s: float, u: np.ndarray, p: np.ndarray, rates: np.ndarray) -> tuple[float, np.ndarray, ...]:
-    gradient, hessian, mixed = np.empty(3), np.empty((3, 3)), np.empty(3)
-    value, rate = _kernels.rod_density(s, u, p, rates, gradient, hessian, mixed)
-    return value, gradient, hessian, mixed, rate
+    value, rate, gradient, mixed, hessian = _density.rod_density(s, *u, p, rates)
+    return value, np.array(gradient), np.array(hessian), np.array(mixed), rate
 
 
-def test_kernels_are_those_that_the_symbolic_energy_generates() -> None:
-    assert Path(_kernels.__file__).read_text(encoding="utf-8") == energy.generate()
+def test_formulas_are_those_that_the_symbolic_energy_generates() -> None:
+    assert Path(_density.__file__).read_text(encoding="utf-8") == energy.generate()
 
 
 @given(STATE, PARAMETER_SETS)

@@ -29,12 +29,13 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
     (
         correct,
         (
-            *(_MODEL, _TAGS, _TABLE, _VECTOR, _VECTOR, *_FREE, types.int64),  # ... points, weights, free, parity
+            *(_MODEL, _TAGS, _TABLE, _VECTOR, _VECTOR, _MATRIX, *_FREE, types.int64),  # ... weights, gram, free, parity
             *(_VECTOR, _VECTOR, _VECTOR, types.float64, _MATRIX, _VECTOR, types.float64, types.float64),  # ... target
-            *(types.float64, types.float64, types.float64, types.int64, types.int64, _VECTOR),  # scales ... tangent
+            *[types.float64] * 4,  # scales, tolerance
+            *(types.int64, types.int64, _VECTOR, _VECTOR),  # ... tangent, its covector
         ),
     ),
-    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, types.int64, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 

@@ -248,7 +248,7 @@ class Branch(Shown):
         """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
         ladder, (coarse, fine) = self._spans(i)
         near = ladder.point(coarse.at_lam(value), fine.at_lam(value))
-        return self._solution(ladder.at(near, value) or near, ladder)
+        return self._solution(near if near.at(value) else ladder.at(near, value) or near, ladder)
 
     @cached_property
     def dataset(self) -> xr.Dataset:

@@ -261,9 +261,9 @@ def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, func
         raise CurveLostError(outcome.value)
     value, step = function(family, state), PROBE
     for _ in range(MOST_SECANTS):
-        outcome, new, _ = family.step(state, step)
+        new = family.step(state, step)
         if new is None:
-            raise CurveLostError(outcome.value)
+            raise CurveLostError("a state near the curve could not be solved")
         if abs(step) <= SETTLED:
             return new
         f = function(family, new)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 
 from rodwell.compiling import wait_for
 from rodwell.jit import kernel
+from rodwell.numerics.assembly import SHARED, at_points
 from rodwell.numerics.bsplines import combine
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder
+from rodwell.numerics.lanes import on_lanes
 from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
 
@@ -42,34 +46,41 @@ STEEPEST = len(Measured)
 """Position, after the measured numbers, of max |sin η| over the quadrature points: a guard, not reported."""
 
 
+TOTALS = 7
+
+
+def _added(rows: Any, parameters: Any) -> Sequence[Any]:
+    """Totals over the points of an element, added to those that follow what is known at the points in ``rows``."""
+    s, weight, y, y1, y2, *totals = (rows[i] for i in range(SHARED + 3 + TOTALS))
+    clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
+    y, y1 = y + ramp * s, y1 + ramp
+    cos_eta = np.sqrt(1.0 - y1 * y1)
+    omega2 = y2 / cos_eta
+    lateral = clearance * parameters[LATERAL_WEIGHT] * np.sin(y / clearance)
+    integrands = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
+    sizes = omega2, y / clearance, y1
+    sums = [total + weight * x for total, x in zip(totals, integrands, strict=False)]
+    return [*sums, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[4:], sizes, strict=True))]
+
+
+_add = on_lanes(lambda _: _added)
+
+
 @kernel
-def _totals(local_tag, table, points, weights, elements, c, clearance, lateral_weight, ramp):
+def _totals(model, tags, table, points, weights, c, parameters):
     """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
-    per_element = weights.size // elements
-    u = np.empty(3)
-    shortening = torque = bending = torque_size = sharpest = widest = steepest = 0.0
-    for q in range(weights.size):
-        start = q // per_element
-        combine(local_tag, table, q, c, start, u)
-        y, y1, y2 = u[0] + ramp * points[q], u[1] + ramp, u[2]
-        cos_eta = np.sqrt(1.0 - y1 * y1)
-        omega2 = y2 / cos_eta
-        lateral = clearance * lateral_weight * np.sin(y / clearance)
-        w = weights[q]
-        shortening += w * y1 * y1 / (1.0 + cos_eta)
-        torque -= w * lateral
-        bending += 0.5 * w * omega2 * omega2
-        torque_size += w * abs(lateral)
-        sharpest = max(sharpest, abs(omega2))
-        widest = max(widest, abs(y / clearance))
-        steepest = max(steepest, abs(y1))
-    return shortening, torque, bending, torque_size, sharpest, widest, steepest
+    rows = np.zeros((SHARED + 3 + TOTALS, len(tags[1])))
+    totals = rows[SHARED + 3 :]
+    uniforms = (parameters,)
+    for element in range(c.size - len(tags[0]) + 1):
+        at_points(model, tags, table, points, weights, element * len(tags[1]), c, element, rows)
+        _add(model, tags[1], rows, uniforms, totals)
+    shortening, torque, bending, torque_size = totals[0].sum(), totals[1].sum(), totals[2].sum(), totals[3].sum()
+    return shortening, torque, bending, torque_size, totals[4].max(), totals[5].max(), totals[6].max()
 
 
 @kernel
-def _numbers(
-    local_tag, table, points, weights, elements, landmarks, marks, c, parameters, energy, highest, lowest, smallest
-):
+def _numbers(model, tags, table, points, weights, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
     """Rows of (3, 8): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
@@ -77,11 +88,11 @@ def _numbers(
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
     shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
-        local_tag, table, points, weights, elements, c, clearance, parameters[LATERAL_WEIGHT], ramp
+        model, tags, table, points, weights, c, parameters
     )
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
-        combine(local_tag, landmarks, i, c, marks[i], u[i])
+        combine(tags[0], landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
     out = np.zeros((3, STEEPEST + 1))
     numbers, scales, noise = out
@@ -103,7 +114,7 @@ def _numbers(
     return out
 
 
-KIN = (slice(Measured.OMEGA2_0, Measured.OMEGA2_1 + 1),)
+KIN = ((int(Measured.OMEGA2_0), int(Measured.OMEGA2_1)),)
 """Measured numbers of one kind: the end curvatures."""
 
 
@@ -122,37 +133,38 @@ def measured_ladder(family: Family, rtol: float, most_elements: int) -> Ladder:
     return Ladder(family, measure, rtol, most_elements, KIN)
 
 
-def measure(family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (8,) each.
+def measure(family: Family, state: State) -> FloatArray:
+    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 8).
 
     STEEPEST stands last. A spline's third derivative is its coefficients' third difference over h³: round-off in them
     comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
     """
-    space, p = state.space, family.parameters(state.lam)
-    _, values, lowest = pressure_maxima(family, state, p)
-    numbers, scales, noise = _numbers(
-        space.tags[0], space.table, space.points, space.weights, space.elements, *space.landmarks, state.c, p,
-        state.energy, values.max(), lowest, space.smallest,
+    space = state.space
+    wait_for("contact_maxima")
+    return np.asarray(
+        _measured(
+            family.model, space.tags, space.knots, *space.samples, space.table, space.points, space.weights,
+            *space.landmarks, state.c, family.parameters(state.lam), state.energy, space.smallest,
+        )
     )  # fmt: skip
-    return numbers, scales, noise
 
 
-def pressure_maxima(
-    family: Family, state: State, parameters: FloatArray | None = None
-) -> tuple[FloatArray, FloatArray, float]:
+@kernel
+def _measured(
+    model, tags, knots, grid, samples, table, points, weights, landmarks, marks, c, parameters, energy, smallest
+):
+    """Highest pressure and :func:`_numbers` together."""
+    _, values, lowest = contact_maxima(model, tags[0], knots, grid, samples, c, parameters, NEAR_THE_TOP)
+    return _numbers(
+        model, tags, table, points, weights, landmarks, marks, c, parameters, energy, np.max(values), lowest, smallest
+    )
+
+
+def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space = state.space
-    grid, table = space.samples
     wait_for("contact_maxima")
     places, values, lowest = contact_maxima(
-        family.model,
-        space.tags[0],
-        space.knots,
-        space.degree,
-        grid,
-        table,
-        state.c,
-        family.parameters(state.lam) if parameters is None else parameters,
-        NEAR_THE_TOP,
+        family.model, space.tags[0], space.knots, *space.samples, state.c, family.parameters(state.lam), NEAR_THE_TOP
     )
     return places, values, float(lowest)

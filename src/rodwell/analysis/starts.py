@@ -175,7 +175,7 @@ def rejoined(problem: Problem, turn: Found) -> Found | None:
         points = []
         for backwards in (True, False):
             ends = [
-                f.sharp().step(x.reversed() if backwards else x, part)[1]  # type: ignore[union-attr, arg-type]
+                f.sharp().step(x.reversed() if backwards else x, part)  # type: ignore[union-attr, arg-type]
                 for f, x in zip((ladder.coarse, ladder.fine), middle, strict=True)
             ]
             if ends[0] is not None and ends[1] is not None:

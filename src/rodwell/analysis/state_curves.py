@@ -286,4 +286,4 @@ class _Softest:
             vector = np.random.default_rng(0).standard_normal(size)
             self.vectors[size] = vector + self.parity * vector[::-1]
             family.nearest_curvature(state, self.vectors[size], 8)
-        return family.nearest_curvature(state, self.vectors[size], 3)
+        return family.nearest_curvature(state, self.vectors[size], 3)[0]

@@ -48,7 +48,7 @@ def traced(
     """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
     ladder, point = start
     stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
-    events = [_ACROSS, Event(END, lambda lam, _: lam - until)]
+    events = [_ACROSS, Event.at(END, until)]
     if problem.lateral_weight > 0.0 or problem.turns != 0:
         events.append(_CONTACT)
     if problem.turns != 0:
@@ -58,7 +58,7 @@ def traced(
         back = low if until > point.lam else high
         if back == 0.0 and parameter == "clearance":
             back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
-        events.append(Event(LEFT, lambda lam, _: lam - back))
+        events.append(Event.at(LEFT, back))
 
     meetings: dict[float, Found | None] = {}
 
@@ -103,7 +103,7 @@ def _ended_at(result: Trace, meeting: Found | None) -> Trace:
 def _end_exactly(result: Trace, value: float) -> Trace:
     """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
     last: Point | None = None
-    if result.end == END:
+    if result.end == END and not result.points[-1].at(value):
         last = result.ladders[-1].at(result.points[-1], value)
     elif result.end == STRAIGHT:
         last = _flattened(result.ladders[-1], result.points[-1])

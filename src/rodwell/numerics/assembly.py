@@ -1,17 +1,49 @@
 """From an energy density to value, gradient and banded Hessian on a spline space.
 
-The density is that of a *model* (:func:`rodwell.jit.density`) over any number of fields ``nf`` and their first
-two derivatives. Coefficients are ordered basis function by basis function, fields inside: unknown
-``i nf + f``; the half-bandwidth is ``(p + 1) nf − 1``.
+A *model* is a named tuple with one entry for each field. Its class gives the energy density as a plain formula,
+
+    ``density(s, u, parameters, rates)`` → energy, rate, gradient, mixed, hessian,
+
+where ``u[3 f + d]`` is derivative d of field f; the derivatives by u are ``gradient`` (3 nf) and ``hessian``
+(3 nf, 3 nf), and ``rate`` and ``mixed`` (3 nf) are those of energy and gradient along ``rates``, a direction in the
+space of the ``parameters``. Where contact is looked at, ``contact(s, u, parameters)`` is the contact pressure from the
+fields and three derivatives. Both are compiled into the kernels: see :mod:`rodwell.numerics.lanes`.
+
+Coefficients are ordered basis function by basis function, fields inside: unknown ``i nf + f``; the half-bandwidth is
+``(p + 1) nf − 1``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import numpy as np
 
-from rodwell.jit import density, formula, kernel
+from rodwell.jit import formula, kernel
 from rodwell.numerics.bsplines import combine
-from rodwell.numerics.congruence import congruence
+from rodwell.numerics.lanes import on_lanes
+from rodwell.numerics.products import congruence, dots
+
+
+def _weighted(model: Any) -> Callable[..., Sequence[Any]]:
+    """The formula of :data:`_density_terms` for a model."""
+    size = 3 * len(model._fields)
+
+    def formula(rows: Any, parameters: Any, rates: Any) -> Sequence[Any]:
+        u = [rows[SHARED + k] for k in range(size)]
+        energy, rate, gradient, mixed, hessian = model.density(rows[PLACE], u, parameters, rates)
+        return [rows[WEIGHT] * x for x in (energy, rate, *gradient, *mixed, *(x for row in hessian for x in row))]
+
+    return formula
+
+
+PLACE, WEIGHT, SHARED = 0, 1, 2
+"""Rows of what is known at the points of an element: place and weight; fields and derivatives come after them."""
+
+_density_terms = on_lanes(_weighted)
+"""Energy density and its derivatives at the points of an element, times their weights; the order of the rows is that of
+:mod:`rodwell.numerics.products`."""
 
 
 @kernel
@@ -24,43 +56,38 @@ def assemble(model, tags, table, points, weights, c, parameters, rates, gradient
     """
     fields, local, per_element = len(model), len(tags[0]), len(tags[1])
     size = 3 * fields
-    u, g, m = np.empty((per_element, size)), np.empty(size), np.empty(size)
-    h = np.empty((size, size))
-    terms = np.empty((per_element, size + 2, size))
+    known = np.empty((SHARED + size, per_element))
+    terms = np.empty((2 + size * (size + 2), per_element))
     product = np.empty((local + 2, local))
+    uniforms = parameters, rates
     gradient[:] = 0.0
     mixed[:] = 0.0
     band[:] = 0.0
     energy = rate = 0.0
     for element in range(c.size // fields - local + 1):
         start, first = element * fields, element * per_element
-        _evaluate(model, tags, table, first, c, start, u)
+        at_points(model, tags, table, points, weights, first, c, start, known)
+        _density_terms(model, tags[1], known, uniforms, terms)
         for i in range(per_element):
-            w = weights[first + i]
-            e, r = density(model, points[first + i], u[i], parameters, rates, g, h, m)
-            energy += w * e
-            rate += w * r
-            for k in range(size):
-                for j in range(size):
-                    terms[i, j, k] = w * h[j, k]
-                terms[i, size, k], terms[i, size + 1, k] = w * g[k], w * m[k]
+            energy += terms[0, i]
+            rate += terms[1, i]
         for e in range(fields):
             for f in range(fields):
-                congruence(tags, table, first, terms, e, f, product)
+                congruence(model, tags, table, first, terms, e, f, product)
                 _scatter(model, tags, product, start, e, f, gradient, mixed, band)
     return energy, rate
 
 
-@formula(fastmath={"contract", "reassoc", "nsz"})
-def _evaluate(model, tags, table, first, c, start, u):
-    """Fields and two derivatives at the points of an element: ``u`` (points, 3 nf). The sums may be reordered."""
-    for i in range(len(tags[1])):
-        for f in range(len(model)):
-            for d in range(3):
-                total = 0.0
-                for a in range(len(tags[0])):
-                    total += table[first + i, d, a] * c[start + a * len(model) + f]
-                u[i, 3 * f + d] = total
+@formula
+def at_points(model, tags, table, points, weights, first, c, start, known):
+    """Write to ``known`` place, weight, fields and two derivatives at the points of an element."""
+    per_element = len(tags[1])
+    for i in range(per_element):
+        known[PLACE, i], known[WEIGHT, i] = points[first + i], weights[first + i]
+    for f in range(len(model)):
+        for d in range(3):
+            row = (SHARED + 3 * f + d) * per_element
+            dots(model, tags[0], tags[1], table, 3 * first + d, 3, c, start + f, known, row)
 
 
 @formula
@@ -78,21 +105,27 @@ def _scatter(model, tags, product, start, e, f, gradient, mixed, band):
 
 @kernel
 def variation(model, tags, table, points, weights, c, parameters, rates, v):
-    """Second variation of the energy at ``c`` along ``v``, and ∫ v'² ds; one field, sums of pointwise squares."""
+    """Second variation of the energy at ``c`` along ``v``, the size of its terms, and ∫ v'² ds; for one field.
+
+    Products are formed at the points: unlike those with the Hessian, they do not cancel.
+    """
     local_tag, per_element = tags[0], len(tags[1])
-    u, du, g, m = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
-    h = np.empty((3, 3))
-    total = square = 0.0
-    for q in range(points.size):
-        start = q // per_element
-        combine(local_tag, table, q, c, start, u)
-        combine(local_tag, table, q, v, start, du)
-        density(model, points[q], u, parameters, rates, g, h, m)
-        for d in range(3):
-            for e in range(3):
-                total += weights[q] * du[d] * h[d, e] * du[e]
-        square += weights[q] * du[1] * du[1]
-    return total, square
+    known, terms, du = np.empty((SHARED + 3, per_element)), np.empty((17, per_element)), np.empty(3)
+    uniforms = parameters, rates
+    total = size = square = 0.0
+    for element in range(c.size - len(local_tag) + 1):
+        first = element * per_element
+        at_points(model, tags, table, points, weights, first, c, element, known)
+        _density_terms(model, tags[1], known, uniforms, terms)
+        for i in range(per_element):
+            combine(local_tag, table, first + i, v, element, du)
+            for d in range(3):
+                for e in range(3):
+                    term = du[d] * terms[8 + 3 * d + e, i] * du[e]
+                    total += term
+                    size += abs(term)
+            square += weights[first + i] * du[1] * du[1]
+    return total, size, square
 
 
 @kernel

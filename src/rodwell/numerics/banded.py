@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.jit import kernel
+from rodwell.numerics.products import subtract
 
 PIVOT_FLOOR = 1e-30
 """Smallest pivot, relative to the largest diagonal entry, before it is replaced."""
@@ -42,12 +43,11 @@ def factorise(band):
         if pivot < 0.0:
             negative += 1
         reach = min(width, n - j)
+        inverse = 1.0 / pivot
         for k in range(1, reach):
-            multiplier = band[j, k] / pivot
-            for r in range(k, reach):
-                band[j + k, r - k] -= multiplier * band[j, r]
+            subtract(band, (j + k) * width, band[j, k] * inverse, band, j * width + k, reach - k)
         for k in range(1, reach):
-            band[j, k] /= pivot
+            band[j, k] *= inverse
     return negative
 
 

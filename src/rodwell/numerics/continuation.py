@@ -7,6 +7,7 @@ places where λ turns back. A step that cannot be explained in this way is repea
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -16,6 +17,7 @@ from rodwell.numerics.events import Event, Found, events_between
 from rodwell.numerics.families import Outcome, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError
+from rodwell.numerics.prediction import Course
 from rodwell.numerics.spaces import FloatArray
 from rodwell.numerics.watch import Watch, hidden_change
 
@@ -57,8 +59,6 @@ Progress = Callable[[Point], None]
 Stop = Callable[[Found], str]
 """Why the branch ends at something located, or "" if it goes on."""
 
-_Bend = tuple[FloatArray, float] | None
-
 
 def trace(
     ladder: Ladder,
@@ -78,94 +78,103 @@ def trace(
     ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
     branch point, whose stability index is that of the branch left.
     """
-    result = Trace([start], [ladder])
-    length, work = stepping.first, 0.0
-    bend: _Bend = None
-    watch = Watch()
-    while True:
-        work += 4.0 * result.ladders[-1].fine.space.elements  # about that many solves a step
-        result.end = _limit(result, work, stepping)
-        if result.end:
-            return result
-        advance = _advance(result, length, bend, stepping, events, stop, switched)
-        if isinstance(advance, str):
-            length, bend = 0.5 * length, None
-            if length < stepping.smallest:
-                result.end = advance
-                return result
-            continue
-        if result.end:
-            return result
-        bend, turn = advance
-        watch.add(result.ladders[-1], result.points[-1], length)
-        result.points[-1] = result.points[-1].light()
-        if length > stepping.smallest and watch.may_dip() and hidden_change(result.ladders, result.points):
-            length, bend = 0.25 * min(length, result.step_back(2)), None
-            watch.forget(2)
-            continue
-        if progress is not None:
-            progress(result.points[-1])
-        length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
+    walk = _Walk(stepping, events, stop, switched, Trace([start], [ladder]), Course(start.coarse))
+    walk.to_the_end(progress)
+    return walk.trace
 
 
-def _advance(
-    result: Trace, length: float, bend: _Bend, stepping: Stepping, events: Sequence[Event], stop: Stop, switched: bool
-) -> tuple[_Bend, float] | str:
-    """Make one step and add it to ``result`` with its events; return how the branch bends, or what went wrong."""
-    last, ladder = result.points[-1], result.ladders[-1]
-    why, new_ladder, point, turn = _step(ladder, last.coarse, length, bend, stepping)
-    if point is None:
-        return why
-    base = last
-    if new_ladder is not ladder:
-        outcome, adopted = new_ladder.adopt(ladder, last)
-        if adopted is None:
-            return outcome.value
-        base = adopted
-    try:
-        opening = len(result.points) == 1
-        found = events_between(new_ladder, base, point, events, opening=opening, leaves=opening and switched)
-    except LocationError as problem:
-        return str(problem)
-    result.points[-1], result.ladders[-1] = base, new_ladder
-    end = next((i for i, item in enumerate(found) if stop(item)), None)
-    if end is not None:
-        found = found[: end + 1]
-        result.end, point, new_ladder = stop(found[end]), found[end].point, found[end].ladder
-    result.found += [replace(item, after=len(result.points) - 1) for item in found]
-    result.points.append(point)
-    result.ladders.append(new_ladder)
-    if end is not None:
-        return None, turn
-    travelled = base.coarse.along(point.coarse)
-    rate = (
-        (point.coarse.tangent - base.coarse.tangent) / travelled,
-        (point.coarse.tangent_lam - base.coarse.tangent_lam) / travelled,
-    )
-    return rate, turn
+@dataclass
+class _Walk:
+    """What happens step by step, see :func:`trace`."""
 
+    stepping: Stepping
+    events: Sequence[Event]
+    stop: Stop
+    switched: bool
+    trace: Trace
+    course: Course
+    watch: Watch = field(default_factory=Watch)
+    work: float = 0.0
 
-def _limit(result: Trace, work: float, stepping: Stepping) -> str:
-    """Why the branch must end here, or ""."""
-    if work > stepping.most_work:
-        return "the work allowed for one branch is used up: ask for less far, or for a larger rtol"
-    if len(result.points) >= stepping.most_points:
-        return f"the limit of {stepping.most_points} points was reached"
-    return ""
+    def to_the_end(self, progress: Progress | None) -> None:
+        """Make steps until something ends the branch."""
+        trace, stepping = self.trace, self.stepping
+        length = stepping.first
+        while not trace.end:
+            self.work += 4.0 * trace.ladders[-1].fine.space.elements  # about that many solves a step
+            trace.end = self._limit()
+            turn = trace.end or self._advance(length)
+            if trace.end:
+                return
+            if isinstance(turn, str):
+                length = 0.5 * length
+                self.course.restart(trace.points[-1].coarse)
+                trace.end = turn if length < stepping.smallest else ""
+                continue
+            if length > stepping.smallest and self.watch.may_dip() and hidden_change(trace.ladders, trace.points):
+                length = 0.25 * min(length, trace.step_back(2))
+                self.course.restart(trace.points[-1].coarse)
+                self.watch.forget(2)
+                continue
+            if progress is not None:
+                progress(trace.points[-1])
+            length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
 
+    def _limit(self) -> str:
+        """Why the branch must end here, or ""."""
+        if self.work > self.stepping.most_work:
+            return "the work allowed for one branch is used up: ask for less far, or for a larger rtol"
+        if len(self.trace.points) >= self.stepping.most_points:
+            return f"the limit of {self.stepping.most_points} points was reached"
+        return ""
 
-def _step(
-    ladder: Ladder, state: State, length: float, bend: _Bend, stepping: Stepping
-) -> tuple[str, Ladder, Point | None, float]:
-    """Try one step: returns what went wrong (or ""), the ladder, the point or None, the turn of the tangent."""
-    outcome, coarse, strayed = ladder.coarse.step(state, length, bend)
-    if coarse is None:
-        return outcome.value, ladder, None, 0.0
-    cosine = float(state.row @ coarse.tangent + state.row_lam * coarse.tangent_lam)
-    turn = float(np.arccos(min(1.0, cosine)))
-    if turn > stepping.sharpest_turn:
-        return "the branch turns too sharply to be followed", ladder, None, turn
-    if strayed > STRAYED * length:
-        return "the steps stray from the branch", ladder, None, turn
-    outcome, ladder, point = ladder.resolve(coarse)
-    return (outcome.value if outcome is not Outcome.CONVERGED else ""), ladder, point, turn
+    def _advance(self, length: float) -> float | str:
+        """Make one step and add it to the trace with its events; return the turn of the tangent, or what went wrong."""
+        trace = self.trace
+        last, ladder = trace.points[-1], trace.ladders[-1]
+        why, new_ladder, point, turn, factors = self._step(ladder, last.coarse, length)
+        if point is None:
+            return why
+        base = last
+        if new_ladder is not ladder:
+            outcome, adopted = new_ladder.adopt(ladder, last)
+            if adopted is None:
+                return outcome.value
+            base, factors = adopted, None
+        try:
+            opening = len(trace.points) == 1
+            leaves = opening and self.switched
+            found = events_between(new_ladder, base, point, self.events, opening=opening, leaves=leaves)
+        except LocationError as problem:
+            return str(problem)
+        trace.points[-1], trace.ladders[-1] = base, new_ladder
+        end = next((i for i, item in enumerate(found) if self.stop(item)), None)
+        if end is not None:
+            found = found[: end + 1]
+            trace.end, point, new_ladder = self.stop(found[end]), found[end].point, found[end].ladder
+        trace.found += [replace(item, after=len(trace.points) - 1) for item in found]
+        trace.points.append(point)
+        trace.ladders.append(new_ladder)
+        if end is None:
+            if new_ladder is not ladder:
+                self.course.restart(base.coarse)
+            self.course.add(point.coarse)
+            self.watch.add(new_ladder, point, length, factors)
+        return turn
+
+    def _step(
+        self, ladder: Ladder, state: State, length: float
+    ) -> tuple[str, Ladder, Point | None, float, FloatArray | None]:
+        """Try one step: what went wrong (or ""), ladder, point or None, turn of the tangent, coarse factors."""
+        expected = self.course.ahead(length)
+        outcome, coarse, strayed, factors = ladder.coarse.step_to(state, length, *expected, ladder.loose)
+        if coarse is None:
+            return outcome.value, ladder, None, 0.0, None
+        cosine = float(state.row @ coarse.tangent) + state.row_lam * coarse.tangent_lam
+        turn = math.acos(min(1.0, cosine))
+        if turn > self.stepping.sharpest_turn:
+            return "the branch turns too sharply to be followed", ladder, None, turn, None
+        if strayed > STRAYED * length:
+            return "the steps stray from the branch", ladder, None, turn, None
+        outcome, ladder, point = ladder.resolve(coarse)
+        return (outcome.value if outcome is not Outcome.CONVERGED else ""), ladder, point, turn, factors

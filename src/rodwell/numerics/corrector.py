@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.jit import formula, kernel
 from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.ends import gather, restrict, spread
@@ -108,11 +108,39 @@ def _settles(step, previous, tolerance):
 
 @kernel
 def correct(
+    model, tags, table, points, weights, gram, first, last, tied_first, tied_last, parity,
+    frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, slope_scale, tolerance, most,
+    extra, tangent, new_row,
+):  # fmt: skip
+    """Move ``c`` (n,) in place to the equilibrium on the hyperplane, see :func:`_newton`; return what came of it.
+
+    Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
+    ``scale_lam``: see :mod:`rodwell.numerics.families`) and towards growing ``row·c + row_λ λ``, and its covector
+    ``new_row`` (n,).
+
+    Returns
+    -------
+    status, λ, λ components of tangent and covector, negative pivots of H, energy, number of steps, factors of H
+    """
+    status, lam, negative, energy, steps, factors = _newton(
+        model, tags, table, points, weights, first, last, tied_first, tied_last, parity,
+        frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most, extra, tangent,
+    )  # fmt: skip
+    sign = 1.0 if dot(row, tangent) + row_lam >= 0.0 else -1.0
+    for i in range(c.size):
+        tangent[i] *= sign
+    unit_row, unit_row_lam, unit_lam = hyperplane(gram, slope_scale**-2, scale_lam**-2, tangent, sign)
+    new_row[:] = unit_row
+    return status, lam, unit_lam, unit_row_lam, negative, energy, steps, factors
+
+
+@formula
+def _newton(
     model, tags, table, points, weights, first, last, tied_first, tied_last, parity,
     frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
     extra, tangent,
 ):  # fmt: skip
-    """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
+    """Newton's method for ``c`` (n,), in place.
 
     The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
@@ -178,6 +206,23 @@ def correct(
             return CONVERGED if at_round_off else DIVERGED, lam, negative, energy, iteration, inner
         previous = step
     return NOT_CONVERGED, lam, negative, energy, most, inner
+
+
+@kernel
+def inverse_iteration(factors, first, last, tied_first, tied_last, gram, iterations, vector):
+    """Turn ``vector`` (n,), in place, towards the H v = μ G v with μ nearest to zero; its largest entry becomes 1.
+
+    ``factors`` are those of H for the unknowns ``first … last−1``, ``gram`` is G.
+    """
+    for _ in range(iterations):
+        new = multiply(gram, vector)
+        gather(new, first, last, tied_first, tied_last)
+        solve(factors, new[first:last])
+        largest = np.max(np.abs(new[first:last]))
+        vector[:] = 0.0
+        for i in range(first, last):
+            vector[i] = new[i] / largest
+        spread(vector, first, last, tied_first, tied_last)
 
 
 @kernel

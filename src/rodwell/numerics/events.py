@@ -35,10 +35,16 @@ MOST_REFINEMENTS = 2
 
 @dataclass(frozen=True)
 class Event:
-    """A function of λ and the measured numbers whose zeros are to be found."""
+    """A function of λ and the measured numbers whose zeros are to be found; of λ alone, if ``level`` is given."""
 
     name: str
     function: Callable[[float, FloatArray], float]
+    level: float | None = None
+
+    @classmethod
+    def at(cls, name: str, level: float) -> Event:
+        """Where λ is ``level``."""
+        return cls(name, lambda lam, _: lam - level, level)
 
 
 @dataclass(frozen=True)
@@ -144,6 +150,11 @@ class _Segment:
             place = locate(*self.spans, _sense, (first, last))
         return place
 
+    def at_level(self, lam: float) -> Place | None:
+        """Where λ has just this value on both meshes, if it does not turn back."""
+        coarse, fine = (span.exactly(lam) for span in self.spans)
+        return None if coarse is None or fine is None else Place(fine[0], coarse[1], fine[1])
+
     def starts_at(self, event: Event) -> bool:
         """Whether the zero of an event is the start itself, to within what is known of its values there."""
         ends = self._values(event)
@@ -161,11 +172,12 @@ class _Segment:
         def value(span: Span, state: State) -> float:
             return event.function(state.lam, self.ladder.measure(span.family, state)[0])
 
-        place = locate(*self.spans, value, ends)
-        index = _index_at(place.t, index, changes)
+        def again(segment: _Segment) -> Place:
+            exact = None if event.level is None else segment.at_level(event.level)
+            return exact or locate(*segment.spans, value, segment._values(event))
 
-        def again(finer: _Segment) -> Place | None:
-            return locate(*finer.spans, value, finer._values(event))
+        place = again(self)
+        index = _index_at(place.t, index, changes)
 
         rising = ends[1] > ends[0]
         found = self._refined(

@@ -37,6 +37,9 @@ ROUND_OFF = 1e-15
 SYMMETRIC = 1e-5
 """Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
 
+NOISE = 8.0 * float(np.finfo(float).eps)
+"""Round-off left in a second variation, as a part of the size of its terms."""
+
 _NOTHING = np.empty(0)
 
 _OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
@@ -47,8 +50,7 @@ class State:
     """An equilibrium: coefficients ``c`` on ``space`` at parameter λ, with tangent and stability index.
 
     ``tangent`` (n,) and ``tangent_lam`` have length one in the metric of the family; ``row`` (n,) and ``row_lam``
-    are their covector. ``index`` is the number of negative eigenvalues of the Hessian. ``factors`` are those of the
-    Hessian in the last Newton step, as long as they are kept.
+    are their covector. ``index`` is the number of negative eigenvalues of the Hessian.
     """
 
     space: SplineSpace
@@ -60,7 +62,6 @@ class State:
     row_lam: float
     index: int
     energy: float
-    factors: FloatArray | None = None
 
     @property
     def symmetry(self) -> int:
@@ -79,13 +80,6 @@ class State:
         """Coefficients of the even (1) or odd (−1) part; of a coil, odd about its middle."""
         middle = self.c[0] + self.c[-1] if parity < 0 else 0.0
         return 0.5 * (self.c + parity * self.c[::-1] + middle)
-
-    def light(self) -> State:
-        """Return the same state without the factors."""
-        if self.factors is None:
-            return self
-        direction = self.tangent, self.tangent_lam, self.row, self.row_lam
-        return State(self.space, self.c, self.lam, *direction, self.index, self.energy)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""
@@ -167,31 +161,36 @@ class Family:
         Returns the outcome, the state (None unless converged; its tangent points towards growing
         ``row·c + row_λ λ``) and the number of Newton steps.
         """
-        space = self.space
-        c = c.copy()
-        tangent = np.empty_like(c)
-        free = self.free
-        frozen, covector = self._normalised(frozen)
+        return self._correct(c, lam, row, row_lam, target, frozen, self.tolerance)[:3]
+
+    def _correct(
+        self,
+        c: FloatArray,
+        lam: float,
+        row: FloatArray,
+        row_lam: float,
+        target: float,
+        frozen: FloatArray | None,
+        tolerance: float,
+    ) -> tuple[Outcome, State | None, int, FloatArray]:
+        """The same, with the factors of the last Hessian (free unknowns)."""
+        space, c, n = self.space, c.copy(), c.size
+        tangent, new_row = np.zeros(n), np.empty(n)
+        held, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
         wait_for("correct")
-        status, lam, index, energy, steps, factors = corrector.correct(
-            self.model, space.tags, space.table, space.points, space.weights, free.start, free.stop,
-            *self.ends.tied, self.parity, frozen, covector, c, lam, self.path, row, row_lam, target,
-            self.scale_c, self.lam_scale, self.tolerance, self.most_steps, self.extra_steps, tangent,
+        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = corrector.correct(
+            self.model, space.tags, space.table, space.points, space.weights, space.slope_gram,
+            self.ends.held[0], n - self.ends.held[1], *self.ends.tied, self.parity, held, covector, c, lam, self.path,
+            row, row_lam, target, self.scale_c, self.lam_scale, self.slope_scale, tolerance,
+            self.most_steps, self.extra_steps, tangent, new_row,
         )  # fmt: skip
         if status != corrector.CONVERGED:
-            return _OUTCOMES[status], None, steps
-        sign = 1.0 if row @ tangent + row_lam >= 0.0 else -1.0
-        new_row, new_row_lam, unit, unit_lam = self.covector(sign * tangent, sign)
-        return (
-            Outcome.CONVERGED,
-            State(space, c, lam, unit, unit_lam, new_row, new_row_lam, index, energy, factors),
-            steps,
-        )
+            return _OUTCOMES[status], None, steps, factors
+        state = State(space, c, lam, tangent, tangent_lam, new_row, new_row_lam, index, energy)
+        return Outcome.CONVERGED, state, steps, factors
 
-    def _normalised(self, vector: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Return a vector (n,) of length one in the product ∫u'v' ds, and its covector; empty ones for None."""
-        if vector is None:
-            return _NOTHING, _NOTHING
+    def _normalised(self, vector: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return a vector (n,) of length one in the product ∫u'v' ds, and its covector."""
         covector = banded.multiply(self.space.slope_gram, vector)
         length = float(np.sqrt(vector @ covector))
         return vector / length, covector / length
@@ -226,51 +225,48 @@ class Family:
         slope = self.space.degree / (self.space.breaks[-1] - self.space.breaks[-2])
         return float(-gradient[-2] / slope), float(gradient[-1] + gradient[-2])
 
-    def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> float:
-        """Eigenvalue of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vector`` (n,).
+    def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> tuple[float, float]:
+        """Eigenvalue of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vector`` (n,); its noise.
 
         ``vector`` becomes the eigenvector. The value is the Rayleigh quotient formed by quadrature of the second
-        variation: unlike a tiny pivot, it is not drowned by the round-off of entries that grow like h⁻³.
+        variation: unlike a tiny pivot, it is not drowned by the round-off of entries that grow like h⁻³. The noise is
+        what round-off leaves in it.
         """
-        space = self.space
+        space, free = self.space, self.free
         factors = self.free_part(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
-        for _ in range(iterations):
-            new = self.ends.gather(banded.multiply(space.slope_gram, vector))
-            banded.solve(factors, new)
-            vector[:] = self.ends.spread(new / np.max(np.abs(new)))
-        above, below = assembly.variation(
-            self.model,
-            space.tags,
-            space.table,
-            space.points,
-            space.weights,
-            state.c,
-            self.parameters(state.lam),
-            self.rates(state.lam),
-            vector,
+        corrector.inverse_iteration(
+            factors, free.start, free.stop, *self.ends.tied, space.slope_gram, iterations, vector
         )
-        return float(above / below)
+        above, size, below = assembly.variation(
+            self.model, space.tags, space.table, space.points, space.weights, state.c,
+            *self._on_path(state.lam), vector,
+        )  # fmt: skip
+        return float(above / below), float(NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
         """Newton from ``c`` at fixed λ."""
         return self.correct(c, lam, np.zeros_like(c), 1.0, lam)
 
-    def step(
-        self, state: State, length: float, bend: tuple[FloatArray, float] | None = None
-    ) -> tuple[Outcome, State | None, float]:
-        """One pseudo-arclength step from ``state`` along its tangent, which turns at the rate ``bend``.
+    def step(self, state: State, length: float) -> State | None:
+        """One pseudo-arclength step from ``state`` along its tangent; None if Newton's method fails."""
+        c, lam = state.c + length * state.tangent, state.lam + length * state.tangent_lam
+        return self.step_to(state, length, c, lam, self.tolerance)[1]
 
-        Returns what came of it, the new state, and how far that lies from where it was predicted.
+    def step_to(
+        self, state: State, length: float, c: FloatArray, lam: float, tolerance: float
+    ) -> tuple[Outcome, State | None, float, FloatArray]:
+        """One pseudo-arclength step from ``state`` along its tangent, to where ``(c, λ)`` is expected.
+
+        Newton's method ends with the first step below ``tolerance``. Returns what came of it, the new state, how far
+        that lies from where it was expected, and the factors of the last Hessian.
         """
-        c = state.c + length * state.tangent
-        lam = state.lam + length * state.tangent_lam
-        if bend is not None:
-            c += 0.5 * length**2 * bend[0]
-            lam += 0.5 * length**2 * bend[1]
+        increment = c - state.c
+        corrector.symmetrise(increment, self.parity)  # round-off off the symmetry would grow from step to step
+        c = state.c + increment
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
-        outcome, new, _ = self.correct(c, lam, state.row, state.row_lam, target)
-        return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam)
+        outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)
+        return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam), factors
 
     def distance(self, c: FloatArray, lam: float) -> float:
         """Length of a difference of states in the metric."""

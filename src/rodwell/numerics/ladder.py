@@ -16,13 +16,14 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.jit import formula, kernel
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family, Outcome, State
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 
-Measure = Callable[[Family, State], tuple[FloatArray, FloatArray, FloatArray]]
-"""Numbers to report of a state, the scales against which their errors are judged, and the errors that round-off in the
-coefficients leaves in them, which grow with finer meshes, (k,) each."""
+Measure = Callable[[Family, State], FloatArray]
+"""Rows of (3, k): numbers to report of a state, the scales against which their errors are judged, and the errors that
+round-off in the coefficients leaves in them, which grow with finer meshes."""
 
 
 CLAIMED_GAIN = 8.0
@@ -30,13 +31,34 @@ CLAIMED_GAIN = 8.0
 pressure at degree 9, gains 2⁷; where the gain is not seen (round-off), the point counts as not converged."""
 
 
+LOOSE = 1e-2
+"""Newton step, over the root of the tolerance, with which the coarse solve of a point may end: what is left is about
+its square, and counts as error, since the finer solve does not share it."""
+
+
 ROUND_OFF = 2e-12
 """Error that round-off leaves in a number even where both meshes agree, relative to its scale."""
 
 
+@formula
 def estimated_error(fine: Any, coarse: Any) -> Any:
     """Error estimate of numbers known on both meshes, arrays or single ones."""
     return np.abs(fine - coarse) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine)
+
+
+@kernel
+def _judged(fine, coarse, kin):
+    """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale."""
+    error, relative = np.empty(fine.shape[1]), np.empty(fine.shape[1])
+    for i in range(error.size):
+        scale = fine[1, i]
+        known = ROUND_OFF * scale if np.isfinite(scale) else 0.0
+        error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
+    for first, last in kin:
+        error[first : last + 1] = np.max(error[first : last + 1])
+    for i in range(error.size):
+        relative[i] = error[i] / fine[1, i]
+    return error, np.max(relative)
 
 
 @dataclass(frozen=True)
@@ -58,9 +80,9 @@ class Point:
         """Parameter λ, from the finer mesh."""
         return self.fine.lam
 
-    def light(self) -> Point:
-        """Return the same point without the factors of its Hessians."""
-        return Point(self.coarse.light(), self.fine.light(), self.values, self.error, self.excess)
+    def at(self, lam: float) -> bool:
+        """Whether both meshes are solved at exactly this λ."""
+        return self.coarse.lam == lam == self.fine.lam
 
     @property
     def lam_gap(self) -> float:
@@ -87,19 +109,25 @@ class Ladder:
     most_elements
         Limit to the elements of the finer mesh.
     kin
-        Groups of measured numbers of one kind, which share the largest error of the group: a single number may
-        agree on both meshes by chance.
+        First and last of groups of measured numbers of one kind, which share the largest error of the group: a single
+        number may agree on both meshes by chance.
     """
 
     def __init__(
-        self, family: Family, measure: Measure, rtol: float, most_elements: int = 20_000, kin: Sequence[slice] = ()
+        self,
+        family: Family,
+        measure: Measure,
+        rtol: float,
+        most_elements: int = 20_000,
+        kin: Sequence[tuple[int, int]] = (),
     ) -> None:
         self.floor = 1.0  # excess below which refinement was found not to help (round-off)
-        self.kin = tuple(kin)
+        self.kin = tuple(kin)  # first and last number of each group
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
         self.measure, self.rtol, self.most_elements = measure, rtol, most_elements
+        self.loose = max(family.tolerance, LOOSE * np.sqrt(rtol))
 
     def on_path(self, path: FloatArray, ends: Ends, parity: int) -> Ladder:
         """Return the ladder on the same meshes, for another path in the parameters and a parity to keep."""
@@ -113,12 +141,9 @@ class Ladder:
 
     def point(self, coarse: State, fine: State) -> Point:
         """Measure a pair of states."""
-        values, scales, noise = self.measure(self.fine, fine)
-        other = self.measure(self.coarse, coarse)[0]
-        error = estimated_error(values, other) + ROUND_OFF * np.where(np.isfinite(scales), scales, 0.0) + noise
-        for group in self.kin:
-            error[group] = error[group].max()
-        return Point(coarse, fine, values, error, float(np.max(error / scales)) / self.rtol)
+        measured = self.measure(self.fine, fine)
+        error, worst = _judged(measured, self.measure(self.coarse, coarse), self.kin)
+        return Point(coarse, fine, measured[0], error, worst / self.rtol)
 
     def _without_gain(self, point: Point) -> Point:
         """Return a point of which refinement is known not to help: no gain is claimed for its errors."""

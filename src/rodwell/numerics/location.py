@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +14,12 @@ from rodwell.numerics.spaces import FloatArray
 
 PLACE_TOLERANCE = 1e-12
 """Width, as a part of the span, to which a zero is bracketed."""
+
+INSIDE = 0.02
+"""The first place looked at lies at least this part of the bracket from its ends."""
+
+BESIDE = 0.01
+"""How far, as a part of the span, a solution at given λ may lie from where it was expected."""
 
 
 class LocationError(RuntimeError):
@@ -39,17 +46,36 @@ class Span:
             return a
         if t == 1.0:
             return b
-        length = a.along(b)
-        rate = float(a.row @ b.tangent + a.row_lam * b.tangent_lam)
-        h0, h1 = (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * t * (3.0 - 2.0 * t)
-        s0, s1 = length * t * (1.0 - t) ** 2, length / rate * t * t * (t - 1.0)
-        c = h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent
-        lam = h0 * a.lam + h1 * b.lam + s0 * a.tangent_lam + s1 * b.tangent_lam
-        target = float(a.row @ a.c) + a.row_lam * a.lam + t * length
-        outcome, state, _ = self.family.correct(c, lam, a.row, a.row_lam, target, self.frozen)
+        target = float(a.row @ a.c) + a.row_lam * a.lam + t * self._length
+        outcome, state, _ = self.family.correct(*self._interpolant(t), a.row, a.row_lam, target, self.frozen)
         if state is None:
             raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
         return state
+
+    @cached_property
+    def _length(self) -> float:
+        return self.first.along(self.last)
+
+    @cached_property
+    def _rate(self) -> float:
+        """Growth of the distance along the first tangent, at the last point."""
+        return float(self.first.row @ self.last.tangent) + self.first.row_lam * self.last.tangent_lam
+
+    def _shares(self, t: float) -> tuple[float, float, float, float]:
+        """Hermite's cubics at ``t``: shares of the values at both ends and of the tangents there."""
+        slopes = self._length * t * (1.0 - t) ** 2, self._length / self._rate * t * t * (t - 1.0)
+        return (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * t * (3.0 - 2.0 * t), *slopes
+
+    def _interpolant(self, t: float) -> tuple[FloatArray, float]:
+        """Coefficients and λ of the cubic Hermite interpolant."""
+        a, b = self.first, self.last
+        h0, h1, s0, s1 = self._shares(t)
+        return h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent, self._lam(t)
+
+    def _lam(self, t: float) -> float:
+        a, b = self.first, self.last
+        h0, h1, s0, s1 = self._shares(t)
+        return h0 * a.lam + h1 * b.lam + s0 * a.tangent_lam + s1 * b.tangent_lam
 
     def sharp(self, t: float) -> State:
         """Return the equilibrium at ``t`` with its tangent and index taken at the solution itself."""
@@ -66,8 +92,26 @@ class Span:
 
     def at_lam(self, lam: float) -> State:
         """Return the equilibrium at a λ that lies between those of the ends."""
+        found = self.exactly(lam)
+        if found is not None:
+            return found[1]
         ends = self.first.lam - lam, self.last.lam - lam
         return self(bracketed_root(lambda t: self(t).lam - lam, 0.0, 1.0, *ends))
+
+    def exactly(self, lam: float) -> tuple[float, State] | None:
+        """Return where λ has a value, and the equilibrium at just that value; None where λ turns back, or far away."""
+        a, b = self.first, self.last
+        if a.tangent_lam * b.tangent_lam <= 0.0:
+            return None
+        ends = a.lam - lam, b.lam - lam
+        if (ends[0] < 0.0) == (ends[1] < 0.0):  # just beyond an end, since the other mesh has its own λ there
+            t = 0.0 if abs(ends[0]) < abs(ends[1]) else 1.0
+        else:
+            t = bracketed_root(lambda t: self._lam(t) - lam, 0.0, 1.0, *ends)
+        state = self.family.at(self._interpolant(t)[0], lam)[1]
+        if state is None or abs(a.along(state) - t * self._length) > BESIDE * abs(self._length):
+            return None
+        return t, state if a.tangent_lam > 0.0 else state.reversed()
 
 
 def bracketed_root(
@@ -77,18 +121,22 @@ def bracketed_root(
     f_low: float,
     f_high: float,
     tolerance: float = PLACE_TOLERANCE,
+    noise: float = 0.0,
 ) -> float:
     """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.
 
-    T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic
-    interpolation, whichever is safe.
+    T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic interpolation, whichever
+    is safe; here it begins with the secant. It ends when the bracket, or the distance to the zero on the secant through
+    the last two places, is within ``tolerance``, or the function below ``noise``.
     """
     a, b, c = high, low, high
     fa, fb, fc = f_high, f_low, f_high
-    t = 0.5
+    t = min(max(fa / (fa - fb), INSIDE), 1.0 - INSIDE)
     for _ in range(200):
         x = a + t * (b - a)
         fx = function(x)
+        if abs(fx) <= noise or abs(fx * (x - a)) <= tolerance * abs(fx - fa):
+            return x
         if (fx < 0.0) == (fa < 0.0):
             c, fc = a, fa
         else:
@@ -150,10 +198,11 @@ def _near(
     rising: bool,
     farthest: float = 1.0,
     tolerance: float = PLACE_TOLERANCE,
+    noise: float = 0.0,
 ) -> float:
     """Zero of ``function`` within ``farthest`` of ``place``, where a function that differs little from it has one."""
     middle = function(place)
-    if middle == 0.0:
+    if abs(middle) <= noise:
         return place
     width = max(1e-6, tolerance)
     direction = -1.0 if (middle > 0.0) == rising else 1.0
@@ -162,7 +211,7 @@ def _near(
         far = place + direction * width
         f_far = function(far)
         if (f_far < 0.0) != (middle < 0.0):
-            return bracketed_root(function, near, far, f_near, f_far, tolerance)
+            return bracketed_root(function, near, far, f_near, f_far, tolerance, noise)
         near, f_near, width = far, f_far, 4.0 * width
     raise LocationError("an event was found on the finer mesh only")
 
@@ -257,9 +306,12 @@ def _located(
     if steady:
         parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
     eigenvalue = _Eigenvalue(parts[0], 0.0)
-    t = bracketed_root(eigenvalue, 0.0, 1.0, eigenvalue(0.0), eigenvalue(1.0))
+    ends = eigenvalue(0.0), eigenvalue(1.0)
+    t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
-        other = _near(_Eigenvalue(parts[1], t), t, rising=after < before, farthest=ALONE / (high - low))
+        other = _near(
+            _Eigenvalue(parts[1], t), t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise
+        )
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     return Crossing(
@@ -292,7 +344,7 @@ class _Eigenvalue:
         self.span = span
         state = span(near)
         self.vector = np.random.default_rng(0).standard_normal(state.c.size)
-        span.family.nearest_curvature(state, self.vector, 8)
+        _, self.noise = span.family.nearest_curvature(state, self.vector, 8)
 
     def __call__(self, t: float) -> float:
-        return self.span.family.nearest_curvature(self.span(t), self.vector, 3)
+        return self.span.family.nearest_curvature(self.span(t), self.vector, 3)[0]

@@ -6,6 +6,7 @@ eigenvalue comes close to zero at the points around; where its course could reac
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -33,12 +34,15 @@ class Watch:
 
     vectors: FloatArray | None = None
     space: SplineSpace | None = None
-    values: list[FloatArray] = field(default_factory=list)
+    values: list[tuple[float, float]] = field(default_factory=list)
     places: list[float] = field(default_factory=list)
 
-    def add(self, ladder: Ladder, point: Point, travelled: float) -> None:
-        """Take in the next point of the branch, ``travelled`` from the last."""
-        self.values.append(self._softest(ladder.coarse, point.coarse))
+    def add(self, ladder: Ladder, point: Point, travelled: float, factors: FloatArray | None = None) -> None:
+        """Take in the next point of the branch, ``travelled`` from the last.
+
+        ``factors`` are those of the Hessian there on the coarse mesh, if they are known.
+        """
+        self.values.append(self._softest(ladder.coarse, point.coarse, factors))
         self.places.append((self.places[-1] if self.places else 0.0) + travelled)
 
     def forget(self, count: int) -> None:
@@ -49,24 +53,23 @@ class Watch:
         """Whether an eigenvalue may have passed zero and come back around the last point but one."""
         if len(self.values) < 3:
             return False
-        place, values = np.array(self.places[-3:]), np.array(self.values[-3:])
-        return any(_dips(place - place[1], column) for column in values.T)
+        before, here, after = self.places[-3:]
+        return any(_dips((before - here, 0.0, after - here), values) for values in zip(*self.values[-3:], strict=True))
 
-    def _softest(self, family: Family, state: State) -> FloatArray:
+    def _softest(self, family: Family, state: State, factors: FloatArray | None) -> tuple[float, float]:
         space = family.space
         iterations = ITERATIONS
         if self.vectors is None or self.space is not space:
             self.vectors, self.space = np.random.default_rng(0).standard_normal((2, space.size)), space
             iterations = FIRST_ITERATIONS
-        factors = state.factors
         if factors is None:
             factors = family.free_part(family.assemble(state.c, state.lam)[2])
             factorise(factors)
         free, tied = family.free, family.ends.tied
-        values = softest(
+        even, odd = softest(
             factors, free.start, free.stop, *tied, space.slope_gram, space.symmetric, iterations, self.vectors
         )
-        return np.asarray(values)
+        return float(even), float(odd)
 
 
 @kernel
@@ -99,16 +102,20 @@ def softest(factors, first, last, tied_first, tied_last, gram, symmetric, iterat
             size = np.sqrt(dot(new, multiply(gram, new)))
             for i in range(n):
                 vectors[k, i] = new[i] / size
-    return values
+    return values[0], values[1]
 
 
-def _dips(place: FloatArray, values: FloatArray) -> bool:
+def _dips(place: Sequence[float], values: Sequence[float]) -> bool:
     """Whether the parabola through three values of one sign, the middle one nearest to zero, comes much nearer."""
-    size = np.abs(values)
-    if not (np.all(values > 0.0) or np.all(values < 0.0)) or size[1] > min(size[0], size[2]):
+    if not (min(values) > 0.0 or max(values) < 0.0):
         return False
-    a, b, c = np.polyfit(place, size, 2)
-    return bool(a > 0.0 and c - b * b / (4.0 * a) < DEEP * size[1])
+    first, middle, last = (abs(value) for value in values)
+    if middle > min(first, last):
+        return False
+    before, after = (middle - first) / (place[1] - place[0]), (last - middle) / (place[2] - place[1])
+    bend = (after - before) / (place[2] - place[0])
+    slope = before + bend * (place[1] - place[0])
+    return bend > 0.0 and middle - slope * slope / (4.0 * bend) < DEEP * middle
 
 
 def hidden_change(ladders: list[Ladder], points: list[Point]) -> bool:

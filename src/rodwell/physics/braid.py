@@ -62,7 +62,7 @@ def rates(
     force F = N(s) k + F₃(1) j, and (48) along i and j: lateral weight and contact pressure on the rod.
     """
     clearance = parameters[CLEARANCE]
-    pressure = contact_pressure(s, *u, parameters)
+    pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters)
     angle, sin_eta = u[0] / clearance, u[1]
     cos_eta, omega1, *_ = curvatures(u[1], u[2], u[3], clearance)
     axial, shear = axial_resultant(s, parameters), end.shear

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.physics._kernels import rod_density
+from rodwell.physics._density import rod_density
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +22,5 @@ def second_variation(places: FloatArray, parameters: FloatArray) -> FloatArray:
 
 def _diagonal(s: float, parameters: FloatArray) -> FloatArray:
     """Diagonal (3,) of the Hessian of the density at y = 0."""
-    gradient, mixed, hessian = np.empty(3), np.empty(3), np.empty((3, 3))
-    rod_density(s, np.zeros(3), parameters, np.zeros_like(parameters), gradient, hessian, mixed)
-    return np.diag(hessian)
+    hessian = rod_density(s, 0.0, 0.0, 0.0, parameters, np.zeros_like(parameters))[-1]
+    return np.diag(np.array(hessian, dtype=float))

@@ -1,6 +1,6 @@
 """Forces, moments and contact of the rod (the first strand), place by place.
 
-Plain formulas in y(s) and its derivatives: the same functions serve compiled kernels (numbers) and
+Plain formulas in y(s) and its derivatives: the same functions serve compiled kernels (lanes of vector registers) and
 reconstruction (arrays). Components refer to the braid frame {t₁, d₁, u₁} of the rod. Units B = L = 1;
 tension is positive. The sign of the contact pressure is the paper's, (48): the wall pushes the rod along d₁
 (towards the axis) with −p per length, so p < 0 is contact with a surrounding cylinder.
@@ -16,17 +16,14 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.jit import formula
 from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 
 
-@formula
 def axial_resultant(s: Any, parameters: Any) -> Any:
     """N(s) = F + wₐ (s − 1): axial component of the braid force, (22)–(24)."""
     return parameters[FORCE] + parameters[AXIAL_WEIGHT] * (s - 1.0)
 
 
-@formula
 def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
     """Cos η, ω₁, ω₂, ω₃ (20) and ω₂' = −η''."""
     cos_eta = np.sqrt(1.0 - y1 * y1)
@@ -35,7 +32,6 @@ def curvatures(y1: Any, y2: Any, y3: Any, clearance: Any) -> Any:
     return cos_eta, -y1 * cos_eta / clearance, -eta1, y1 * y1 / clearance, -eta2
 
 
-@formula
 def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     """Rod force components F₁⁽¹⁾, F₂⁽¹⁾, F₃⁽¹⁾, (52)–(54), from moment balance with M⁽¹⁾ = (−T₁, ω₂, ω₃), (47)."""
     twist = parameters[TWIST]
@@ -46,13 +42,11 @@ def strand_force(s: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     return f1, f2, f3
 
 
-@formula
 def towards_lift_off(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     """Contact pressure with the sign that makes it negative in contact: p inside the cylinder, −p outside."""
     return parameters[SIDE] * contact_pressure(s, y, y1, y2, y3, parameters)
 
 
-@formula
 def contact_pressure(s: Any, y: Any, y1: Any, y2: Any, y3: Any, parameters: Any) -> Any:
     """Contact pressure p = p₂⁽¹⁾, (55): force balance of the rod (48) along d₁.
 
