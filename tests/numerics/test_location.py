@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rodwell import Problem, follow
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.extrema import contact_maxima
-from rodwell.numerics.location import _bisect, bracketed_root
+from rodwell.numerics.location import Span, _bisect, bracketed_root
 from rodwell.numerics.spaces import SplineSpace
 from rodwell.physics.model import RodOnCylinder
 
@@ -41,8 +42,8 @@ class Staircase:
         step.c = np.zeros(3)  # type: ignore[attr-defined]
         return step
 
-    def nearest_curvature(self, state: object, vector: object, iterations: int) -> float:
-        return 1.0  # no sign change: resolution is by the index alone
+    def nearest_curvature(self, state: object, vector: object, iterations: int) -> tuple[float, float]:
+        return 1.0, 0.0  # no sign change: resolution is by the index alone
 
 
 @pytest.mark.parametrize("jumps", [{0.3: 1}, {0.3: 1, 0.3000001: 1}, {0.2: 1, 0.7: -1, 0.9: 2}, {0.5: 2}], ids=str)
@@ -88,3 +89,41 @@ def test_maxima_of_a_symmetric_shape_come_in_pairs(shape: str) -> None:
     found, _ = pressure(0.01, 15.0, 0.004, shape)
     assert found[0] == pytest.approx(1.0 - found[0][::-1], abs=1e-7)
     assert found[1] == pytest.approx(found[1][::-1], rel=1e-9)
+
+
+def test_a_root_is_not_sought_below_the_noise() -> None:
+    rng = np.random.default_rng(2)
+    calls = []
+
+    def noisy(x: float) -> float:
+        calls.append(x)
+        return math.sin(x - 0.3) + 1e-9 * rng.uniform(-1.0, 1.0)
+
+    root = bracketed_root(noisy, 0.0, 1.0, noisy(0.0), noisy(1.0), noise=2e-9)
+    assert root == pytest.approx(0.3, abs=4e-9)
+    assert len(calls) <= 8
+
+
+def test_a_value_of_the_parameter_is_met_exactly_where_it_does_not_turn_back() -> None:
+    problem = Problem(15.0)
+    branch = follow(problem, until=-160.0)
+    _, (coarse, fine) = branch._spans(5)
+    between = 0.4 * fine.first.lam + 0.6 * fine.last.lam
+    for span in (coarse, fine):
+        found = span.exactly(between)
+        assert found is not None
+        t, state = found
+        assert state.lam == between
+        assert 0.5 < t < 0.7
+        assert state.tangent_lam * span.first.tangent_lam > 0.0  # in the direction of travel
+        other = span(span.first.along(state) / span.first.along(span.last))  # the same by way of arclength
+        np.testing.assert_allclose(other.c, state.c, rtol=0.0, atol=1e-12)
+        assert other.lam == pytest.approx(between, abs=1e-9)
+
+
+def test_a_value_of_the_parameter_is_not_met_beyond_the_span_or_at_a_fold() -> None:
+    branch = follow(Problem(15.0), until=-160.0)
+    _, (coarse, _) = branch._spans(5)
+    assert coarse.exactly(coarse.last.lam - 0.5 * abs(coarse.last.lam - coarse.first.lam)) is None
+    folded = Span(coarse.family, coarse.first, coarse.last.reversed())
+    assert folded.exactly(0.5 * (coarse.first.lam + coarse.last.lam)) is None

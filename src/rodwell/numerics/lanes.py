@@ -115,7 +115,9 @@ class Lanes:
         return Lanes(self.builder, self.builder.fneg(self.value))
 
     def __pow__(self, exponent: int) -> Any:
-        """Write a whole power, by squaring."""
+        """Write a whole power of 1 or more, by squaring; there is no other."""
+        if not isinstance(exponent, int) or exponent < 1:
+            return NotImplemented
         if exponent == 1:
             return self
         half = self ** (exponent // 2)

@@ -126,8 +126,8 @@ def bracketed_root(
     """Zero of a continuous function between two places of opposite sign, by Chandrupatla's method.
 
     T. R. Chandrupatla, *Adv. Eng. Software* 28 (1997) 145–149: bisection and inverse quadratic interpolation, whichever
-    is safe; here it begins with the secant. It ends when the bracket, or the distance to the zero on the secant through
-    the last two places, is within ``tolerance``, or the function below ``noise``.
+    is safe; here it begins with the secant. It ends when the bracket is as small as ``tolerance``, or the function as
+    ``noise``.
     """
     a, b, c = high, low, high
     fa, fb, fc = f_high, f_low, f_high
@@ -135,7 +135,7 @@ def bracketed_root(
     for _ in range(200):
         x = a + t * (b - a)
         fx = function(x)
-        if abs(fx) <= noise or abs(fx * (x - a)) <= tolerance * abs(fx - fa):
+        if abs(fx) <= noise:
             return x
         if (fx < 0.0) == (fa < 0.0):
             c, fc = a, fa
