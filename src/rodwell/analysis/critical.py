@@ -16,7 +16,7 @@ from rodwell.analysis.families import parameters, spline_ends
 from rodwell.analysis.meshes import linear_space, wkb_load
 from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_whole
-from rodwell.numerics import assembly, eigen
+from rodwell.numerics import eigen
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
 from rodwell.problem import Problem
@@ -172,8 +172,7 @@ def _solve(
         return np.array([ends.spread(free) for free in block])
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        k, g = assembly.grams(space.table, space.weights, space.elements, factors, full(block))
-        return k, g
+        return space.grams(factors, full(block))
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
     below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0

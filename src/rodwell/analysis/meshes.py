@@ -35,6 +35,9 @@ MANY, EVEN = 6.0, 1.5
 """With more half waves than this, meshes of branches are finer by this factor where the waves are: the numbers that are
 measured, among them the largest contact pressure, tell little of the waves elsewhere."""
 
+ABOUT = 1e-6
+"""How closely the load of a number of half waves is needed, as a part of their Euler load."""
+
 PLACES = 257
 
 
@@ -101,10 +104,11 @@ def wkb_load(problem: Problem, number: float) -> float:
             return _mean_root(top, bottom, 1.0 if bottom >= weight else bottom / weight)
 
         low, high = floor - weight, floor + whole**2
-    for _ in range(60):
-        middle = 0.5 * (low + high)
+    middle = 0.5 * (low + high)
+    while high - low > ABOUT * whole**2 and low < middle < high:
         low, high = (middle, high) if phase(middle) < whole else (low, middle)
-    return float(0.5 * (low + high))
+        middle = 0.5 * (low + high)
+    return float(middle)
 
 
 def _mean_root(a: float, b: float, length: float) -> float:

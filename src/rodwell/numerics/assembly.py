@@ -128,61 +128,35 @@ def variation(model, tags, table, points, weights, c, parameters, rates, v):
     return total, size, square
 
 
+ONE = (0,)
+"""Stands for a model of one field, where only their number counts."""
+
+
 @kernel
-def assemble_form(table, weights, elements, factors):
+def assemble_form(tags, table, weights, factors):
     """Band (n, p+1) of the quadratic form Σ_d ∫ factors[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds, ``factors`` (3, m) at the points."""
-    local = table.shape[2]
-    wide = (local + 3) // 4 * 4  # whole vector registers
-    per_element = weights.size // elements
+    local, per_element = len(tags[0]), len(tags[1])
+    elements = weights.size // per_element
     band = np.zeros((elements + local - 1, local))
-    block, basis = np.empty((local, wide)), np.zeros(wide)
+    unused, terms, product = np.empty(band.shape[0]), np.zeros((17, per_element)), np.empty((local + 2, local))
     for element in range(elements):
-        block[:] = 0.0
-        for q in range(element * per_element, (element + 1) * per_element):
-            for d in range(3):
-                scale = weights[q] * factors[d, q]
-                if scale != 0.0:
-                    for a in range(local):
-                        basis[a] = table[q, d, a]
-                    for b in range(local):
-                        column = scale * basis[b]
-                        for a in range(wide):
-                            block[b, a] += column * basis[a]
-        for b in range(local):
-            for a in range(b, local):
-                band[element + b, a - b] += block[b, a]
+        first = element * per_element
+        for d in range(3):
+            for i in range(per_element):
+                terms[8 + 4 * d, i] = weights[first + i] * factors[d, first + i]
+        congruence(ONE, tags, table, first, terms, 0, 0, product)
+        _scatter(ONE, tags, product, element, 0, 0, unused, unused, band)
     return band
 
 
 @kernel
-def grams(table, weights, elements, factors, block):
-    """Matrices (k, k) of Σ_d ∫ factors[d] u⁽ᵈ⁾ v⁽ᵈ⁾ ds and of ∫ u'v' ds for functions with coefficients (k, n).
-
-    Formed from values at the quadrature points: squares do not cancel as the entries of a stiffness matrix do.
-    """
-    count, local = block.shape[0], table.shape[2]
-    wide = (count + 3) // 4 * 4  # whole vector registers; what is beyond the functions stays zero
-    per_element = weights.size // elements
-    energy, slope = np.zeros((count, wide)), np.zeros((count, wide))
-    u = np.empty((3, wide))
-    part = np.zeros((local, wide))
-    for element in range(elements):
-        for a in range(local):
-            for i in range(count):
-                part[a, i] = block[i, element + a]
-        for q in range(element * per_element, (element + 1) * per_element):
-            w = weights[q]
-            w0, w1, w2 = w * factors[0, q], w * factors[1, q], w * factors[2, q]
+def values_at_points(tags, table, block, start, elements):
+    """Functions with coefficients (k, n), and two derivatives, at the points of some elements: (k, 3, points)."""
+    per_element = len(tags[1])
+    out = np.empty((block.shape[0], 3, elements * per_element))
+    for i in range(block.shape[0]):
+        for element in range(elements):
             for d in range(3):
-                for i in range(wide):
-                    u[d, i] = 0.0
-                for a in range(local):
-                    value = table[q, d, a]
-                    for i in range(wide):
-                        u[d, i] += value * part[a, i]
-            for i in range(count):
-                f0, f1, f2, f3 = w0 * u[0, i], w1 * u[1, i], w2 * u[2, i], w * u[1, i]
-                for j in range(wide):
-                    energy[i, j] += f0 * u[0, j] + f1 * u[1, j] + f2 * u[2, j]
-                    slope[i, j] += f3 * u[1, j]
-    return energy[:, :count].copy(), slope[:, :count].copy()
+                row, at = 3 * (start + element) * per_element + d, (3 * i + d) * elements * per_element
+                dots(ONE, tags[0], tags[1], table, row, 3, block[i], start + element, out, at + element * per_element)
+    return out

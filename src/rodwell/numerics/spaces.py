@@ -15,6 +15,9 @@ FloatArray = NDArray[np.float64]
 SAMPLES_PER_ELEMENT = 3
 TINY = 1e-300
 
+AT_ONCE = 1 << 17
+"""Values at quadrature points that are computed at once: a megabyte."""
+
 FEW, KEPT = 32, 6
 """Places fewer than this are not worth a table, and tables kept for each space."""
 
@@ -95,7 +98,23 @@ class SplineSpace:
     def form(self, density: FloatArray) -> FloatArray:
         """Band of Σ_d ∫ density[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds; ``density`` is (3,) or (3, m) at the quadrature points."""
         full = np.array(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)), order="C")
-        return np.asarray(assembly.assemble_form(self.table, self.weights, self.elements, full))
+        return np.asarray(assembly.assemble_form(self.tags, self.table, self.weights, full))
+
+    def grams(self, density: FloatArray, block: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Matrices (k, k) of the form with ``density`` (3, m), and of ∫u'v' ds, for functions with coefficients (k, n).
+
+        Formed from values at the quadrature points: squares do not cancel as the entries of a stiffness matrix do.
+        """
+        energy, slope = np.zeros((2, len(block), len(block)))
+        step = max(1, AT_ONCE // (3 * len(block) * self.per_element))
+        for first in range(0, self.elements, step):
+            count = min(step, self.elements - first)
+            here = slice(first * self.per_element, (first + count) * self.per_element)
+            values = np.asarray(assembly.values_at_points(self.tags, self.table, block, first, count))
+            slope += (values[:, 1] * self.weights[here]) @ values[:, 1].T
+            factors = density[:, here] * self.weights[here]
+            energy += sum((values[:, d] * factors[d]) @ values[:, d].T for d in range(3))
+        return energy, slope
 
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
         """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
@@ -123,12 +142,9 @@ class SplineSpace:
 
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m); (k, 3, m) of a block (k, size)."""
-        local = np.lib.stride_tricks.sliding_window_view(coefficients, self.degree + 1, axis=-1)
-        if coefficients.ndim == 1:
-            return np.asarray(np.einsum("eqda,ea->deq", self._element_table, local).reshape(3, -1))
-        rows = self._element_table.reshape(self.elements, -1, self.degree + 1)  # (e, 3 m/e, p + 1)
-        values = np.matmul(rows, local.transpose(1, 2, 0)).reshape(self.elements, -1, 3, len(coefficients))
-        return np.ascontiguousarray(values.transpose(3, 2, 0, 1)).reshape(len(coefficients), 3, -1)
+        block = np.ascontiguousarray(np.atleast_2d(coefficients))
+        values = np.asarray(assembly.values_at_points(self.tags, self.table, block, 0, self.elements))
+        return values if coefficients.ndim > 1 else values[0]
 
     def wavenumber(self, coefficients: FloatArray) -> float:
         """√(∫y''²/∫y'²) of a function, in rad per unit length."""
