@@ -13,7 +13,7 @@ from numba import types
 from rodwell import compiling
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.numerics.corrector import correct
-from rodwell.numerics.extrema import contact_maxima
+from rodwell.numerics.watch import softest
 from rodwell.physics.model import RodOnCylinder
 
 _VECTOR = types.Array(types.float64, 1, "C")
@@ -35,7 +35,7 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
             *(types.int64, types.int64, _VECTOR, _VECTOR),  # ... tangent, its covector
         ),
     ),
-    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+    (softest, (_MATRIX, *_FREE, _MATRIX, types.boolean, types.int64, _MATRIX)),
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling import wait_for
 from rodwell.jit import kernel
 from rodwell.numerics.assembly import SHARED, at_points
 from rodwell.numerics.bsplines import combine
@@ -140,7 +139,6 @@ def measure(family: Family, state: State) -> FloatArray:
     comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
     """
     space = state.space
-    wait_for("contact_maxima")
     return np.asarray(
         _measured(
             family.model, space.tags, space.knots, *space.samples, space.table, space.points, space.weights,
@@ -163,7 +161,6 @@ def _measured(
 def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space = state.space
-    wait_for("contact_maxima")
     places, values, lowest = contact_maxima(
         family.model, space.tags[0], space.knots, *space.samples, state.c, family.parameters(state.lam), NEAR_THE_TOP
     )

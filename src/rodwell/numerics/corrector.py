@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import formula, kernel
+from rodwell.jit import kernel
 from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.ends import gather, restrict, spread
@@ -112,35 +112,7 @@ def correct(
     frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, slope_scale, tolerance, most,
     extra, tangent, new_row,
 ):  # fmt: skip
-    """Move ``c`` (n,) in place to the equilibrium on the hyperplane, see :func:`_newton`; return what came of it.
-
-    Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
-    ``scale_lam``: see :mod:`rodwell.numerics.families`) and towards growing ``row·c + row_λ λ``, and its covector
-    ``new_row`` (n,).
-
-    Returns
-    -------
-    status, λ, λ components of tangent and covector, negative pivots of H, energy, number of steps, factors of H
-    """
-    status, lam, negative, energy, steps, factors = _newton(
-        model, tags, table, points, weights, first, last, tied_first, tied_last, parity,
-        frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most, extra, tangent,
-    )  # fmt: skip
-    sign = 1.0 if dot(row, tangent) + row_lam >= 0.0 else -1.0
-    for i in range(c.size):
-        tangent[i] *= sign
-    unit_row, unit_row_lam, unit_lam = hyperplane(gram, slope_scale**-2, scale_lam**-2, tangent, sign)
-    new_row[:] = unit_row
-    return status, lam, unit_lam, unit_row_lam, negative, energy, steps, factors
-
-
-@formula
-def _newton(
-    model, tags, table, points, weights, first, last, tied_first, tied_last, parity,
-    frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, tolerance, most,
-    extra, tangent,
-):  # fmt: skip
-    """Newton's method for ``c`` (n,), in place.
+    """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
 
     The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
     ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
@@ -148,11 +120,16 @@ def _newton(
     which as small an error can be foreseen, and fails after ``most`` steps, or as soon as a step is not smaller than
     the one before it, unless both are so small that round-off in a nearly singular H explains it (the two meshes then
     disagree by as much). ``extra`` steps follow convergence: pivots and tangent belong to the iterate before the last
-    step, and locating a change of the index takes them at the solution itself. Written: ``tangent`` (n,), dc/dλ.
+    step, and locating a change of the index takes them at the solution itself.
+
+    Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
+    ``scale_lam``: see :mod:`rodwell.numerics.families`) and towards growing ``row·c + row_λ λ``, and its covector
+    ``new_row`` (n,).
 
     Returns
     -------
-    status, λ, negative pivots of H, energy after the last step, number of steps, last factors of H (free unknowns)
+    status, λ, λ components of tangent and covector, negative pivots of H, energy, number of steps, last factors of H
+    (free unknowns)
     """
     n = c.size
     gradient, mixed = np.empty(n), np.empty(n)
@@ -161,12 +138,14 @@ def _newton(
     parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
     inner = np.empty((0, 0))
     previous = np.inf
-    negative, energy, step, settled = -1, np.nan, np.inf, 0
-    for iteration in range(1, most + extra + 1):
+    status, negative, energy, settled, iteration = NOT_CONVERGED, -1, np.nan, 0, 0
+    while status == NOT_CONVERGED and iteration < most + extra:
+        iteration += 1
         on_path(path, lam, parameters, rates)
         energy, rate = assemble(model, tags, table, points, weights, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
-            return OUT_OF_RANGE, lam, negative, energy, iteration, inner
+            status = OUT_OF_RANGE
+            break
         inner = restrict(band, first, last, tied_first, tied_last)
         gather(gradient, first, last, tied_first, tied_last)
         gather(mixed, first, last, tied_first, tied_last)
@@ -193,19 +172,20 @@ def _newton(
         step = max(abs(dlam) / scale_lam, largest / scale_c)
         energy += rate * dlam + work
         lam += dlam
-        for i in range(n):
-            tangent[i] = -b[i]
         if not np.isfinite(step):
-            return DIVERGED, lam, negative, energy, iteration, inner
-        if step <= tolerance or settled > 0 or _settles(step, previous, tolerance):
+            status = DIVERGED
+        elif step <= tolerance or settled > 0 or _settles(step, previous, tolerance):
             settled += 1
-            if settled > extra:
-                return CONVERGED, lam, negative, energy, iteration, inner
+            status = CONVERGED if settled > extra else NOT_CONVERGED
         elif iteration > 1 and step > previous:
             at_round_off = extra == 0 and max(step, previous) <= STAGNANT * tolerance
-            return CONVERGED if at_round_off else DIVERGED, lam, negative, energy, iteration, inner
+            status = CONVERGED if at_round_off else DIVERGED
         previous = step
-    return NOT_CONVERGED, lam, negative, energy, most, inner
+    sign = -1.0 if dot(row, b) <= row_lam else 1.0  # the tangent is (−b, 1), towards growing row·c + row_λ λ
+    for i in range(n):
+        tangent[i] = sign * b[i]
+    tangent_lam, new_row_lam = hyperplane(gram, slope_scale**-2, scale_lam**-2, tangent, -sign, new_row)
+    return status, lam, tangent_lam, new_row_lam, negative, energy, iteration, inner
 
 
 @kernel
@@ -218,20 +198,22 @@ def inverse_iteration(factors, first, last, tied_first, tied_last, gram, iterati
         new = multiply(gram, vector)
         gather(new, first, last, tied_first, tied_last)
         solve(factors, new[first:last])
-        largest = np.max(np.abs(new[first:last]))
-        vector[:] = 0.0
+        largest = 0.0
         for i in range(first, last):
-            vector[i] = new[i] / largest
+            largest = max(largest, abs(new[i]))
+        for i in range(new.size):
+            vector[i] = new[i] / largest if first <= i < last else 0.0
         spread(vector, first, last, tied_first, tied_last)
 
 
 @kernel
-def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
+def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam, row):
     """Covector of a tangent in the metric ``weight_c cᵀ G c + weight_λ λ²``: normalises the tangent in place.
 
-    Returns ``row`` (n,), ``row_λ`` and the normalised λ component; ``tangent_c`` is scaled with it.
+    Written: ``row`` (n,), and ``tangent_c``, scaled to length one with its λ component. Returns that component and
+    ``row_λ``.
     """
-    row = multiply(gram, tangent_c)
+    row[:] = multiply(gram, tangent_c)
     square = weight_lam * tangent_lam * tangent_lam
     for i in range(row.size):
         row[i] *= weight_c
@@ -240,5 +222,4 @@ def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam):
     for i in range(row.size):
         row[i] /= length
         tangent_c[i] /= length
-    tangent_lam /= length
-    return row, weight_lam * tangent_lam, tangent_lam
+    return tangent_lam / length, weight_lam * tangent_lam / length

@@ -137,8 +137,8 @@ class Family:
 
     def covector(self, tangent: FloatArray, tangent_lam: float) -> tuple[FloatArray, float, FloatArray, float]:
         """Return row, row_λ and the tangent, normalised in the metric."""
-        unit = tangent.copy()
-        row, row_lam, unit_lam = corrector.hyperplane(self.space.slope_gram, *self._metric, unit, tangent_lam)
+        unit, row = tangent.copy(), np.empty_like(tangent)
+        unit_lam, row_lam = corrector.hyperplane(self.space.slope_gram, *self._metric, unit, tangent_lam, row)
         return row, row_lam, unit, unit_lam
 
     def state(self, c: FloatArray, lam: float, tangent: FloatArray, tangent_lam: float, index: int) -> State:
@@ -175,7 +175,7 @@ class Family:
     ) -> tuple[Outcome, State | None, int, FloatArray]:
         """The same, with the factors of the last Hessian (free unknowns)."""
         space, c, n = self.space, c.copy(), c.size
-        tangent, new_row = np.zeros(n), np.empty(n)
+        tangent, new_row = np.empty(n), np.empty(n)
         held, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
         wait_for("correct")
         status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = corrector.correct(

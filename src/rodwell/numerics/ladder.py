@@ -49,16 +49,21 @@ def estimated_error(fine: Any, coarse: Any) -> Any:
 @kernel
 def _judged(fine, coarse, kin):
     """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale."""
-    error, relative = np.empty(fine.shape[1]), np.empty(fine.shape[1])
+    error = np.empty(fine.shape[1])
     for i in range(error.size):
         scale = fine[1, i]
         known = ROUND_OFF * scale if np.isfinite(scale) else 0.0
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
     for first, last in kin:
-        error[first : last + 1] = np.max(error[first : last + 1])
+        for i in range(first, last + 1):
+            error[first] = max(error[first], error[i])
+        for i in range(first, last + 1):
+            error[i] = error[first]
+    worst = 0.0
     for i in range(error.size):
-        relative[i] = error[i] / fine[1, i]
-    return error, np.max(relative)
+        part = error[i] / fine[1, i]
+        worst = part if part > worst or np.isnan(part) else worst
+    return error, worst
 
 
 @dataclass(frozen=True)

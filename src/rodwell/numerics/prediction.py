@@ -76,7 +76,9 @@ def _expected(places, lams, coefficients, row, row_lam, length):
             for j in range(k):
                 if j != i:
                     shares[i] *= (x - places[j]) / (places[i] - places[j])
-        x += length - np.sum(shares * along)
+        x += length
+        for i in range(k):
+            x -= shares[i] * along[i]
     c, lam = np.zeros(n), 0.0
     for i in range(k):
         lam += shares[i] * lams[i]

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from rodwell.compiling import wait_for
 from rodwell.jit import kernel
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.corrector import dot, symmetrise
@@ -66,6 +67,7 @@ class Watch:
             factors = family.free_part(family.assemble(state.c, state.lam)[2])
             factorise(factors)
         free, tied = family.free, family.ends.tied
+        wait_for("softest")
         even, odd = softest(
             factors, free.start, free.stop, *tied, space.slope_gram, space.symmetric, iterations, self.vectors
         )
