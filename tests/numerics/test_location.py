@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell import Problem, follow
+from rodwell.numerics.crossings import _bisect
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.extrema import contact_maxima
-from rodwell.numerics.location import Span, _bisect, bracketed_root
+from rodwell.numerics.location import Span, bracketed_root
 from rodwell.numerics.spaces import SplineSpace
 from rodwell.physics.model import RodOnCylinder
 

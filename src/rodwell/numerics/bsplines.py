@@ -153,20 +153,6 @@ def _evenly_spaced(knots, span, degree):
 
 
 @kernel
-def evaluate(knots, degree, coefficients, places, orders):
-    """Derivatives 0 … orders−1 of the spline at ``places`` (m,), anywhere: (orders, m)."""
-    values = np.zeros((orders, places.size))
-    basis = np.empty((orders, degree + 1))
-    for q in range(places.size):
-        span = find_span(knots, degree, places[q])
-        basis_derivatives(knots, span, degree, places[q], basis)
-        for order in range(orders):
-            for a in range(degree + 1):
-                values[order, q] += basis[order, a] * coefficients[span - degree + a]
-    return values
-
-
-@kernel
 def insertion_weights(coarse, fine, degree):
     """Weights (n_fine, degree+1) and first indices (n_fine,) that carry coefficients to nested finer knots."""
     n = fine.size - degree - 1

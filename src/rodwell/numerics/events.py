@@ -8,9 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
+from rodwell.numerics.crossings import Crossing, index_crossings
 from rodwell.numerics.families import State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.location import Crossing, LocationError, Place, Span, index_crossings, locate
+from rodwell.numerics.location import LocationError, Place, Span, locate
 from rodwell.numerics.spaces import FloatArray
 
 INDEX, TURN = "index", "turn"

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
-
-import numpy as np
 
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.spaces import FloatArray
@@ -185,14 +182,14 @@ def locate(
     near = (function(quick[0], coarse.first), function(quick[0], coarse.last))
     if (near[0] < 0.0) == (near[1] < 0.0):  # not seen on the coarse mesh: begin with the fine one
         place = bracketed_root(lambda t: function(quick[1], quick[1](t)), 0.0, 1.0, *ends, tolerance)
-        other = _near(lambda t: function(quick[0], quick[0](t)), place, ends[1] > ends[0], tolerance=tolerance)
+        other = near_root(lambda t: function(quick[0], quick[0](t)), place, ends[1] > ends[0], tolerance=tolerance)
     else:
         other = bracketed_root(lambda t: function(quick[0], quick[0](t)), 0.0, 1.0, *near, tolerance)
-        place = _near(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0], tolerance=tolerance)
+        place = near_root(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0], tolerance=tolerance)
     return Place(place, coarse(other), fine(place))
 
 
-def _near(
+def near_root(
     function: Callable[[float], float],
     place: float,
     rising: bool,
@@ -214,137 +211,3 @@ def _near(
             return bracketed_root(function, near, far, f_near, f_far, tolerance, noise)
         near, f_near, width = far, f_far, 4.0 * width
     raise LocationError("an event was found on the finer mesh only")
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """A change of the stability index: where, from what to what, and whether it is a fold (λ turns back there).
-
-    ``place`` is None where only one mesh shows it: the eigenvalue vanishes to round-off (the translation eigenvalue
-    of a long rod is exponentially small), so its sign means nothing.
-    """
-
-    place: Place | None
-    t: float
-    before: int
-    after: int
-    fold: bool
-
-
-def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
-    """All places up to ``end`` where the stability index changes, each stretch with a change resolved by bisection.
-
-    The span is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
-    back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
-    crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
-    """
-    cuts = [0.0, end]
-    for turn in turns:
-        cuts += [t for t in (turn - FOLD_OFFSET, turn + FOLD_OFFSET) if 0.0 < t < end]
-    cuts.sort()
-    brackets = []
-    for low, high in pairwise(cuts):
-        brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
-    return [_located(coarse, fine, turns, *bracket) for bracket in brackets]
-
-
-ALONE = 0.1
-"""Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
-
-CLOSE = 3e-3
-"""Width of a bracket in which Newton's method may be kept off a direction: the error left goes with its 4th power."""
-
-FOLD_OFFSET = 1e-3
-"""How far from a turning point, as a part of the span, the index is compared."""
-
-CUTS = (0.5, 0.37, 0.64)
-"""Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
-
-
-def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, float, int, int]]:
-    """Brackets of the changes of the index in [low, high]: (low, high, before, after)."""
-    if at_low == at_high:
-        return []
-    width = high - low
-    if width < PLACE_TOLERANCE:
-        middle = 0.5 * (low + high)
-        return [(middle, middle, at_low, at_high)]
-    if abs(at_high - at_low) == 1 and width < ALONE and _changes_sign(span, low, high):
-        return [(low, high, at_low, at_high)]
-    middle, here = _cut(span, low, high)
-    return _bisect(span, low, middle, at_low, here) + _bisect(span, middle, high, here, at_high)
-
-
-def _cut(span: Span, low: float, high: float) -> tuple[float, int]:
-    """A place inside an interval, near its middle, and the index there."""
-    for part in CUTS:
-        middle = low + part * (high - low)
-        try:
-            return middle, span(middle).index
-        except LocationError:
-            if part == CUTS[-1]:
-                raise
-    raise AssertionError
-
-
-def _changes_sign(span: Span, low: float, high: float) -> bool:
-    eigenvalue = _Eigenvalue(span, low)
-    return eigenvalue(low) * eigenvalue(high) < 0.0
-
-
-def _located(
-    coarse: Span, fine: Span, turns: Sequence[float], low: float, high: float, before: int, after: int
-) -> Crossing:
-    """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
-    if low == high:
-        return Crossing(Place(low, coarse(low), fine(low)), low, before, after, fold=False)
-    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
-    steady = fine.family.parity == 0 and not fold
-    if steady:
-        low, high = _shrunk(fine, low, high, before)
-    parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
-    if steady:
-        parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
-    eigenvalue = _Eigenvalue(parts[0], 0.0)
-    ends = eigenvalue(0.0), eigenvalue(1.0)
-    t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
-    try:
-        other = _near(
-            _Eigenvalue(parts[1], t), t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise
-        )
-    except LocationError:
-        return Crossing(None, low, before, after, fold=False)
-    return Crossing(
-        Place(low + t * (high - low), parts[1].sharp(other), parts[0].sharp(t)),
-        low + t * (high - low),
-        before,
-        after,
-        fold,
-    )
-
-
-def _shrunk(span: Span, low: float, high: float, before: int) -> tuple[float, float]:
-    """Halve a bracket of one change of the index until the cubic between its ends is as good as the solution."""
-    while high - low > CLOSE:
-        middle, index = _cut(span, low, high)
-        low, high = (middle, high) if index == before else (low, middle)
-    return low, high
-
-
-def _steadied(span: Span) -> Span:
-    """The span with Newton's method kept off the direction in which the Hessian becomes singular."""
-    eigenvalue = _Eigenvalue(span, 0.0)
-    return replace(span, frozen=eigenvalue.vector)
-
-
-class _Eigenvalue:
-    """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``."""
-
-    def __init__(self, span: Span, near: float) -> None:
-        self.span = span
-        state = span(near)
-        self.vector = np.random.default_rng(0).standard_normal(state.c.size)
-        _, self.noise = span.family.nearest_curvature(state, self.vector, 8)
-
-    def __call__(self, t: float) -> float:
-        return self.span.family.nearest_curvature(self.span(t), self.vector, 3)[0]

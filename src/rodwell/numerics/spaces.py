@@ -118,10 +118,7 @@ class SplineSpace:
 
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
         """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
-        points = np.ascontiguousarray(places, dtype=float)
-        if points.size < FEW:
-            return np.asarray(bsplines.evaluate(self.knots, self.degree, coefficients, points, orders))
-        table, first = self._tabulated(points, orders)
+        table, first = self._tabulated(np.ascontiguousarray(places, dtype=float), orders)
         return np.asarray(bsplines.combine_all(self.tags[0], table, first, coefficients))
 
     def _tabulated(self, points: FloatArray, orders: int) -> tuple[FloatArray, NDArray[np.int64]]:
@@ -131,10 +128,12 @@ class SplineSpace:
         as the sums over them.
         """
         key = orders, points.tobytes()
-        found = self._tables.pop(key, None)
+        found = self._tables.pop(key, None) if points.size >= FEW else None
         if found is None:
             table, spans = bsplines.tabulate_anywhere(self.knots, self.degree, points, orders)
             found = np.asarray(table), np.asarray(spans) - self.degree
+        if points.size < FEW:
+            return found
         self._tables[key] = found  # the last in order of use
         if len(self._tables) > KEPT:
             del self._tables[next(iter(self._tables))]
