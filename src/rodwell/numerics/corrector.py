@@ -30,7 +30,7 @@ from rodwell.numerics.ends import gather, restrict, spread
 
 DEGREE = np.pi / 180.0
 STAGNANT = 100.0
-CONTRACTED = 1000.0
+NOTHING_LEFT = 1e-13
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
 
 
@@ -101,9 +101,9 @@ def _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last):
 
 
 @kernel
-def _settles(step, previous, tolerance):
+def _settles(step, previous):
     """Whether the next Newton step would be below round-off: convergence is quadratic, step = κ previous²."""
-    return step < previous < 1.0 and step**3 <= CONTRACTED * tolerance**2 * previous**2
+    return step < previous < 1.0 and step**3 <= NOTHING_LEFT * previous**2
 
 
 @kernel
@@ -174,7 +174,7 @@ def correct(
         lam += dlam
         if not np.isfinite(step):
             status = DIVERGED
-        elif step <= tolerance or settled > 0 or _settles(step, previous, tolerance):
+        elif step <= tolerance or settled > 0 or _settles(step, previous):
             settled += 1
             status = CONVERGED if settled > extra else NOT_CONVERGED
         elif iteration > 1 and step > previous:
