@@ -65,6 +65,29 @@ def test_first_correction_of_the_long_inclined_rod(alpha: float, end: str) -> No
     assert excess / expected == pytest.approx(1.0, abs=0.25 * rod.axial_weight ** (1.0 / 3.0) / b**0.25)
 
 
+@pytest.mark.parametrize(("weight", "clearance"), [(30.0, 0.01), (1570.0, 2.2225e-4)])
+def test_states_of_a_symmetric_branch_are_symmetric_and_balance(weight: float, clearance: float) -> None:
+    """Odd modes of 2 and of 14 half waves: y(s) = −y(1 − s), and F₃(1) by virtual work of the whole rod.
+
+    F₃(1) is the variation of the energy for δy = s²(3 − 2s), which leaves the fittings in peace but for y(1).
+    An even rest of an odd state shows in this balance first: even and odd shapes of a long rod cost nearly the same.
+    """
+    mode = next(mode for mode in critical_loads(Problem(weight, clearance=clearance), 2) if mode.parity < 0)
+    state = follow(mode.problem, mode, until=1.3 * mode.force)[-1]
+    nodes, weights = np.polynomial.legendre.leggauss(10)
+    edges = np.linspace(0.0, 1.0, 201)
+    s = (edges[:-1, None] + 0.0025 * (nodes + 1.0)).ravel()
+    f = state.fields(s)
+    largest = np.max(np.abs(f["y"]))
+    assert np.max(np.abs(f["y"] + f["y"][::-1])) < 1e-12 * largest
+    sin, cos, omega2 = np.sin(f["eta"]), np.cos(f["eta"]), f["omega2"]
+    by_y = weight * np.sin(f["y"] / clearance)
+    by_slope = sin * (omega2**2 / cos**2 + 2.0 * sin**2 / clearance**2 + state.force / cos)
+    work = by_y * s**2 * (3.0 - 2.0 * s) + by_slope * 6.0 * s * (1.0 - s) - omega2 / cos * (6.0 - 12.0 * s)
+    shear, _ = state.end_reactions["shear"]
+    assert shear == pytest.approx(float(np.tile(0.0025 * weights, 200) @ work), rel=1e-10)
+
+
 def scaled(rod: Problem, part: float) -> Problem:
     """The lowest part of a rod, by itself, in its own units: γ goes with L³, Δ with 1/L."""
     return rod.but(weight=rod.weight * part**3, clearance=rod.clearance / part)

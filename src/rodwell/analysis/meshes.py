@@ -74,7 +74,7 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     if _waves(problem, load) and problem.turns == 0:
         wavenumber = np.minimum(wavenumber, FULLER * resolved(problem, s, load))
         if foundation**0.25 * _end_of_waves(problem, load) > MANY * np.pi:
-            wavenumber[s < _end_of_waves(problem, load)] *= EVEN
+            wavenumber[s <= _end_of_waves(problem, load)] *= EVEN  # s = 1 too: symmetric where the problem is
     wavenumber += 2.0 * np.pi * (1 + abs(problem.turns))
     return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
 

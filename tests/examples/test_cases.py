@@ -1,0 +1,20 @@
+"""Case files that are shipped: each meets its tolerance."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import rodwell
+from rodwell.practice.study import is_study
+
+CASES = sorted(path for path in (Path(__file__).resolve().parents[2] / "examples").glob("*.toml") if not is_study(path))
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_every_number_of_an_example_meets_its_tolerance(path: Path) -> None:
+    found = rodwell.answer(rodwell.Case.read(path))
+    missed = [f.name for f in found.figures.values() if f.error > found.case.rtol * f.scale]
+    assert not missed
+    assert found.converged
