@@ -12,7 +12,7 @@ import numpy as np
 from make_howto import DPI, table
 
 import rodwell
-from rodwell.plots.extent import shown_part
+from rodwell.analysis.extent import buckled_to
 from rodwell.plots.style import GREY, MODES, RC, new_axes
 
 COMMANDS = {"long-string": "run examples/long-string.toml --out results/long-string"}
@@ -59,7 +59,7 @@ def loads(length: float, lift_off: bool = True) -> Loads:
         math.nan if lift is None else lift.error * unit,
         paslay * unit,
         (paslay + AIRY * (4.0 * rod.axial_weight**2) ** (1.0 / 3.0)) * unit,
-        shown_part([mode]) / 1.2 * length,
+        buckled_to(mode) * length,
         math.pi / b**0.25 * length,
     )
 
@@ -70,7 +70,7 @@ def pages(out: Path) -> dict[str, str]:
     for length in LENGTHS:
         x = loads(length)
         share, lift = x.buckles / x.dawson_paslay, x.lifts / x.dawson_paslay
-        reach = "the whole" if x.reach > 0.5 * length else f"{x.reach:.0f} m"
+        reach = "the whole" if x.reach > 0.5 * length else f"{x.reach:.1f} m"
         cells = (f"{length:g} m", f"{x.buckles:.6f} ± {x.buckles_error:.0e}", f"{x.lifts:.5f} ± {x.lifts_error:.0e}")
         rows.append((*(c.replace("e-", "e−") for c in cells), f"{share:.4f}", f"{lift:.4f}", reach))
     head = ("L", "buckles at [kN]", "lifts off at [kN]", "buckling / DP", "lift-off / DP", "buckled part")
@@ -116,6 +116,6 @@ def numbers() -> dict[str, str]:
         "long_correction_error": f"{100.0 * abs(x.corrected / x.buckles - 1.0):.2g}",
         "long_paslay_error": f"{100.0 * (x.buckles / x.dawson_paslay - 1.0):.1f}",
         "long_short_error": f"{100.0 * (short.buckles / short.dawson_paslay - 1.0):.0f}",
-        "long_reach": f"{x.reach:.0f}",
+        "long_reach": f"{x.reach:.1f}",
         "long_half_wave": f"{x.half_wave:.1f}",
     }

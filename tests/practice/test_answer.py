@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 import rodwell
+from rodwell.analysis.extent import buckled_to
 from rodwell.cli.main import main
 from rodwell.practice.meaning import sentences
 from rodwell.report.texts import number
@@ -173,3 +174,21 @@ def test_a_long_string_buckles_at_its_lower_end() -> None:
     text = " ".join(sentences(answer))
     place = float(re.search(r"Beyond .*?s/L = ([0-9.]+)\) the rod stays straight", text).group(1))  # type: ignore[union-attr]
     assert 0.0 < fades < place < fades + 0.06
+    assert f"{buckled_to(first):.6g}" == f"{place:.6g}"
+
+
+@pytest.mark.parametrize("alpha", [0.0, 60.0, 89.0])
+def test_where_a_long_string_is_straight(alpha: float) -> None:
+    """A look at every place: at the end of the buckled part it deflects by a thousandth, nowhere beyond by as much."""
+    for mode in rodwell.critical_loads(rodwell.Problem(1e5, alpha=alpha, clearance=1e-4), 2):
+        end = buckled_to(mode)
+        largest = np.max(np.abs(mode.shape(np.linspace(0.0, 1.0, 200_001))))
+        assert 0.01 < end < 1.0
+        assert np.abs(mode.shape(np.array([end])))[0] == pytest.approx(1e-3 * largest, rel=1e-4)
+        assert np.max(np.abs(mode.shape(np.linspace(end + 1e-9, 1.0, 200_001)))) < 1e-3 * largest
+
+
+def test_straight_and_short_rods_have_an_extent_too() -> None:
+    mode = rodwell.critical_loads(rodwell.Problem(15.0, ends=("clamped", "free")), 1)[0]
+    assert buckled_to(mode) == 1.0
+    assert buckled_to(rodwell.follow(rodwell.Problem(15.0))[0]) == 0.0

@@ -7,11 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from rodwell.analysis.critical import Mode
+from rodwell.analysis.extent import buckled_to, spline_of
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-
-FADED = 1e-3
-"""Part of the largest deflection below which a rod is drawn as straight."""
+from rodwell.numerics.spaces import FloatArray
 
 SHORT = 0.5
 """A buckled part longer than this part of the rod is no reason to leave out the rest."""
@@ -21,31 +19,16 @@ PLACES, PER_ELEMENT = 601, 4
 
 def shown_part(shapes: Sequence[Mode | Solution]) -> float:
     """Where to end a picture of some shapes, s/L: beyond the buckled part if it is short, else at 1."""
-    farthest = max(_buckled_to(*_spline(shape)) for shape in shapes)
+    farthest = max(buckled_to(shape) for shape in shapes)
     return 1.0 if farthest > SHORT else min(1.0, 1.2 * farthest)
 
 
 def drawn_places(shapes: Sequence[Mode | Solution], part: float = 1.0) -> FloatArray:
     """Places from s = 0 to ``part``: evenly spaced, as many as the half waves ask for."""
-    elements = max(int(np.searchsorted(_spline(shape)[0].breaks, part)) for shape in shapes)
+    elements = max(int(np.searchsorted(spline_of(shape)[0].breaks, part)) for shape in shapes)
     return np.linspace(0.0, part, max(PLACES, PER_ELEMENT * elements + 1))
 
 
 def straight_beyond(part: float) -> str:
     """What an axis says of the rest of the rod."""
     return "" if part == 1.0 else " (straight beyond the picture)"
-
-
-def _spline(shape: Mode | Solution) -> tuple[SplineSpace, FloatArray]:
-    if isinstance(shape, Mode):
-        return shape.space, shape.coefficients
-    state = shape.point.fine
-    return state.space, state.c
-
-
-def _buckled_to(space: SplineSpace, coefficients: FloatArray) -> float:
-    """Last place where a shape deflects by more than :data:`FADED` of its largest deflection."""
-    size = np.abs(coefficients)
-    if not size.any():
-        return 0.0
-    return float(space.greville[np.flatnonzero(size > FADED * size.max())[-1]])

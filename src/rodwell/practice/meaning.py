@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.extent import FADED, buckled_to
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.verdict import load_sentences, verdict, window_sentences
@@ -24,9 +25,6 @@ EFFECTIVE = (
     "fluids at rest"
 )
 """What is assumed of mud and pressures."""
-
-FADED = 1e-3
-"""Deflection, as part of the largest one, below which the rod counts as straight."""
 
 LOWER_PART = 0.5
 """A mode that reaches less far up the rod is said to be confined to its lower end."""
@@ -60,15 +58,15 @@ def _mode(answer: Answer) -> str:
     first = answer.critical[0]
     s = np.union1d(np.linspace(0.0, 1.0, 2001), first.space.greville)[1:-1]
     y = first.shape(s)
-    buckled = np.abs(y) > FADED
-    farthest, y = float(s[buckled][-1]), y[buckled]
+    farthest, y = buckled_to(first), y[np.abs(y) > FADED]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
     why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
-        text += f" Beyond {place_text(answer, farthest)} the rod stays straight."
+        text += f" Beyond {place_text(answer, farthest)} the rod stays straight"
+        text += f" (deflections below {FADED:g} of the largest)."
     if len(answer.critical) > 1:
         gap = abs(answer.critical[1].force - first.force) / max(abs(first.force), 1e-300)
         if gap < 0.05:
