@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 import sys
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 import xarray as xr
 
@@ -100,6 +102,7 @@ def test_run_writes_everything(
     assert "−139.582 kN" in page
     for file in pictures:
         assert (out / file).stat().st_size > 10_000
+    _check_sheets(out)
     with xr.open_dataset(out / "branches.nc", engine="h5netcdf") as data:
         assert data["contact_pressure"].attrs["equation"] == "(55)"
         assert data["contact_pressure"].attrs["si_units"] == "N/m"
@@ -109,6 +112,24 @@ def test_run_writes_everything(
         assert set(np.unique(data["branch"])) == {1, 2, 3, 4}
         kinds = data["special_kind"].values[data["special_branch"].values == 1]
         assert list(kinds) == ["critical", "lift_off", "end"]
+
+
+def _check_sheets(out: Path) -> None:
+    """The workbook has a sheet for each state, with the rows that the CSV file has of it, and what must hold there."""
+    book = openpyxl.load_workbook(out / "tables.xlsx", read_only=True)
+    assert book.sheetnames == ["Key figures", "Special points", "at buckling", "at lift-off"]
+    with (out / "along-rod.csv").open(encoding="utf-8", newline="") as file:
+        head, *rows = csv.reader(file)
+    for state in book.sheetnames[2:]:
+        title, *sheet = book[state].iter_rows(values_only=True)
+        assert list(title) == head[1:]
+        numbers = [row for row in sheet if isinstance(row[1], float | int)]
+        expected = [[float(x) for x in row[1:]] for row in rows if row[0] == state]
+        np.testing.assert_allclose(np.array(numbers, dtype=float), expected, rtol=1e-14)
+        pressure = head.index("contact force per length on the wall, -p [N/m]") - 1
+        least = min(float(row[pressure]) for row in numbers)
+        weight = 7800.0 * 9.8 * np.pi * 0.05**2  # of the drill string: the straight rod bears on the wall with it
+        assert least == pytest.approx(weight if state == "at buckling" else 0.0, abs=1e-3)
 
 
 def test_run_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

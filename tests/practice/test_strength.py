@@ -367,6 +367,7 @@ def test_table_along_the_rod(drilling: Answer) -> None:
     assert strength is not None
     product = first["largest von Mises stress [Pa]"] * first["safety factor against yield"]  # type: ignore[operator]
     assert product == pytest.approx(strength)
+    assert [table.name for table in along_tables(drilling)] == [one.state.name for one in states]
     bare = along_table(plain({}))
     assert len(bare.columns) == 10
 
@@ -497,15 +498,3 @@ def test_largest_stress_of_a_long_string_is_not_passed_over() -> None:
         np.max(a.section.von_mises(a.at_lift_off.fields(np.linspace(0, 1, 40001)))), rel=1e-5
     )
     assert len(along(result)[0].s) > 1000
-
-
-def test_tables_of_each_state_as_a_workbook(drilling: Answer, tmp_path: Path) -> None:
-    import openpyxl
-
-    from rodwell.store.tables import write_xlsx
-
-    write_xlsx(along_tables(drilling), tmp_path / "along.xlsx")
-    book = openpyxl.load_workbook(tmp_path / "along.xlsx")
-    assert book.sheetnames == ["at buckling", "at lift-off", "at the applied load"]
-    assert book["at lift-off"].cell(2, 1).value == 0.0
-    assert book["at lift-off"].max_row >= 202

@@ -139,7 +139,7 @@ def test_tables_hold_the_json(folder: Path, figures: dict[str, Any]) -> None:
         ]  # fmt: skip
         assert (line[4], line[7]) == (figure["unit"], figure["si"]["unit"])
     book = openpyxl.load_workbook(folder / "tables.xlsx")
-    assert book.sheetnames == ["Key figures", "Special points"]
+    assert book.sheetnames == ["Key figures", "Special points", "at buckling", "at lift-off"]
     kinds = [row[1] for row in book["Special points"].iter_rows(min_row=2, max_row=4, values_only=True)]
     assert kinds == ["critical", "lift_off", "end"]
     assert book["Key figures"]["C2"].value == pytest.approx(figures["critical_load_1"]["value"], rel=1e-15)

@@ -1,4 +1,4 @@
-"""Everything along the rod in the states of an answer: what figures draw, and the table ``along-rod.csv``."""
+"""Everything along the rod in the states of an answer: what figures draw, ``along-rod.csv``, sheets of a workbook."""
 
 from __future__ import annotations
 
@@ -55,14 +55,18 @@ def shown(answer: Answer, states: tuple[Along, ...]) -> Along:
     return states[min(1, len(states) - 1)]
 
 
-def along_table(answer: Answer) -> Table:
-    """Table of every state along the rod, one below the other: SI units with dimensions, else B = L = 1."""
-    rows = [(one.state.name, *row) for one in along(answer) for row in _rows(answer, one)]
-    return Table("along the rod", ("state", *_columns(answer)), tuple(rows), notes=NOTES)
+def along_table(answer: Answer, tables: tuple[Table, ...] | None = None) -> Table:
+    """Table of every state along the rod, one below the other: SI units with dimensions, else B = L = 1.
+
+    ``tables`` are those of :func:`along_tables`, if they are there already.
+    """
+    tables = along_tables(answer) if tables is None else tables
+    rows = tuple((table.name, *row) for table in tables for row in table.rows)
+    return Table("along the rod", ("state", *tables[0].columns), rows, notes=NOTES)
 
 
 def along_tables(answer: Answer) -> tuple[Table, ...]:
-    """The same as a table for each state, for the sheets of a workbook."""
+    """The same as a table for each state, for the sheets of a workbook: its name is that of the state."""
     columns = _columns(answer)
     return tuple(Table(one.state.name, columns, tuple(_rows(answer, one)), notes=NOTES) for one in along(answer))
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rodwell.analysis.curves import Curve
 from rodwell.analysis.diagram import Diagram
-from rodwell.practice.along import along_table
+from rodwell.practice.along import along_table, along_tables
 from rodwell.practice.answer import Answer
 from rodwell.practice.answer_tables import answer_tables
 from rodwell.report.pdf import check_pdf, write_report
@@ -25,7 +25,7 @@ FILES = {
     "report.html": "the report, self-contained",
     "rod-3d.html": "the rod in its cylinder, to turn and zoom",
     "answer.json": "key figures and special points",
-    "tables.xlsx": "key figures and special points as a workbook",
+    "tables.xlsx": "key figures, special points and every state along the rod as a workbook",
     "key-figures.csv": "the key figures as a table",
     "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
     "branches.nc": "every field along every branch (NetCDF)",
@@ -53,11 +53,11 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
         write_report(report, pictures, folder, rod, with_pdf=with_pdf)
         write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
         write_json(answer.as_dict(), folder / "answer.json")
-        tables = answer_tables(answer)
+        tables, states = answer_tables(answer), along_tables(answer)
         write_csv(tables[0], folder / "key-figures.csv")
-        write_xlsx(tables, folder / "tables.xlsx")
+        write_csv(along_table(answer, states), folder / "along-rod.csv")
+        write_xlsx([*tables, *states], folder / "tables.xlsx")
         (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
-        write_csv(along_table(answer), folder / "along-rod.csv")
         write_answer(answer, folder / "branches.nc")
         return tuple(sorted(file.name for file in folder.iterdir()))
 
