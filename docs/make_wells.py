@@ -13,6 +13,7 @@ from rodwell.practice.long_rod import HALF_WAVES, String, critical_compression, 
 
 COMMANDS = {
     "study": "run examples/study.toml",
+    "load-study": "run examples/load-study.toml",
     "screen": "screen examples/well-survey.csv --case examples/well-string.toml --bit-force=-120kN",
 }
 

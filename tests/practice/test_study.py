@@ -18,9 +18,12 @@ from hypothesis import strategies as st
 from pypdf import PdfReader
 
 import rodwell
-from rodwell import InputError
+from rodwell import InputError, NotConvergedError
 from rodwell.cli.main import cli
 from rodwell.plots.study import plot_study
+from rodwell.practice import study_points
+from rodwell.practice.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
+from rodwell.practice.limits import LIFTS_OFF, YIELDS
 from rodwell.practice.study import Study, is_study
 from rodwell.practice.study_data import sentences, study_dict, study_table
 from rodwell.practice.table import Table
@@ -99,6 +102,9 @@ def test_ranges_are_even_and_include_both_ends(first: float, width: float, count
         ({"hole__diameter": [True, False]}, "single values"),
         ({"analysis__modes": [1, 2]}, "cannot vary"),
         ({"load__until": ["-1 kN", "-2 kN"]}, "cannot vary"),
+        ({"load__applied": "-20..-10 kN"}, "is not a range"),
+        ({"load__applied": "-20..-10 m in 3"}, "must be a force"),
+        ({"load__applied": ["-20..-10 kN in 3"], "rod__length": ["20 m", "30 m"]}, "load.applied"),
         ({"rod__length": "20..30 m in 3", "hole__diameter": "60..80 cm in 3", "rod__poisson": [0.2, 0.3]}, "third"),
         ({"rod__length": "20..30 m in 30", "hole__diameter": "60..80 cm in 30"}, "30 × 30 = 900 points"),
         ({"hole__diametre": "60..80 cm in 3"}, "did you mean 'diameter'"),
@@ -208,6 +214,21 @@ def test_end_conditions_can_vary() -> None:
     ]
 
 
+LOADS_FILE = """
+title = "Two loads"
+[rod]
+length = "30 m"
+outer_diameter = "10 cm"
+youngs_modulus = "200 GPa"
+density = "7800 kg/m^3"
+yield_strength = ["10 MPa", "300 MPa"]
+[hole]
+diameter = "70 cm"
+angle_from_vertical = "90 deg"
+[load]
+applied = ["-50 kN", "-100 kN"]
+"""
+
 FILE = """
 title = "Weights"
 [dimensionless]
@@ -243,6 +264,113 @@ def test_strengths_used_at_lift_off() -> None:
     assert study_dict(found)["points"][3]["used_at_lift_off"]["support"]["value"] == strong["support"].value
 
 
+def test_loads_that_act_against_known_loads() -> None:
+    """Buckling at −111.2334402 and lift-off at −123.1730743 for w = 15 (the paper's rod); 4π² for a clamped column."""
+    found = rodwell.study({"dimensionless": {"weight": [15.0, 0.0]}, "load": {"applied": [-100.0, -120.0, -130.0]}})
+    heavy, light = found.points
+    assert [one.what for one in heavy.loads] == [STRAIGHT, BUCKLED, LEFT]
+    for one, force in zip(heavy.loads, (-100.0, -120.0, -130.0), strict=True):
+        assert one.load.force == force
+        assert one.spare["buckling"].value == pytest.approx(force + 111.2334402, abs=1e-7)
+        assert one.spare[LIFTS_OFF].value == pytest.approx(force + 123.1730743, abs=2e-7)
+        assert 0.0 < one.spare[LIFTS_OFF].error < 1e-6
+    straight, buckled, left = (one.contact for one in heavy.loads)
+    assert straight is not None
+    assert buckled is not None
+    assert straight.value == pytest.approx(15.0)
+    assert buckled.value > 15.0
+    assert left is None
+    assert [one.what for one in light.loads] == [LEFT] * 3
+    assert light.loads[0].spare["buckling"].value == pytest.approx(4 * math.pi**2 - 100.0, abs=1e-6)
+    text = " ".join(sentences(found))
+    assert "straight in 1; buckled, on the wall, stable in 1; off the wall in 4, of 6 states" in text
+    assert "Furthest beyond where it leaves the wall: 90.52 B/L²" in text
+
+
+def test_load_can_vary_and_points_share_the_rod(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Safety of the straight bar is yield strength over F/A; of the buckled one, that of the single case."""
+    calls = []
+    follow = study_points.follow
+    monkeypatch.setattr(study_points, "follow", lambda *a, **k: calls.append(a) or follow(*a, **k))
+    given = string(
+        hole__angle_from_vertical=["80 deg", "90 deg"], rod__yield_strength="250 MPa", supports__force="100 MN",
+        load__applied="-135..-50 kN in 3",
+    )  # fmt: skip
+    found = rodwell.study(given)
+    assert len(calls) == 2
+    assert [point.number for point in found.points] == list(range(6))
+    flat = found.points[3:]
+    (light,) = flat[2].loads
+    assert light.safety is not None
+    assert light.what == STRAIGHT
+    assert light.safety.value == pytest.approx(250e6 * math.pi / 4 * 0.1**2 / 50e3, rel=1e-9)
+    (heavy,) = flat[0].loads
+    single = rodwell.answer(rodwell.Case.from_dict(string(
+        hole__angle_from_vertical="90 deg", rod__yield_strength="250 MPa", supports__force="100 MN",
+        load__applied="-135 kN",
+    )))  # fmt: skip
+    (state,) = (at.state for at in single.assessment.applied)
+    assert state is not None
+    stress = single.assessment.stress(state)
+    assert stress is not None
+    assert heavy.what == BUCKLED
+    assert heavy.safety is not None
+    assert stress.safety is not None
+    assert heavy.safety.value == pytest.approx(stress.safety[0], rel=1e-8)
+    assert (YIELDS in heavy.spare) == any(limit.kind == YIELDS for limit in single.assessment.window.limits)
+    assert found.worst() is not None
+    assert "for hole.angle_from_vertical" in sentences(found)[0]
+    assert "load.applied" not in sentences(found)[0]
+    assert len(found.rods) == 2
+    assert study_table(found).marked == frozenset()
+    assert len(plot_study(found).axes) == 3
+
+
+def test_straight_states_are_known_without_a_branch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the branch cannot be followed, a load short of buckling still has its stress; the others say why not."""
+
+    def fail(*_: Any, **__: Any) -> Any:
+        raise NotConvergedError("no way")
+
+    monkeypatch.setattr(study_points, "follow", fail)
+    given = string(hole__angle_from_vertical="90 deg", rod__yield_strength="250 MPa", load__applied="-135..-50 kN in 2")
+    beyond, short = rodwell.study(given).points
+    assert (beyond.loads[0].what, short.loads[0].what) == (UNKNOWN, STRAIGHT)
+    assert short.loads[0].safety is not None
+    assert short.loads[0].safety.value == pytest.approx(250e6 * math.pi / 4 * 0.1**2 / 50e3, rel=1e-9)
+    assert beyond.loads[0].safety is None
+    assert (beyond.reasons or {})["applied"] == "no way"
+    assert "applied" not in (short.reasons or {})
+
+
+def test_tables_of_loads_hold_the_same_numbers(tmp_path: Path) -> None:
+    """CSV, JSON and page of a study with two loads, one of them too much for the yield strength."""
+    file, out = tmp_path / "case.toml", tmp_path / "out"
+    file.write_text(LOADS_FILE, encoding="utf-8")
+    result = CliRunner().invoke(cli, ["run", str(file), "--out", str(out)], catch_exceptions=False)
+    assert "At the loads that act" in result.stdout
+    data = json.loads((out / "study.json").read_text(encoding="utf-8"))
+    with (out / "points.csv").open(encoding="utf-8", newline="") as opened:
+        head, *rows = csv.reader(opened)
+    for point, row in zip(data["points"], rows, strict=True):
+        assert len(point["applied"]) == 2
+        for k, load in enumerate(point["applied"], start=1):
+            at = head.index(f"load {k}: compression to spare until it buckles [N]")
+            assert float(row[at]) == pytest.approx(load["to_spare"]["buckling"]["si"]["value"], rel=1e-12)
+            assert float(row[at + 1]) == pytest.approx(load["to_spare"]["buckling"]["si"]["error"], rel=1e-12)
+            column = f"load {k}: effective end force F at s = 1, tension positive [N]"
+            assert float(row[head.index(column)]) == pytest.approx(load["given"], rel=1e-12)  # horizontal, no mud
+    sheet = openpyxl.load_workbook(out / "points.xlsx")["Points"]
+    assert [cell.value for cell in sheet[1]] == head
+    yields = head.index("load 2: compression to spare until the rod yields [N]")
+    assert float(rows[0][yields]) == pytest.approx(10e6 * math.pi / 4 * 0.1**2 - 100e3, rel=1e-8)  # F = σ A
+    assert rows[1][yields] == ""
+    assert [load["what"] for load in data["points"][0]["applied"]] == ["straight", "straight"]
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert page.count("At the loads that act") >= 1
+    assert "not everywhere on the wall and within strength" in page
+
+
 def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
     file, out = tmp_path / "weights.toml", tmp_path / "out"
     file.write_text(FILE, encoding="utf-8")
@@ -272,6 +400,8 @@ def test_single_cases_are_no_studies(tmp_path: Path) -> None:
     examples = Path(__file__).parents[2] / "examples"
     assert not is_study(examples / "drill-string.toml")
     assert is_study(examples / "study.toml")
+    assert is_study(examples / "load-study.toml")
+    assert varied_inputs({"load": {"applied": ["-10 kN", "-20 kN"]}}) == ()
     assert not is_study(tmp_path / "none.toml")
     with pytest.raises(InputError, match="does not exist"):
         rodwell.study(tmp_path / "none.toml")

@@ -10,6 +10,8 @@ import click
 from rodwell.cli.options import print_json, progress_bar
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from rodwell.practice.study import Study
 
 
@@ -36,7 +38,7 @@ def _summary(study: Study) -> None:
     from rich.panel import Panel  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.practice.study_data import cells, head, sentences  # noqa: PLC0415
+    from rodwell.practice.study_data import cells, head, sentences, worst_points  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(study)
@@ -46,11 +48,33 @@ def _summary(study: Study) -> None:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for title in head(study, short=True):
         table.add_column(escape(title), justify="right")
-    worst = {point.number for name in ("critical", "lift_off") if (point := study.worst(name)) is not None}
-    for point in study.points:
+    worst = worst_points(study)
+    for point in study.rods:
         style = "bold red" if point.number in worst else None
         table.add_row(*(escape(cell) for cell in cells(study, point)), style=style)
     console.print(table)
+    _loads(console, study)
     for point in study.incomplete:
         for name, reason in (point.reasons or {}).items():
             console.print(escape(f"{study.inputs(point)}: {name}: {reason}"), style="dim")
+
+
+def _loads(console: Console, study: Study) -> None:
+    """The table of the loads that act, if there are any."""
+    from rich.markup import escape  # noqa: PLC0415
+    from rich.table import Table  # noqa: PLC0415
+
+    from rodwell.practice.study_data import scales  # noqa: PLC0415
+    from rodwell.practice.study_loads_data import LEGEND, cells, fails, head, most_loads  # noqa: PLC0415
+
+    if not most_loads(study):
+        return
+    scale, force, _, _ = scales(study)
+    console.print(f"\nAt the loads that act. {LEGEND}")
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in head(study, force):
+        table.add_column(escape(title), justify="left" if title == "the rod is" else "right")
+    for point in study.points:
+        for one, row in zip(point.loads, cells(study, point, scale), strict=True):
+            table.add_row(*(escape(cell) for cell in row), style="bold red" if fails(one) else None)
+    console.print(table)

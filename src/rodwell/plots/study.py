@@ -12,43 +12,63 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rodwell.plots.style import INK, MODES, RC, WARN
-from rodwell.practice.study import Point, Study
+from rodwell.practice.assessment import BUCKLED
+from rodwell.practice.study import Study
 from rodwell.practice.study_data import scales
+from rodwell.practice.study_loads_data import fails, most_loads
+from rodwell.practice.study_points import LoadResult, Point
 from rodwell.practice.varied import Varied
 
-DASHES = (0, (4, 2))
+DASHES, DOTS = (0, (4, 2)), (0, (1, 1.5))
+
+BUCKLED_MARK: dict[str, Any] = {"marker": "D", "ms": 5, "mfc": "white", "mec": INK, "mew": 1.2}
+FAILS_MARK: dict[str, Any] = {"marker": "X", "ms": 7, "mfc": WARN, "mec": "white", "mew": 0.6}
+"""How the states at the loads that act are marked."""
 
 MOST_CURVES = 8
 """Curves in one panel; with more values of the second input, some are left out of the figure, and it says so."""
 
 
 def plot_study(study: Study) -> Figure:
-    """Draw compression at buckling and at lift-off, and the largest contact force at lift-off, over an input.
+    """Draw compression at buckling and at lift-off, and the largest contact force, over an input.
 
     With two varied inputs the one with more values goes across, the other has a colour for each value. Compression
-    is positive, at s = 1; bars are errors where they can be seen. Worst cases are ringed. Returns the figure.
+    is positive, at s = 1; bars are errors where they can be seen. Worst cases are ringed. Loads that act are dotted,
+    with a panel of the safety factor under the most compressive one. The contact force is that at lift-off, or at
+    the load where that varies. Returns the figure.
     """
     scale, force, per, per_length = scales(study)
     across, other = _axes_of(study)
     families = _families(study, across, other)
     loads = {name: _scaled(study, name) for name in ("critical", "lift_off", "contact")}
     with mpl.rc_context(RC):
-        figure = Figure(figsize=(7.4, 6.4), layout="constrained")
+        safety = _safety(study)
+        ratios = (1.7, 1, 1) if safety else (1.7, 1)
+        figure = Figure(figsize=(7.4, 6.4 if not safety else 8.2), layout="constrained")
         FigureCanvasAgg(figure)
-        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
+        upper, lower, *last = figure.subplots(len(ratios), 1, sharex=True, height_ratios=ratios)
         for colour, (_label, points) in zip(MODES, families, strict=False):
             _curve(upper, study, across, points, loads["critical"], scale, colour, "-")
             _curve(upper, study, across, points, loads["lift_off"], scale, colour, DASHES)
+            _loads(upper, study, across, points, scale, colour)
         _ring_worst(upper, study, across, loads, scale, {p.number for _, points in families for p in points})
         upper.set_ylabel(f"end compression −F at s = 1  [{force}]")
         if upper.get_ylim()[0] < 0.0:
             upper.axhline(0.0, color=INK, lw=0.8)
         for colour, (_label, points) in zip(MODES, families, strict=False):
             _curve(lower, study, across, points, loads["contact"], per, colour, "-")
-        lower.set_ylabel(f"largest contact force\nat lift-off  [{per_length}]")
+        where = "at the load" if study.load_varies else "at lift-off"
+        lower.set_ylabel(f"largest contact force\n{where}  [{per_length}]")
         lower.set_ylim(bottom=0.0)
-        _label_across(lower, study.varied[across])
-        figure.legend(handles=_key(families), loc="outside lower center", ncols=3, handlelength=3.0)
+        for colour, (_label, points) in zip(MODES, families, strict=False):
+            for ax in last:
+                _curve(ax, study, across, points, safety, 1.0, colour, "-")
+        for ax in last:
+            ax.axhline(1.0, color=WARN, lw=1.0)
+            ax.set_ylabel("safety factor\nat the load")
+            ax.set_ylim(bottom=0.0)
+        _label_across(last[0] if last else lower, study.varied[across])
+        figure.legend(handles=_key(study, families), loc="outside lower center", ncols=3, handlelength=3.0)
         left_out = 0 if other is None else len(study.varied[other].values) - len(families)
         note = f"\n{left_out} values of {study.varied[other or 0].name} are in the table only" if left_out else ""
         figure.suptitle(study.title + note, x=0.01, ha="left", fontsize=10)
@@ -90,7 +110,9 @@ def _scaled(study: Study, name: str) -> dict[int, tuple[float, float]]:
     out = {}
     for point in study.points:
         if name == "contact":
-            found, unit = point.contact, point.factor("force_per_length")
+            most = _most(point)
+            found = point.contact if not study.load_varies else None if most is None else most.contact
+            unit = point.factor("force_per_length")
             pair = None if found is None else (found.value * unit, found.error * unit)
         else:
             pair = point.compression(name)
@@ -112,14 +134,50 @@ def _curve(
     ax.errorbar(x, y, yerr=errors, color=colour, ls=joined, lw=1.7, marker="o", ms=3.5, elinewidth=1.0)
 
 
-def _key(families: list[tuple[str, list[Point]]]) -> list[Line2D]:
+def _most(point: Point) -> LoadResult | None:
+    """The most compressive load that acts at a point."""
+    return min(point.loads, key=lambda one: one.load.force, default=None)
+
+
+def _safety(study: Study) -> dict[int, tuple[float, float]]:
+    """Safety factor and its error under the most compressive load that acts, by number of the point."""
+    out = {}
+    for point in study.points:
+        most = _most(point)
+        if most is not None and most.safety is not None:
+            out[point.number] = (most.safety.value, most.safety.error)
+    return out
+
+
+def _loads(ax: Any, study: Study, across: int, points: list[Point], scale: float, colour: str) -> None:
+    """The loads that act as compression at s = 1: dotted, with marks where the rod is buckled or worse."""
+    place = _position(study.varied[across])
+    joined = DOTS if study.varied[across].numbers is not None else "none"
+    for k in range(most_loads(study)):
+        pairs = [(place[p.at[across]], p, p.loads[k]) for p in points if k < len(p.loads)]
+        x = [pair[0] for pair in pairs]
+        y = [-one.load.force * p.factor("force") / scale for _, p, one in pairs]
+        ax.plot(x, y, color=colour, ls=joined, lw=1.5, marker="." if joined == "none" else "")
+        for style, mark in ((BUCKLED_MARK, BUCKLED), (FAILS_MARK, None)):
+            at = [i for i, (_, _, one) in enumerate(pairs) if (fails(one) if mark is None else one.what == mark)]
+            ax.plot([x[i] for i in at], [y[i] for i in at], ls="none", zorder=5, **style)
+
+
+def _key(study: Study, families: list[tuple[str, list[Point]]]) -> list[Line2D]:
     """What lines, colours and rings mean."""
     plain = MODES[0] if len(families) == 1 else INK
     out = [
         Line2D([], [], color=plain, lw=1.7, label="buckles"),
         Line2D([], [], color=plain, lw=1.7, ls=DASHES, label="leaves the wall"),
-        Line2D([], [], ls="none", marker="o", ms=11, mfc="none", mec=WARN, mew=2.0, label="worst case"),
     ]
+    if not study.load_varies:
+        out.append(Line2D([], [], ls="none", marker="o", ms=11, mfc="none", mec=WARN, mew=2.0, label="worst case"))
+    if most_loads(study):
+        out += [
+            Line2D([], [], color=plain, lw=1.5, ls=DOTS, label="load that acts"),
+            Line2D([], [], ls="none", label="… buckled, on the wall", **BUCKLED_MARK),
+            Line2D([], [], ls="none", label="… off the wall, or too much", **FAILS_MARK),
+        ]
     return out + [Line2D([], [], color=c, lw=4.0, label=f[0]) for c, f in zip(MODES, families, strict=False) if f[0]]
 
 
@@ -128,7 +186,7 @@ def _ring_worst(
 ) -> None:
     """Ring the worst cases, as far as their curves are drawn."""
     place = _position(study.varied[across])
-    for name in ("critical", "lift_off"):
+    for name in () if study.load_varies else ("critical", "lift_off"):
         worst = study.worst(name)
         if worst is not None and worst.number in shown:
             x, y = place[worst.at[across]], loads[name][worst.number][0] / scale

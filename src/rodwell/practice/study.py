@@ -3,93 +3,21 @@
 from __future__ import annotations
 
 import itertools
-import math
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.fields import ZOOMS
-from rodwell.analysis.follow import follow
-from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.ladder import estimated_error
+from rodwell.errors import InputError
 from rodwell.practice.case import Case, CaseError
-from rodwell.practice.limits import uses
-from rodwell.practice.loaded import LoadedRod
+from rodwell.practice.study_points import Point, computed, point
 from rodwell.practice.units import SI, System
-from rodwell.practice.varied import LISTS, Varied, is_varied, varied_inputs
+from rodwell.practice.varied import LISTS, Varied, may_vary, varied_inputs
+
+APPLIED = "load.applied"
 
 Progress = Callable[[str, float], None]
-
-
-@dataclass(frozen=True)
-class Result:
-    """A number of one point in units B = L = 1, with its error estimate."""
-
-    value: float
-    error: float
-
-
-@dataclass(frozen=True)
-class Point:
-    """One case of a study.
-
-    Attributes
-    ----------
-    number
-        Its number, from 0.
-    at
-        Numbers of the values that the varied inputs take.
-    case
-        The case; None if the inputs do not make one.
-    critical
-        First critical load: end force at s = 1, tension positive.
-    half_waves
-        Number of half waves of its mode, √(∫y''²/∫y'²)/π.
-    lift_off
-        Lift-off load of the first mode: end force at s = 1, tension positive; in a vertical cylinder it is buckling.
-    places
-        s/L of the places that lift off.
-    contact
-        Largest contact force per length at lift-off; None where lift-off coincides with buckling.
-    used
-        Parts used at lift-off of the strengths that the case tells of, 1 is all: of the rod ("yield"), of the cylinder
-        and of the most loaded support, by kind.
-    reasons
-        Why results are missing, by name: "case", "critical", "lift_off", "contact".
-    """
-
-    number: int
-    at: tuple[int, ...]
-    case: Case | None
-    critical: Result | None = None
-    half_waves: float | None = None
-    lift_off: Result | None = None
-    places: tuple[float, ...] = ()
-    contact: Result | None = None
-    used: Mapping[str, Result] = field(default_factory=dict)
-    reasons: Mapping[str, str] | None = None
-
-    def factor(self, dimension: str) -> float:
-        """SI value of one dimensionless unit of this point; 1 without dimensions."""
-        if self.case is None or self.case.scales is None:
-            return 1.0
-        return self.case.scales.factor(dimension)
-
-    def compression(self, name: str, bottom: bool = False) -> tuple[float, float] | None:
-        """Compression at "critical" or "lift_off", **positive**, and its error, in N (or B/L²).
-
-        At s = 1, where the end force acts, or at the ``bottom``, s = 0.
-        """
-        found: Result | None = getattr(self, name)
-        if found is None or self.case is None:
-            return None
-        unit = self.factor("force")
-        extra = self.case.problem.axial_weight if bottom else 0.0
-        return (extra - found.value) * unit, found.error * unit
 
 
 @dataclass(frozen=True)
@@ -143,6 +71,26 @@ class Study:
         """The varied inputs of a point in words."""
         return ", ".join(f"{v.name} = {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
 
+    @property
+    def load_varies(self) -> bool:
+        """Whether ``load.applied`` varies, which changes neither the critical load nor lift-off."""
+        return any(varied.name == APPLIED for varied in self.varied)
+
+    def rod_inputs(self, point: Point) -> str:
+        """The varied inputs of a point that change its critical load and lift-off, in words; may be empty."""
+        pairs = zip(self.varied, point.at, strict=True)
+        return ", ".join(f"{v.name} = {v.text(i)}" for v, i in pairs if v.name != APPLIED)
+
+    @property
+    def rods(self) -> tuple[Point, ...]:
+        """A point for each combination of the inputs other than the load, one that was computed if there is one."""
+        found: dict[tuple[int, ...], Point] = {}
+        for one in self.points:
+            key = tuple(i for v, i in zip(self.varied, one.at, strict=True) if v.name != APPLIED)
+            if key not in found or (found[key].critical is None and one.critical is not None):
+                found[key] = one
+        return tuple(found.values())
+
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain data, for JSON."""
         from rodwell.practice.study_data import study_dict  # noqa: PLC0415
@@ -186,16 +134,29 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     cases = [_case(data, varied, at, source, folder, units) for at in grid]
     if all(isinstance(found, InputError) for found in cases):
         raise cases[0]  # type: ignore[misc]
-    points = []
-    for number, (at, found) in enumerate(zip(grid, cases, strict=True)):
-        tell(f"point {number + 1} of {len(grid)}", number / len(grid))
-        if isinstance(found, Case):
-            points.append(_computed(number, at, found))
-        else:
-            points.append(Point(number, at, None, reasons={"case": str(found)}))
+    points = _points(grid, cases, tell)
     tell("done", 1.0)
     title = str(data.get("title", "Untitled study"))
-    return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, tuple(points))
+    return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, points)
+
+
+def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[Point, ...]:
+    """All points in their order; those that differ in loads or strengths only share what is computed once."""
+    same: dict[Any, list[int]] = {}
+    for number, case in enumerate(cases):
+        same.setdefault((case.problem, case.rtol) if isinstance(case, Case) else number, []).append(number)
+    points: list[Point] = []
+    for numbers in same.values():
+        rod = None
+        for number in numbers:
+            tell(f"point {number + 1} of {len(grid)}", len(points) / len(grid))
+            case = cases[number]
+            if not isinstance(case, Case):
+                points.append(Point(number, grid[number], None, reasons={"case": str(case)}))
+                continue
+            rod = computed(case) if rod is None else rod
+            points.append(point(number, grid[number], case, rod))
+    return tuple(sorted(points, key=lambda found: found.number))
 
 
 def is_study(path: Path) -> bool:
@@ -206,7 +167,7 @@ def is_study(path: Path) -> bool:
         return False
     sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
     values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
-    return any(is_varied(value) for name, value in values if name not in LISTS)
+    return any(may_vary(name, value) for name, value in values)
 
 
 def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:
@@ -239,54 +200,3 @@ def _case(
         return Case.from_dict(single, source=source, folder=folder).in_units(units)
     except InputError as problem:
         return problem
-
-
-def _computed(number: int, at: tuple[int, ...], case: Case) -> Point:
-    """Critical load, lift-off and largest contact force of one case; reasons for what is missing."""
-    try:
-        mode = critical_loads(case.problem, 1, rtol=case.rtol)[0]
-    except NotConvergedError as problem:
-        why = str(problem)
-        return Point(
-            number, at, case, reasons={"critical": why, "lift_off": "no critical load", "contact": "no lift-off"}
-        )
-    critical, waves = Result(mode.force, mode.error), mode.wavenumber / math.pi
-    reasons: dict[str, str] = {}
-    lift_off = contact = None
-    places: tuple[float, ...] = ()
-    try:
-        branch = follow(case.problem, mode, rtol=case.rtol)
-        lift_off, places, contact = _at_lift_off(branch, reasons)
-        used = {} if contact is None else _used(case, branch)
-    except (InputError, NotConvergedError) as problem:
-        reasons, used = {"lift_off": str(problem), "contact": "no lift-off"}, {}
-    return Point(number, at, case, critical, waves, lift_off, places, contact, used, reasons or None)
-
-
-def _used(case: Case, branch: Branch) -> dict[str, Result]:
-    """Parts of the strengths used at lift-off, with errors from the two meshes."""
-    assert branch.lift_off is not None
-    lift = branch.lift_off
-    state = LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution)
-    out = {}
-    for use in uses(case):
-        coarse, fine = (use.size(mesh, ZOOMS)[0] for mesh in state.along)
-        out[use.kind] = Result(fine, float(estimated_error(fine, coarse)))
-    return out
-
-
-def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Result | None, tuple[float, ...], Result | None]:
-    lift = branch.lift_off
-    if lift is None:
-        reasons.update(lift_off=f"was not found: {branch.ended_because}", contact="no lift-off")
-        return None, (), None
-    found = Result(lift.force, lift.error)
-    if branch.lift_off_at_buckling:
-        reasons["contact"] = "lift-off coincides with buckling: no lateral weight"
-        return found, lift.s, None
-    if not branch.converged:
-        reasons["lift_off"] = (
-            "the branch to it does not meet the tolerance everywhere: its error says how well it is known"
-        )
-    peak = lift.solution.wall.contact
-    return found, lift.s, Result(peak.value, peak.error)

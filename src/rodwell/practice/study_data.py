@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.practice.study import Point, Study
+from rodwell.practice import study_loads_data
+from rodwell.practice.study import APPLIED, Study
+from rodwell.practice.study_points import Point
 from rodwell.practice.table import Cell, Table
 
 NOTES = (
@@ -39,10 +41,18 @@ def study_table(study: Study) -> Table:
     columns += [f"± error of it [{per_length}]"]
     for kind in _told(study):
         columns += [f"part of the {STRENGTHS[kind]} used at lift-off", "± error"]
+    columns += study_loads_data.columns(study, force, per_length)
     columns.append("remarks")
-    marked = {worst.number for name in LOADS if (worst := study.worst(name)) is not None}
     rows = tuple(_row(study, point) for point in study.points)
-    return Table("Points", tuple(columns), rows, frozenset(marked), NOTES)
+    notes = (*NOTES, *(study_loads_data.NOTES if study_loads_data.most_loads(study) else ()))
+    return Table("Points", tuple(columns), rows, worst_points(study), notes)
+
+
+def worst_points(study: Study) -> frozenset[int]:
+    """Numbers of the points that are marked as worst cases: none where the load varies, which they do not depend on."""
+    if study.load_varies:
+        return frozenset()
+    return frozenset(worst.number for name in LOADS if (worst := study.worst(name)) is not None)
 
 
 def _told(study: Study) -> list[str]:
@@ -70,7 +80,7 @@ def _row(study: Study, point: Point) -> tuple[Cell, ...]:
     for kind in _told(study):
         used = point.used.get(kind)
         cells += [None, None] if used is None else [used.value, used.error]
-    return (*cells, remarks(study, point))
+    return (*cells, *study_loads_data.row(study, point), remarks(study, point))
 
 
 def remarks(study: Study, point: Point) -> str:
@@ -78,9 +88,10 @@ def remarks(study: Study, point: Point) -> str:
     parts = [
         f"worst case: least compression that {'buckles it' if name == 'critical' else 'lifts it off'}"
         for name in LOADS
-        if (worst := study.worst(name)) is not None and worst.number == point.number
+        if point.number in worst_points(study) and study.worst(name) is point
     ]
     names = {"case": "not computed", "critical": "critical load", "lift_off": "lift-off", "contact": "contact force"}
+    names["applied"] = "at the load"
     parts += [f"{names[name]}: {reason}" for name, reason in (point.reasons or {}).items()]
     return "; ".join(parts)
 
@@ -103,9 +114,10 @@ def scales(study: Study) -> tuple[float, str, float, str]:
 
 
 def head(study: Study, short: bool = False) -> list[str]:
-    """Columns of the table for reading; ``short`` for the terminal."""
+    """Columns of the table of rods for reading; ``short`` for the terminal."""
     _, force, _, per_length = scales(study)
-    inputs = [(v.key if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in study.varied]
+    shown = (v for v in study.varied if v.name != APPLIED)
+    inputs = [(v.key if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in shown]
     if short:
         return [*inputs, f"buckles [{force}]", "±", "at s = 0", "lifts off", "±", "s/L", f"contact [{per_length}]"]
     return [
@@ -115,11 +127,10 @@ def head(study: Study, short: bool = False) -> list[str]:
 
 
 def cells(study: Study, point: Point) -> list[str]:
-    """One row of the table for reading; a dash where there is no result."""
+    """One row of the table of rods for reading; a dash where there is no result."""
     scale, _, per, _ = scales(study)
-    out = []
-    for varied, i in zip(study.varied, point.at, strict=True):
-        out.append(str(varied.values[i]) if varied.numbers is None else f"{varied.numbers[i]:.6g}")
+    shown = [(v, i) for v, i in zip(study.varied, point.at, strict=True) if v.name != APPLIED]
+    out = [str(v.values[i]) if v.numbers is None else f"{v.numbers[i]:.6g}" for v, i in shown]
     for name in LOADS:
         found, bottom = point.compression(name), point.compression(name, bottom=True)
         out += ["–", "–"] if found is None else [f"{found[0] / scale:.5g}", f"{found[1] / scale:.0e}"]
@@ -128,7 +139,7 @@ def cells(study: Study, point: Point) -> list[str]:
     out.append(", ".join(f"{s:.3g}" for s in point.places) or "–")
     unit = point.factor("force_per_length") / per
     out.append("–" if point.contact is None else f"{point.contact.value * unit:.4g}")
-    names = len(study.varied)
+    names = len(shown)
     return [*out[:names], *(cell.replace("-", "−") for cell in out[names:])]
 
 
@@ -142,10 +153,12 @@ def sentences(study: Study) -> list[str]:
             out.append(f"No point has a load at which it {what}.")
             continue
         others = [found[0] for point in study.points if (found := point.compression(name)) is not None]
-        text = (
-            f"least compression at which it {what} is {load_text(study, load[0])} at s = 1, for {study.inputs(worst)}"
-        )
-        out.append(f"Worst case: the {text}; the largest over the study is {load_text(study, max(others))}.")
+        text = f"compression at which it {what} is {load_text(study, load[0])} at s = 1"
+        if study.rod_inputs(worst):
+            text = f"Worst case: the least {text}, for {study.rod_inputs(worst)}"
+            out.append(f"{text}; the largest over the study is {load_text(study, max(others))}.")
+        else:
+            out.append(f"The least {text}, whatever the load.")
         if load[0] < 0.0:
             out.append(
                 "Negative compression is tension: there the rod buckles under its own weight unless it is pulled."
@@ -155,7 +168,9 @@ def sentences(study: Study) -> list[str]:
         most = max(used, key=lambda number: used[number].value)
         part = used[most].value
         share = f"{100.0 * part:.3g} %" if part < 10.0 else f"{part:.3g} times all of it"
-        out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}, for {study.inputs(study.points[most])}.")
+        where = study.rod_inputs(study.points[most])
+        out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}{f', for {where}' if where else ''}.")
+    out += study_loads_data.load_sentences(study)
     lacking = [point for point in study.points if point.critical is None]
     if lacking:
         out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
@@ -197,6 +212,7 @@ def _point_dict(study: Study, point: Point) -> dict[str, Any]:
         "places": list(point.places),
         "reasons": dict(point.reasons or {}),
     }  # fmt: skip
+    out["applied"] = [study_loads_data.load_dict(point, one) for one in point.loads]
     out["used_at_lift_off"] = {kind: {"value": r.value, "error": r.error} for kind, r in point.used.items()}
     for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
         found = getattr(point, name)

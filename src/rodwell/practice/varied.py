@@ -15,7 +15,7 @@ MOST_POINTS = 400
 """Points that one study may have."""
 
 LISTS = ("catalogue", "load.applied")
-"""Sections and keys in which a list is a list, not an input that varies."""
+"""Sections and keys in which a list is a list, not an input that varies; a range of ``load.applied`` varies."""
 
 FIXED = {
     "analysis": "cannot vary: it says how the cases are computed",
@@ -74,6 +74,11 @@ def is_varied(value: object) -> bool:
     return isinstance(value, list | tuple) or (isinstance(value, str) and _RANGE_LIKE.search(value) is not None)
 
 
+def may_vary(name: str, value: object) -> bool:
+    """Whether the value of a key, "section.key", is one that varies: a list of loads that act is none, a range is."""
+    return is_varied(value) and (name not in LISTS or isinstance(value, str))
+
+
 def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
     """Return the inputs that vary, in the order of the file.
 
@@ -90,7 +95,7 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
             continue
         for key, value in values.items():
             name = f"{section}.{key}"
-            if section in LISTS or name in LISTS or not is_varied(value):
+            if section in LISTS or not may_vary(name, value):
                 continue
             why = FIXED.get(section) or FIXED.get(name)
             if why is not None:

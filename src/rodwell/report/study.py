@@ -7,9 +7,23 @@ from pathlib import Path
 
 from rodwell._version import __version__
 from rodwell.plots.study import plot_study
+from rodwell.practice import study_loads_data
 from rodwell.practice.advice import BAD, CAUTION, GOOD, Status
-from rodwell.practice.study import Point, Study
-from rodwell.practice.study_data import LOADS, NOTES, cells, head, load_text, remarks, sentences, study_table
+from rodwell.practice.assessment import BUCKLED
+from rodwell.practice.study import Study
+from rodwell.practice.study_data import (
+    LOADS,
+    NOTES,
+    cells,
+    head,
+    load_text,
+    remarks,
+    scales,
+    sentences,
+    study_table,
+    worst_points,
+)
+from rodwell.practice.study_points import Point
 from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
 from rodwell.report.pdf import check_pdf, write_report
 from rodwell.report.pictures import save_figure
@@ -52,7 +66,7 @@ def study_report(study: Study) -> Report:
         subtitle=f"Parameter study of buckling and lift-off of a rod in a cylinder · {len(study.points)} points · "
         f"rodwell {__version__} · {today}",
         front=_front(study),
-        sections=(_points(study), _inputs(study)),
+        sections=(_points(study), *_loads(study), _inputs(study)),
         footer=f"Computed by rodwell {__version__} from {study.source}. The theory is geometrically exact for a rod "
         "that stays on the wall. Not included: friction, joints, curvature of the hole, dynamics.",
         paper="us-letter" if study.physical and study.system.name == "field" else "a4",
@@ -69,22 +83,32 @@ def _front(study: Study) -> Front:
             continue
         label = f"Least compression at s = 1 at which it {what}"
         error = study.system.text(load[1], "force", 1) if study.physical else f"{load[1]:.1g} B/L²"
-        numbers.append(Number(label, load_text(study, load[0]), error_text(error), study.inputs(worst)))
+        numbers.append(Number(label, load_text(study, load[0]), error_text(error), study.rod_inputs(worst)))
     return Front(
         verdict=text[0],
-        statuses=(_status(study),),
+        statuses=(_status(study), *_at_loads(study)),
         numbers=tuple(numbers),
         picture=Picture(
             "curves",
-            "Compression at buckling and lift-off, and contact force at lift-off, over the varied input",
+            "Compression at buckling and lift-off, and contact force, over the varied input",
             "Above: end compression at which the straight rod buckles (solid), and at which the first mode leaves the "
-            "wall (dashed); the worst cases are ringed. Below: largest contact force per length at lift-off. A curve "
-            "is interrupted where a point has no result; points are joined by straight lines.",
+            "wall (dashed)"
+            + _drawn_too(study)
+            + f". Below: largest contact force per length at {'the load' if study.load_varies else 'lift-off'}. "
+            "A curve is interrupted where a point has no result; points are joined by straight lines.",
         ),
         assumptions=" ".join(NOTES),
         steps=tuple(text[1:]),
         next_title="What else was found",
     )
+
+
+def _drawn_too(study: Study) -> str:
+    """What else the upper panel shows, for the caption."""
+    ringed = "" if study.load_varies else "; the worst cases are ringed"
+    if not study_loads_data.most_loads(study):
+        return ringed
+    return f"{ringed}; dotted, the loads that act, as compression at s = 1, marked where the rod is buckled or worse"
 
 
 def _status(study: Study) -> Status:
@@ -101,6 +125,24 @@ def _status(study: Study) -> Status:
     return Status("Points", GOOD, "complete", f"every one of {points} points has its loads")
 
 
+def _at_loads(study: Study) -> tuple[Status, ...]:
+    """How the rod stands at the loads that act, if there are any: the worst of all points."""
+    loads = [one for point in study.points for one in point.loads]
+    if not loads:
+        return ()
+    bad = sum(study_loads_data.fails(one) for one in loads)
+    buckled = sum(one.what == BUCKLED for one in loads)
+    if bad:
+        why = "it leaves the wall, takes another shape, exceeds a strength, or is not known"
+        return (
+            Status("Loads", BAD, "not everywhere on the wall and within strength", f"in {bad} of {len(loads)}: {why}"),
+        )
+    if buckled:
+        reason = f"in {buckled} of {len(loads)} it is buckled, on the wall and stable; else straight"
+        return (Status("Loads", CAUTION, "buckled in places", reason),)
+    return (Status("Loads", GOOD, "straight everywhere", f"at every one of {len(loads)} points and loads"),)
+
+
 def _lacking(study: Study) -> list[Point]:
     """Points without all their loads."""
     return [point for point in study.incomplete if set(point.reasons or {}) - {"contact"}]
@@ -108,19 +150,36 @@ def _lacking(study: Study) -> list[Point]:
 
 def _points(study: Study) -> Section:
     columns = (*(_breakable(title) for title in head(study)), "Remark")
-    worst = {point.number for name in LOADS if (point := study.worst(name)) is not None}
     blocks: list[Block] = []
     lacking = _lacking(study)
     if lacking:
         blocks.append(Words("Not every point has every result.", "warning"))
         blocks.append(Items(tuple(f"{study.inputs(point)}: {remarks(study, point)}" for point in lacking)))
-    rows = tuple((*cells(study, point), remarks(study, point)) for point in study.points)
-    marked = tuple(i for i, point in enumerate(study.points) if point.number in worst)
+    rows = tuple((*cells(study, point), remarks(study, point)) for point in study.rods)
+    marked = tuple(i for i, point in enumerate(study.rods) if point.number in worst_points(study))
     blocks.append(Grid(columns, rows, numeric=tuple(range(len(columns) - 1)), marked=marked))
     blocks.append(
         Words("Numbers with all their digits and the error of each: points.csv, points.xlsx, study.json.", "small")
     )
-    return Section("All points", tuple(blocks))
+    return Section("Buckling and lift-off" if study.load_varies else "All points", tuple(blocks))
+
+
+def _loads(study: Study) -> tuple[Section, ...]:
+    """The loads that act, if there are any."""
+    if not study_loads_data.most_loads(study):
+        return ()
+    scale, force, _, _ = scales(study)
+    pairs = [
+        (one, row)
+        for point in study.points
+        for one, row in zip(point.loads, study_loads_data.cells(study, point, scale), strict=True)
+    ]
+    columns = tuple(_breakable(title) for title in study_loads_data.head(study, force))
+    numeric = tuple(i for i, title in enumerate(columns) if title != "the rod is")
+    marked = tuple(i for i, (one, _) in enumerate(pairs) if study_loads_data.fails(one))
+    grid = Grid(columns, tuple(tuple(row) for _, row in pairs), numeric=numeric, marked=marked)
+    notes = Words(" ".join((study_loads_data.LEGEND, *study_loads_data.NOTES)), "small")
+    return (Section("At the loads that act", (grid, notes)),)
 
 
 def _breakable(title: str) -> str:
