@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,16 +16,18 @@ from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.capacity import Cylinder, cylinder_of
+from rodwell.practice.case_file import read_toml
 from rodwell.practice.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.practice.dimensionless import check_sections, dimensionless
 from rodwell.practice.explain import SECTIONS, explain
 from rodwell.practice.facts import Fact
 from rodwell.practice.fluids import NO_FLUIDS, Fluids
-from rodwell.practice.physical import check_force_words, check_reach, physical
+from rodwell.practice.physical import physical
 from rodwell.practice.scales import Scales
 from rodwell.practice.strings import PhysicalRod
 from rodwell.practice.uncertainty import Moved, UncertainInput, split
 from rodwell.practice.units import SYSTEMS, System
-from rodwell.problem import Problem, checked_ends
+from rodwell.problem import Problem
 
 __all__ = ["SECTIONS", "Case", "CaseError"]
 
@@ -141,26 +141,7 @@ class Case(Shown):
             If the file cannot be read.
         """
         file = Path(path)
-        try:
-            text = file.read_text(encoding="utf-8-sig")
-        except FileNotFoundError:
-            near = difflib.get_close_matches(file.name, _siblings(file), n=1)
-            hint = f"; did you mean {str(file.with_name(near[0]))!r}?" if near else ""
-            raise InputError("case file", str(file), f"does not exist{hint}") from None
-        except IsADirectoryError:
-            raise InputError("case file", str(file), "is a folder; name a TOML file in it") from None
-        except UnicodeDecodeError:
-            raise InputError("case file", str(file), "is not text in UTF-8; case files are TOML") from None
-        except (OSError, ValueError) as problem:
-            reason = getattr(problem, "strerror", None) or str(problem)
-            raise InputError("case file", str(file), f"cannot be read: {reason}") from None
-        try:
-            data = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as problem:
-            hint = '; quantities and text stand in quotes, for example length = "30 m"'
-            raise InputError("case file", str(file), f"is not valid TOML: {problem}{hint}") from None
-        except (ValueError, RecursionError):
-            raise InputError("case file", str(file), "is not valid TOML: a number or a nesting too large") from None
+        data, text = read_toml(file)
         return cls.from_dict(data, source=file.name, text=text, folder=file.parent)
 
     @classmethod
@@ -217,13 +198,6 @@ def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
     return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
 
 
-def _siblings(file: Path) -> list[str]:
-    try:
-        return [p.name for p in file.parent.iterdir() if p.suffix == ".toml"]
-    except OSError:
-        return []
-
-
 def _given(data: Mapping[str, Any]) -> dict[str, Any]:
     """The sections as they were written."""
     return {name: values for name, values in data.items() if name in SECTIONS}
@@ -240,7 +214,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     if not with_dimensions and parsed.dimensionless is None:
         raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
     if not with_dimensions:
-        _check_sections(parsed)
+        check_sections(parsed)
     load = _load(parsed.load, with_dimensions, source)
     case: Case
     common = {
@@ -257,28 +231,13 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
                     rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
                     supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
     else:
-        problem, until, applied = _dimensionless(parsed.dimensionless, load)
+        problem, until, applied = dimensionless(parsed.dimensionless, load)
         case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
     if case.until is not None and not math.isfinite(case.until):
         raise InputError("load.until", load.until, "must be finite")
     if not all(math.isfinite(item.force) for item in case.applied):
         raise InputError("load.applied", load.applied, "must be finite")
     return case
-
-
-def _check_sections(parsed: schema.CaseFile) -> None:
-    """Refuse what a case without dimensions cannot use."""
-    reasons = {
-        "cylinder": "a dimensionless case has no stresses",
-        "supports": "a dimensionless case has no capacities",
-        "mud": "the weight of a dimensionless case is that in its fluids",
-        "pressure": "the forces of a dimensionless case are effective ones",
-        "catalogue": "a dimensionless case has no pipe",
-        "units": "results of a dimensionless case are in units of B and L",
-    }
-    for name, why in reasons.items():
-        if getattr(parsed, name) is not None:
-            raise InputError(name, None, f"needs [rod] and [hole]: {why}; leave it out")
 
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
@@ -302,30 +261,3 @@ def _named(field: str, compute: Any) -> Any:
         return compute()
     except InputError as problem:
         raise InputError(field, problem.value, problem.problem) from None
-
-
-def _dimensionless(
-    given: schema.Dimensionless | None, load: schema.DimensionlessLoad
-) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
-    """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
-    assert given is not None
-    try:
-        problem = Problem(
-            weight=given.weight,
-            alpha=given.alpha,
-            clearance=given.clearance,
-            poisson=given.poisson,
-            twist=load.twist,
-            ends=checked_ends(given.ends),
-        )
-    except InputError as found:
-        section = "load" if found.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{found.field}", found.value, found.problem) from None
-    if load.until is None and load.applied is None:
-        check_force_words(load)
-    bottom = load.at == "bottom"
-    more = problem.axial_weight if bottom else 0.0
-    until = None if load.until is None else load.until + more
-    applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
-    check_reach(until, applied)
-    return problem, until, applied

@@ -11,6 +11,7 @@ from typing import Any
 
 from rodwell.errors import InputError
 from rodwell.practice.case import Case, CaseError
+from rodwell.practice.case_file import read_toml
 from rodwell.practice.study_points import Point, computed, point
 from rodwell.practice.units import SI, System
 from rodwell.practice.varied import LISTS, Varied, may_vary, varied_inputs
@@ -176,12 +177,8 @@ def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str,
     if not isinstance(case, str | Path):
         raise InputError("case", case, "must be the path of a case file, or its content as a dictionary")
     path = Path(case)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        return tomllib.loads(text), path.name, text
-    except (OSError, ValueError, RecursionError):
-        Case.read(path)  # says what is wrong
-        raise
+    data, text = read_toml(path)
+    return data, path.name, text
 
 
 def _case(
