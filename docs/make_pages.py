@@ -209,7 +209,8 @@ MEANINGS: dict[str, dict[str, str]] = {
         "until": "end force to which branches are followed, **tension positive** (compression negative); "
         "chosen from the loads found if not given",
         "twist": "end twisting moment T₁ at s = 1, a dead load",
-        "applied": "the load that acts, or a list, **tension positive**: [what becomes of the rod there](strength.md)",
+        "applied": "the load that acts, or a list, **tension positive**: [what becomes of the rod there](strength.md); "
+        "a range makes a [study](studies.md)",
         "at": "where `until` and `applied` act: `top` (s = 1, the upper end) or `bottom` (s = 0)",
         "kind": "what `until` and `applied` are: the `effective` force, or the `real` one in the wall; must "
         "be said beside `[pressure]`",

@@ -25,6 +25,8 @@ FIXED = {
 
 ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 deg in 13" or "10..40 in 7"'
 
+ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of loads that act, ["-20 kN", "-40 kN"]'
+
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
 _RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
 """What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
@@ -117,7 +119,8 @@ def _range(section: str, key: str, text: str) -> Varied:
     parts = _RANGE.fullmatch(text)
     found = None if parts is None else (_NUMBER.fullmatch(parts["first"]), _NUMBER.fullmatch(parts["last"]))
     if parts is None or found is None or found[0] is None or found[1] is None:
-        raise InputError(name, text, f"is not a range; {ALLOWED}")
+        allowed = ALLOWED_LOAD if name in LISTS else ALLOWED
+        raise InputError(name, text, f"is not a range; {allowed}")
     first, last, count = float(found[0][1]), float(found[1][1]), int(parts["count"][:9])
     unit = found[1][2]
     try:
