@@ -12,26 +12,11 @@ import numpy as np
 from rodwell.analysis.critical import EULER, Mode
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
-from rodwell.analysis.special import (
-    BRANCH_POINT,
-    CRITICAL,
-    END,
-    FOLD,
-    KINDS,
-    LIFT_OFF,
-    REJOINS,
-    ROUND_OFF,
-    STRAIGHT,
-    TOUCH_DOWN,
-    UNCERTAIN,
-    Origin,
-    SpecialPoint,
-)
+from rodwell.analysis.special import END, LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, index_at_start, special_points
 from rodwell.analysis.symmetry import Reflection, images
 from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.numerics.continuation import Trace
-from rodwell.numerics.events import INDEX, TURN, Found
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
 from rodwell.numerics.location import LocationError, Span, locate
@@ -72,7 +57,7 @@ class Branch(Shown):
         self._trace = result
         self._solutions: dict[int, Solution] = {}
         self.reached_end, self.ended_because = reached, why
-        self.special_points = self._special_points()
+        self.special_points = special_points(self, result)
 
     def __len__(self) -> int:
         return len(self._trace.points)
@@ -80,7 +65,7 @@ class Branch(Shown):
     def __getitem__(self, i: int) -> Solution:
         i = range(len(self))[i]  # refuses what lies outside
         if i not in self._solutions:  # kept: with it the certificate, once asked for
-            self._solutions[i] = self._solution(self._trace.points[i], self._trace.ladders[i])
+            self._solutions[i] = self.solution(self._trace.points[i], self._trace.ladders[i])
         return self._solutions[i]
 
     def __iter__(self) -> Iterator[Solution]:
@@ -116,14 +101,8 @@ class Branch(Shown):
         """Stability index of each point, (n,): 0 is stable under dead loads, for a rod kept on the wall."""
         index = np.array([p.fine.index for p in self._trace.points])
         if self.origin.switched and len(index) > 1:
-            index[0] = self._index_at_start()
+            index[0] = index_at_start(self._trace)
         return index
-
-    def _index_at_start(self) -> int:
-        """Index just after the start: the first point is a state of the branch that it leaves."""
-        changes = [f for f in self._trace.found if f.name == INDEX]
-        after_first = self._trace.points[min(1, len(self) - 1)].fine.index
-        return changes[0].index_before if changes else int(after_first)
 
     @property
     def images(self) -> tuple[Reflection, ...]:
@@ -234,7 +213,7 @@ class Branch(Shown):
         except LocationError as problem:
             raise NotConvergedError(f"no zero between points {i} and {i + 1}: {problem}") from None
         point = ladder.point(place.coarse, place.fine)
-        return self._solution(point, ladder), place.gap / CLAIMED_GAIN + ROUND_OFF * abs(point.lam)
+        return self.solution(point, ladder), place.gap / CLAIMED_GAIN + ROUND_OFF * abs(point.lam)
 
     def _spans(self, i: int) -> tuple[Ladder, tuple[Span, Span]]:
         """The stretch of the branch between points i and i+1 on both meshes."""
@@ -248,7 +227,7 @@ class Branch(Shown):
         """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
         ladder, (coarse, fine) = self._spans(i)
         near = ladder.point(coarse.at_lam(value), fine.at_lam(value))
-        return self._solution(near if near.at(value) else ladder.at(near, value) or near, ladder)
+        return self.solution(near if near.at(value) else ladder.at(near, value) or near, ladder)
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -276,54 +255,12 @@ class Branch(Shown):
         """
         return drawn(self, ax, ordinate=ordinate, scales=scales)
 
-    def _solution(self, point: Point, ladder: Ladder) -> Solution:
+    def solution(self, point: Point, ladder: Ladder) -> Solution:
+        """Return the solution of a state of this branch, or of one between its points."""
         problem = self.problem
         if self.parameter != "force":
             problem = problem.but(**{self.parameter: point.lam})
         return Solution(problem, point, ladder)
-
-    def _special_points(self) -> tuple[SpecialPoint, ...]:
-        points, ladders = self._trace.points, self._trace.ladders
-        out = []
-        if self.origin.switched:
-            first = self._solution(points[0], ladders[0])
-            places = self[1].highest_pressure[2] if self.lift_off_at_buckling and len(self) > 1 else ()
-            kind, error = BRANCH_POINT, float(points[0].lam_gap)
-            if self.mode is not None:
-                kind, error = CRITICAL, self.mode.error
-            before, index = points[0].fine.index, int(self.stability_index[0])
-            out.append(
-                SpecialPoint(kind, first.force, points[0].lam, error, places, before, index, first, 0, self.parameter)
-            )
-        met = self._trace.found[-1:] if self._trace.end in (REJOINS, STRAIGHT) else []
-        for found in self._trace.found:
-            if found.name in KINDS:
-                out.append(self._special(found, met=any(found is m for m in met)))
-        if not out or out[-1].kind != END:
-            last = self._solution(points[-1], ladders[-1])
-            index = self._trace.found[-1].index_after if met else last.stability_index
-            out.append(
-                SpecialPoint(
-                    END, last.force, points[-1].lam, 0.0, (), index, index, last, len(points) - 1, self.parameter
-                )
-            )
-        return tuple(out)
-
-    def _special(self, found: Found, *, met: bool) -> SpecialPoint:
-        solution = self._solution(found.point, found.ladder)
-        kind = found.name
-        if kind == INDEX:
-            kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
-        elif kind == TURN:
-            kind = BRANCH_POINT if met else FOLD
-        elif kind == LIFT_OFF and not found.rising:
-            kind = TOUCH_DOWN
-        places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
-        error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
-        index = found.index_before, found.index_after
-        return SpecialPoint(
-            kind, solution.force, found.point.lam, error, places, *index, solution, found.after, self.parameter
-        )
 
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""
