@@ -14,7 +14,7 @@ import pytest
 
 import rodwell
 from rodwell.practice.scene import drawn, scene
-from rodwell.report.viewer import viewer, write_viewer
+from rodwell.report.viewer import view, viewer, write_viewer
 
 NEEDED = {"src", "href", "data", "poster", "action"}
 
@@ -52,7 +52,7 @@ def state() -> rodwell.Solution:
 @pytest.fixture(scope="module")
 def page(state: rodwell.Solution, tmp_path_factory: pytest.TempPathFactory) -> str:
     path: Path = tmp_path_factory.mktemp("page") / "rod.html"
-    write_viewer(path, state, state.geometry(101, radial_scale=None), None, "A <rod>")
+    write_viewer(path, view(state, rod=state.geometry(101, radial_scale=None)), "A <rod>")
     return path.read_text(encoding="utf-8")
 
 
@@ -94,12 +94,12 @@ def test_scene_in_the_page_is_that_of_the_solution(page: str, state: rodwell.Sol
 
 def test_colour_bar(state: rodwell.Solution) -> None:
     pressure = state.geometry(321).fields["contact_pressure"]
-    markup = viewer(state, rod=state.geometry(321)).markup
+    markup = viewer(view(state, rod=state.geometry(321))).markup
     assert f"{pressure.min():.4g}".replace("-", "−") in markup
     assert "B/L³ contact pressure p" in markup
     outside = rodwell.follow(rodwell.Problem(15, on_top=True, outside=True), 2).lift_off.solution
     rod = drawn(outside, None)
-    markup = viewer(outside, rod=rod).markup
+    markup = viewer(view(outside, rod=rod)).markup
     most = rod.fields["contact_pressure"].max()
     assert f'class="bar">{most:.4g} <i' in markup  # pressed most: p > 0 outside
     scales = rodwell.Case.from_dict(
@@ -108,8 +108,8 @@ def test_colour_bar(state: rodwell.Solution) -> None:
             "hole": {"diameter": "70 cm", "angle_from_vertical": "90 deg"},
         }
     ).scales
-    assert "N/m contact pressure p" in viewer(state, scales, rod=rod).markup
-    assert "rod radius drawn 50 mm" in viewer(state, scales).caption
+    assert "N/m contact pressure p" in viewer(view(state, scales, rod)).markup
+    assert "rod radius drawn 50 mm" in view(state, scales).caption
 
 
 def test_report_turns_and_prints(tmp_path: Path) -> None:

@@ -134,9 +134,9 @@ def writer(suffix: str) -> Write:
 
 
 def _write_page(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
-    from rodwell.report.viewer import write_viewer  # noqa: PLC0415
+    from rodwell.report.viewer import view, write_viewer  # noqa: PLC0415
 
-    write_viewer(path, solution, rod, scales)
+    write_viewer(path, view(solution, scales, rod))
     return [path]
 
 

@@ -30,6 +30,15 @@ PLACES, SIDES = (321, 801), 16
 
 
 @dataclass(frozen=True)
+class View:
+    """What there is to see, whichever page shows it: the scene for the script, the scale of colours, the caption."""
+
+    data: dict[str, Any]
+    bar: dict[str, str]
+    caption: str
+
+
+@dataclass(frozen=True)
 class Viewer:
     """What a page needs to show the rod: markup with the scene in it, style sheet, scripts, caption."""
 
@@ -39,15 +48,8 @@ class Viewer:
     caption: str
 
 
-def viewer(
-    solution: Solution,
-    scales: Scales | None = None,
-    *,
-    rod: Geometry | None = None,
-    still: str = "",
-    full: bool = False,
-) -> Viewer:
-    """Return the viewer of a solution.
+def view(solution: Solution, scales: Scales | None = None, rod: Geometry | None = None) -> View:
+    """Return what there is to see of a solution, to be shown by as many pages as one likes.
 
     Parameters
     ----------
@@ -55,25 +57,34 @@ def viewer(
         The state, and the units in which it is described.
     rod
         Its geometry; None: the radius of the case, a scale that can be read.
+    """
+    if rod is None:
+        elements = solution.ladder.fine.space.breaks.size - 1
+        rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
+    return View(_data(solution, rod), _bar(rod, scales), caption(solution, rod, scales))
+
+
+def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
+    """Return the viewer of what there is to see.
+
+    Parameters
+    ----------
+    seen
+        From :func:`view`.
     still
         Address of the picture that stands in where nothing can be turned, and prints.
     full
         The viewer fills a page of its own; else it is part of a page that scrolls.
     """
-    if rod is None:
-        elements = solution.ladder.fine.space.breaks.size - 1
-        rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    data = _data(solution, rod, embedded=not full)
-    markup = template("viewer.html.j2").render(
-        data=json.dumps(data, separators=(",", ":")), bar=_bar(rod, scales), still=still, full=full
-    )
+    data = json.dumps(seen.data | {"embedded": not full}, separators=(",", ":"))
+    markup = template("viewer.html.j2").render(data=data, bar=seen.bar, still=still, full=full)
     three = f"/*\n{_asset('LICENSE-three.txt')}\n*/\n{_asset('three.min.js')}"
-    return Viewer(markup, _asset("viewer.css"), (three, _asset("viewer.js")), caption(solution, rod, scales))
+    return Viewer(markup, _asset("viewer.css"), (three, _asset("viewer.js")), seen.caption)
 
 
-def write_viewer(path: Path, solution: Solution, rod: Geometry | None, scales: Scales | None, title: str = "") -> None:
+def write_viewer(path: Path, seen: View, title: str = "") -> None:
     """Write the viewer as a page of its own."""
-    shown = viewer(solution, scales, rod=rod, full=True)
+    shown = viewer(seen, full=True)
     page = template("rod3d.html.j2").render(
         title=title or "Rod in its cylinder", viewer=shown.markup, css=shown.css, scripts=shown.scripts,
         caption=shown.caption,
@@ -94,7 +105,7 @@ def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     )
 
 
-def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any]:
+def _data(solution: Solution, rod: Geometry) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
     middle = 0.5 * float(rod.centreline[-1, 2])
 
@@ -120,7 +131,6 @@ def _data(solution: Solution, rod: Geometry, *, embedded: bool) -> dict[str, Any
         "arrow": [float(ends[1]), reach + 0.1, 0.0],
         "weight": solution.problem.weight,
         "height": 2.0 * reach,
-        "embedded": embedded,
     }
 
 

@@ -14,7 +14,7 @@ from rodwell.report.pdf import check_pdf, write_report
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
 from rodwell.report.sections import case_report
 from rodwell.report.templates import embedded
-from rodwell.report.viewer import viewer, write_viewer
+from rodwell.report.viewer import view, viewer, write_viewer
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
@@ -48,10 +48,9 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
     with whole_folder(Path(out)) as folder:
         pictures = draw(answer, folder)
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
-        rod = viewer(answer.shown, answer.case.scales, still=still)
-        report = case_report(answer)
-        write_report(report, pictures, folder, rod, with_pdf=with_pdf)
-        write_viewer(folder / "rod-3d.html", answer.shown, None, answer.case.scales, answer.case.title)
+        rod = view(answer.shown, answer.case.scales)
+        write_report(case_report(answer), pictures, folder, viewer(rod, still=still), with_pdf=with_pdf)
+        write_viewer(folder / "rod-3d.html", rod, answer.case.title)
         write_json(answer.as_dict(), folder / "answer.json")
         tables, states = answer_tables(answer), along_tables(answer)
         write_csv(tables[0], folder / "key-figures.csv")
