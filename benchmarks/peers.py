@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import os
 import platform
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
@@ -18,6 +17,7 @@ for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import numpy as np
 from scipy.linalg.lapack import dgbsv
+from timing import least
 
 import rodwell
 from rodwell.analysis.measures import Measured
@@ -25,18 +25,6 @@ from rodwell.numerics.families import Family, State
 
 HERE = Path(__file__).parent
 PROBLEM = rodwell.Problem(15.0)
-
-
-def least(works: Sequence[Callable[[], object]], seconds: float) -> list[float]:
-    """Shortest time in seconds of each of several pieces of work, done in turn for about ``seconds``."""
-    best = [np.inf] * len(works)
-    until = time.perf_counter() + seconds
-    while time.perf_counter() < until:
-        for i, work in enumerate(works):
-            start = time.perf_counter()
-            work()
-            best[i] = min(best[i], time.perf_counter() - start)
-    return best
 
 
 def on_elements(solution: rodwell.Solution, least_elements: int) -> tuple[Family, State]:

@@ -13,7 +13,6 @@ import os
 import platform
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,6 +21,7 @@ for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import matplotlib as mpl
 import numpy as np
+from timing import best
 
 import rodwell
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
@@ -40,16 +40,6 @@ INCLINATIONS = (90.0, 60.0, 0.0)
 MODES = (1, 3, 10, 30, 100)
 PROBLEMS = (1, 10, 100)
 FOUNDATIONS = (1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16)
-
-
-def best(work: Callable[[], object], times: int) -> float:
-    """Shortest processor time in seconds of several runs."""
-    spent = []
-    for _ in range(times):
-        start = time.process_time()
-        work()
-        spent.append(time.process_time() - start)
-    return min(spent)
 
 
 def newton(elements: int) -> Callable[[], object]:

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
@@ -23,6 +23,7 @@ for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import numpy as np
 from scipy.linalg.lapack import dgbsv
+from timing import best
 
 import rodwell
 from rodwell.analysis.critical import critical_loads
@@ -31,16 +32,8 @@ from rodwell.analysis.follow import follow
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "drill-string.toml"
 COMMAND = [sys.executable, "-m", "rodwell"]
-
-
-def best(work: Callable[[], object], times: int) -> float:
-    """Shortest time in seconds of several runs."""
-    spent = []
-    for _ in range(times):
-        start = time.perf_counter()
-        work()
-        spent.append(time.perf_counter() - start)
-    return min(spent)
+elapsed = partial(best, clock=time.perf_counter)
+"""Commands run in processes of their own, so the clock on the wall is asked."""
 
 
 def command(*arguments: str, cache: str | None = None) -> None:
@@ -56,16 +49,16 @@ def banded_solve(unknowns: int, half_bandwidth: int) -> float:
     band[half_bandwidth:] = 0.1
     band[2 * half_bandwidth] = 10.0
     right = np.ones((unknowns, 2))
-    return best(lambda: dgbsv(half_bandwidth, half_bandwidth, band, right), 200)
+    return elapsed(lambda: dgbsv(half_bandwidth, half_bandwidth, band, right), 200)
 
 
 def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         out = str(Path(folder) / "results")
-        cold = best(lambda: command("run", str(EXAMPLE), "--out", out, cache=folder), 1)
-        warm = best(lambda: command("run", str(EXAMPLE), "--out", out, cache=folder), 5)
+        cold = elapsed(lambda: command("run", str(EXAMPLE), "--out", out, cache=folder), 1)
+        warm = elapsed(lambda: command("run", str(EXAMPLE), "--out", out, cache=folder), 5)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
-    start = best(lambda: command("--help"), 5)
+    start = elapsed(lambda: command("--help"), 5)
 
     problem = rodwell.Problem(15.0)
     mode = critical_loads(problem, 1)[0]
@@ -74,9 +67,9 @@ def main() -> None:
         return follow(problem, mode, until=-200.0, largest_step=0.0123)
 
     points, space = len(branch()), branch()[-1].point.fine.space
-    per_branch = best(branch, 20)
-    whole = best(lambda: rodwell.diagram(problem, until=-700.0), 6)
-    curve = best(lambda: rodwell.lift_off_curve(problem, "weight", (0.0, 300.0)), 3)
+    per_branch = elapsed(branch, 20)
+    whole = elapsed(lambda: rodwell.diagram(problem, until=-700.0), 6)
+    curve = elapsed(lambda: rodwell.lift_off_curve(problem, "weight", (0.0, 300.0)), 3)
     limit = banded_solve(space.size - 4, space.degree)
     rows = [
         ("`rodwell --help`", f"{start:.2f} s", "0.3 s"),
