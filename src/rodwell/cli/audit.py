@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.listing import print_listing
 from rodwell.cli.options import print_json, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.practice.audit import Audit, Comparison, Other, Row
 
-SHORT = {
-    "critical": "critical",
+NAMES = {
+    "critical": "the first critical load",
     "lift_off": "lift-off",
-    "equal_energy": "equal energy",
-    "touch_down": "coil unloaded",
+    "equal_energy": "the coil with the energy of the straight rod",
+    "touch_down": "the coil that leaves the wall on unloading",
 }
-"""Exact loads, for the table."""
+"""Exact loads, where a case has none to be named."""
 
 
 @click.command()
@@ -93,19 +95,20 @@ def _print(audit: Audit) -> None:
         f"{ends_text(problem)}\n"
         "Compression positive at top (s = 1), middle and bottom (s = 0). Straight hole, no friction."
     )
-    table = _table("exact load", *(f">{place}" for place in PLACES), ">± error")
-    for load in audit.loads:
-        table.add_row(load.label, *(_force(audit, load.at(place)) for place in PLACES), _force(audit, load.error, 1))
-    console.print(table)
+    rows = [
+        (_safe(load.label), *(_force(audit, load.at(place)) for place in PLACES), _force(audit, load.error, 1))
+        for load in audit.loads
+    ]
+    print_listing(console, ["exact load", *(f">{place}" for place in PLACES), ">± error"], rows)
     for note in audit.not_found:
         console.print(f"not compared: {_safe(note)}", style="dim")
-    console.print(_loads_table(audit))
-    console.print("error = formula/exact − 1; exact and verdict: at the place where the formula's force is measured.")
+    console.print()
+    _print_loads(console, audit)
     _print_reasons(console, audit)
     _print_others(console, audit)
-    console.print("[bold]Left out[/bold]")
+    console.print("\n[bold]Left out[/bold]")
     for item in LEFT_OUT:
-        console.print(f"  {item.name}: {_safe(item.text)}. Reason: {_safe(item.reason)}.")
+        _item(console, f"[italic]{_safe(item.name)}[/italic]:", f"{_safe(item.text)}. Reason: {_safe(item.reason)}.")
 
 
 def _safe(text: str) -> str:
@@ -114,34 +117,30 @@ def _safe(text: str) -> str:
     return escape(text)
 
 
-def _table(*columns: str) -> Any:
-    """A table without lines; columns whose name starts with ">" are right-justified."""
-    from rich.table import Table  # noqa: PLC0415
-
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for column in columns:
-        name = column.removeprefix(">")
-        table.add_column(name, justify="right" if column != name else "left", overflow="fold")
-    return table
-
-
-def _loads_table(audit: Audit) -> Any:
-    """Formulas of loads: error at the place meant, and for an inclined hole at all three."""
+def _print_loads(console: Any, audit: Audit) -> None:
+    """Formulas of loads under the exact load that each is held against: for an inclined hole errors at all places."""
     from rodwell.practice.exact_loads import PLACES  # noqa: PLC0415
 
     inclined = audit.problem.axial_weight > 0.0
-    errors = [f">{place}" for place in PLACES] if inclined else [">error"]
-    table = _table("formula", ">load", "at", ">exact", *errors, "verdict", "valid", "against")
+    titles = {load.name: load.label for load in audit.loads}
+    groups: dict[str, list[Sequence[str] | str]] = {}
     for row in audit.rows:
-        main = row.main
+        sides = [row.beside(row.against, place) for place in PLACES] if inclined else [row.main]
+        cells = [_percent(side, inclined and side is row.main) for side in sides]
         value = "–" if row.value is None else _force(audit, row.value)
-        exact = "–" if main is None else _force(audit, main.exact)
-        sides = [row.beside(row.against, place) for place in PLACES] if inclined else [main]
-        cells = [_percent(side, inclined and side is main) for side in sides]
-        meant, valid = SHORT[row.against], "yes" if row.valid else "no"
-        name = _safe(row.formula.name)
-        table.add_row(name, value, row.formula.place, exact, *cells, _verdict(row, main), valid, meant)
-    return table
+        title = f"[bold]against {_safe(titles.get(row.against, NAMES[row.against]))}[/bold]"
+        groups.setdefault(row.against, [title]).append(
+            (f"  {_safe(row.formula.name)}", value, str(row.formula.place), *cells, _verdict(row, row.main),
+             "yes" if row.valid else "no")
+        )  # fmt: skip
+    errors = [f">{place}" for place in PLACES] if inclined else [">error"]
+    rows = [row for group in groups.values() for row in group]
+    print_listing(console, ["formula", ">load", "at", *errors, "verdict", "valid"], rows)
+    where = " at top, middle, bottom" if inclined else ""
+    console.print(
+        f"Error{where} = formula/exact − 1, as compressions; verdict: at the place where the formula's force is "
+        f"measured{', in bold' if inclined else ''}.", style="dim",
+    )  # fmt: skip
 
 
 def _verdict(row: Row, main: Comparison | None) -> str:
@@ -173,38 +172,48 @@ def _print_reasons(console: Any, audit: Audit) -> None:
         lacking = [f"not given: {', '.join(row.missing)}"] if row.missing else []
         for reason in (*row.reasons, *lacking):
             groups.setdefault(reason, []).append(row.formula.name)
-    console.print("[bold]Outside validity[/bold]")
+    if groups:
+        console.print("\n[bold]Outside validity[/bold]")
     for reason, names in groups.items():
-        console.print(f"  [italic]{_safe(reason)}[/italic]: {_safe('; '.join(names))}")
+        _item(console, f"[italic]{_safe(reason)}[/italic]:", _safe("; ".join(names)))
+
+
+def _item(console: Any, head: str, text: str) -> None:
+    """A line, and what belongs to it, indented."""
+    from rich.padding import Padding  # noqa: PLC0415
+
+    console.print(Padding(head, (0, 0, 0, 2)))
+    console.print(Padding(text, (0, 0, 0, 4)))
 
 
 def _print_others(console: Any, audit: Audit) -> None:
     """Formulas of other kinds that have a value; those that need more, by name."""
-    console.print("[bold]Other formulas[/bold], at the bottom's compression in the first critical load")
-    table = _table("formula", ">value", "unit", ">small-angle error", "valid")
+    console.print("\n[bold]Other formulas[/bold], at the bottom's compression in the first critical load")
+    rows = []
     for other in audit.others:
         if other.value is None:
             continue
         error = "" if other.relative_error is None else f"{100 * other.relative_error:+.2g} %".replace("-", "−")
-        value, unit = _other_value(audit, other)
-        table.add_row(_safe(other.formula.name), value, unit, error, "no" if other.reasons else "yes")
-    console.print(table)
-    needy = [f"{o.formula.name} (needs {', '.join(o.missing)})" for o in audit.others if o.missing]
-    console.print("Without a value: " + _safe("; ".join(needy)), style="dim")
+        rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
+    print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
+    console.print("Small angle: error that a formula makes by taking the angle of the helix as small.", style="dim")
+    needy = [other for other in audit.others if other.missing]
+    if needy:
+        console.print("\n[bold]Without a value[/bold]")
+    for other in needy:
+        console.print(f"  {_safe(other.formula.name)}: needs {', '.join(other.missing)}")
 
 
-def _other_value(audit: Audit, other: Other) -> tuple[str, str]:
+def _other_value(audit: Audit, other: Other) -> str:
     from rodwell.practice.formulas.record import NOMENCLATURE  # noqa: PLC0415
 
     assert other.value is not None
     dimension = other.formula.dimension
     if audit.scales is not None:
-        size, unit = audit.scales.system.unit(NOMENCLATURE[dimension])
-        value = other.value * audit.factor(dimension) / size
-        return f"{value:.5g}".replace("-", "−"), "" if unit == "1" else unit
+        return audit.scales.system.text(other.value * audit.factor(dimension), NOMENCLATURE[dimension], 5)
     powers = {"B": dimension[0], "L": dimension[1] - 2 * dimension[0]}
     unit = " ".join(f"{name}{_power(power)}" for name, power in powers.items() if power)
-    return f"{other.value:.5g}".replace("-", "−"), unit
+    return f"{other.value:.5g} {unit}".rstrip().replace("-", "−")
 
 
 def _power(power: int) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rodwell.cli.listing import wrapped
 from rodwell.cli.options import force_at, json_option, print_json, progress_bar
 
 if TYPE_CHECKING:
@@ -66,17 +67,15 @@ def _print(result: Verification, title: str, mode: int) -> None:
     from rodwell.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"{title}: mode {mode}, {ends_text(result.branch.problem)}")
-    click.echo(
-        "Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15))."
-    )
-    click.echo("End force F at s = 1 in B/L², tension positive; differences relative to each field's largest value.")
+    wrapped("Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15)).")
+    wrapped("End force F at s = 1 in B/L², tension positive; differences relative to each field's largest value.")
     for state in result.states:
         verdict = "agree" if state.agrees else "DO NOT AGREE"
         worst = state.worst
         click.echo(
             f"  F = {state.force:+.8g}: {verdict}; largest difference {state.differences[worst]:.1e}, in {worst}"
         )
-        click.echo(f"      solve_bvp: {state.nodes} mesh points, residual {state.residual:.1e}. {state.message}")
+        wrapped(f"solve_bvp: {state.nodes} mesh points, residual {state.residual:.1e}. {state.message}", "      ")
     if result.lift_off is not None:
         ours, other = result.lift_off
         click.echo(

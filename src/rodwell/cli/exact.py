@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.listing import wrapped
 from rodwell.cli.options import json_option, make_problem, print_json, problem_options
 from rodwell.errors import InputError
 
@@ -41,13 +42,13 @@ def certify(modes: int | None, digits: int, as_json: bool, **given: Any) -> None
     if as_json:
         print_json(loads.as_dict())
         return
-    click.echo(f"Certified critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    wrapped(f"Certified critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     for load in loads:
         value, radius = load.force.text(loads.shown)
         closed = f"; {load.closed_form} changes sign" if load.closed_form else ""
         several = "" if load.multiplicity == 1 else f"; {load.multiplicity} loads agree to these digits"
         click.echo(f"  mode {load.number:>2}  {value} ± {radius}   {load.number - 1} above{several}{closed}")
-    click.echo(
+    wrapped(
         "Proved for each: that it exists, that no other load lies within its bounds, and how many lie above it. "
         "Weight, angle and clearance are taken as the decimals given."
     )
@@ -66,7 +67,7 @@ def _paper(digits: int, as_json: bool) -> None:
     if as_json:
         print_json({"values": [value.as_dict(digits) for value in values], "clearance": 0.01})
         return
-    click.echo("Closed-form values of the paper, enclosed; B = L = 1, Δ/L = 0.01, γ = mg L³/B, F at s = 1:")
+    wrapped("Closed-form values of the paper, enclosed; B = L = 1, Δ/L = 0.01, γ = mg L³/B, F at s = 1:")
     for value in values:
         text, radius = value.value.text(digits)
         verdict = "as printed" if value.agrees else "NOT as printed"
@@ -103,7 +104,7 @@ def modes(weight: float | None, clearance: float, pairs: int, table: int | None,
         print_json(out)
         return
     if found:
-        click.echo(f"Horizontal rod, γ = {weight:g}, Δ/L = {clearance:g}, both ends clamped; F at s = 1 in {UNIT}:")
+        wrapped(f"Horizontal rod, γ = {weight:g}, Δ/L = {clearance:g}, both ends clamped; F at s = 1 in {UNIT}:")
     for pair in found:
         _print_pair(pair)
     if rows:
@@ -119,8 +120,8 @@ def _print_pair(pair: ModePair) -> None:
     for number, parity, force in zip((2 * pair.pair - 1, 2 * pair.pair), pair.parities, pair.forces, strict=True):
         click.echo(f"  mode {number:>2}  {force:+.12g} ± {pair.error:.0e}   {'even' if parity == 1 else 'odd'}")
     times = {0: "has not switched", 1: "switched once", 2: "switched twice"}
-    click.echo(f"    {times.get(pair.switched, f'switched {pair.switched} times')} below this weight", nl=False)
+    text = f"{times.get(pair.switched, f'switched {pair.switched} times')} below this weight"
     for name, place in (("last", pair.before), ("next", pair.after)):
         if place is not None:
-            click.echo(f"; {name} at γ = {place.weight:.10g} (n = {place.n}, m = {place.m})", nl=False)
-    click.echo("")
+            text += f"; {name} at γ = {place.weight:.10g} (n = {place.n}, m = {place.m})"
+    wrapped(text, "    ")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
+from rodwell.cli.listing import print_listing
 from rodwell.cli.options import json_option, out_option, print_json, progress_bar, rtol_option
 
 if TYPE_CHECKING:
@@ -62,12 +64,13 @@ def _print(table: Agreement) -> None:
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
 
-    from rodwell.report.paper import remarks  # noqa: PLC0415
+    from rodwell.report.paper import HEAD, remarks  # noqa: PLC0415
     from rodwell.studies.paper.agreement import CONVENTION  # noqa: PLC0415
 
     console = Console(highlight=False)
     if len(table):
-        console.print(_table(list(table)))
+        head = [f">{name}" if 0 < i < 4 else name for i, name in enumerate(HEAD[1:])]
+        print_listing(console, head, _rows(list(table)))
     for title, findings in remarks(table):
         console.print(f"[bold]{title}[/bold]")
         for finding in findings:
@@ -76,21 +79,16 @@ def _print(table: Agreement) -> None:
     console.print(f"[bold]{escape(table.summary)}[/bold]\n{CONVENTION}")
 
 
-def _table(findings: list[Finding]) -> Any:
+def _rows(findings: list[Finding]) -> Iterator[Sequence[str] | str]:
+    """Rows under the places of the paper that they belong to."""
     from rich.markup import escape  # noqa: PLC0415
-    from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.report.paper import HEAD, cells  # noqa: PLC0415
+    from rodwell.report.paper import cells  # noqa: PLC0415
 
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for i, name in enumerate(HEAD[1:]):
-        right = 0 < i < 4
-        table.add_column(name, justify="right" if right else "left", overflow="fold", no_wrap=right)
     place = ""
     for finding in findings:
         where, quantity, *numbers, verdict = (escape(cell) for cell in cells(finding))
         if where != place:
-            table.add_row(f"[bold]{where}[/bold]")
+            yield f"[bold]{where}[/bold]"
         place, colour = where, COLOURS[finding.verdict]
-        table.add_row(f"  {quantity}", *numbers, f"[{colour}]{verdict}[/{colour}]")
-    return table
+        yield (f"  {quantity}", *numbers, f"[{colour}]{verdict}[/{colour}]")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rodwell.cli.listing import print_listing
 from rodwell.cli.options import progress_bar, units_option
 
 if TYPE_CHECKING:
@@ -65,7 +66,6 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
-    from rich.table import Table  # noqa: PLC0415
 
     from rodwell.practice.meaning import sentences  # noqa: PLC0415
     from rodwell.problem import ends_text  # noqa: PLC0415
@@ -85,23 +85,10 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     scales = answer.case.scales
     if scales is not None:
         console.print(escape("; ".join(filter(None, (fact.short(scales.system) for fact in answer.case.facts)))))
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("")
-    if scales is not None:
-        table.add_column("physical", justify="right")
-    table.add_column("B = L = 1", justify="right")
-    table.add_column("± error", justify="right")
-    table.add_column("")
-    for row in rows(answer):
-        cells = [
-            row["label"],
-            *([row["physical"]] if scales is not None else []),
-            row["plain"],
-            row["error"],
-            row["note"],
-        ]
-        table.add_row(*cells)
-    console.print(table)
+    physical = [] if scales is None else [">physical"]
+    names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
+    cells = [[escape(row[name]) for name in names] for row in rows(answer)]
+    print_listing(console, ["", *physical, ">B = L = 1", ">± error", ""], cells, notes=True)
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
     named = [name for name in (*FILES, PDF) if name in files]

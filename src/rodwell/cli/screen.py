@@ -99,6 +99,7 @@ def _print(screening: Screening) -> None:
 
 def _stations(screening: Screening) -> object:
     import numpy as np  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
     from rodwell.practice.screening_data import units  # noqa: PLC0415
@@ -109,7 +110,7 @@ def _stations(screening: Screening) -> object:
     used = screening.utilisation
     heads += [] if used is None else ["the string", "used"]
     for head in heads:
-        table.add_column(head, justify="right")
+        table.add_column(escape(head), justify="right")
     mark = screening.weakest if screening.worst is None else screening.worst
     count = len(screening.survey)
     shown = sorted({mark, *(int(i) for i in np.linspace(0, count - 1, min(SHOWN, count)).round())})

@@ -23,7 +23,7 @@ class Fact:
 
     def short(self, system: System) -> str:
         """Label and number for a summary; nothing for text."""
-        return "" if isinstance(self.value, str) else f"{self.label} {system.text(self.value, self.dimension)}"
+        return "" if isinstance(self.value, str) else f"{self.label}: {system.text(self.value, self.dimension)}"
 
     def as_dict(self) -> dict[str, Any]:
         """Everything about it, for JSON: value in SI."""

@@ -117,7 +117,7 @@ def head(study: Study, short: bool = False) -> list[str]:
     """Columns of the table of rods for reading; ``short`` for the terminal."""
     _, force, _, per_length = scales(study)
     shown = (v for v in study.varied if v.name != APPLIED)
-    inputs = [(v.key if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in shown]
+    inputs = [(v.key.replace("_", " ") if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in shown]
     if short:
         return [*inputs, f"buckles [{force}]", "±", "at s = 0", "lifts off", "±", "s/L", f"contact [{per_length}]"]
     return [

@@ -124,7 +124,7 @@ def readable(value: float, unit: str, digits: int = 4) -> str:
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g} {unit}".replace("-", "−")
     scale, prefix = prefix_for(value)
-    return f"{value / scale:.{digits}g} {prefix}{unit}".replace("-", "−")
+    return f"{plain(value / scale, digits)} {prefix}{unit}".replace("-", "−")
 
 
 def prefix_for(value: float) -> tuple[float, str]:
