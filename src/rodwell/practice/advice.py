@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from rodwell.practice.answer import Answer
 from rodwell.practice.applied import AppliedLoad
-from rodwell.practice.meaning import SMALL_LOAD, force_text
+from rodwell.practice.meaning import SMALL_LOAD
+from rodwell.practice.wording import amount, force_text, percent
 
 GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
 """Levels of a status; "open" where no load was given that could be judged."""
@@ -43,15 +44,17 @@ def _most(answer: Answer) -> AppliedLoad | None:
 
 
 def _buckling(answer: Answer) -> Status:
-    load, limit = judged(answer), answer.critical[0].force
+    load, limit, error = judged(answer), answer.critical[0].force, answer.critical[0].error
     if load is None:
-        reason = f"straight as long as the end force at s = 1 is above {force_text(answer, limit)}"
+        reason = f"straight as long as the end force at s = 1 is above {force_text(answer, limit, error)}"
         return Status("Buckling", OPEN, "no load given", reason)
     if load >= limit:
-        level, margin = _margin(answer, load, limit)
+        level, margin = _margin(answer, load, limit, error)
         word = "straight" if level == GOOD else "straight, close to buckling"
-        return Status("Buckling", level, word, f"{margin} the load at which it buckles, {force_text(answer, limit)}")
-    reason = f"at {force_text(answer, load)}, beyond {force_text(answer, limit)}"
+        return Status(
+            "Buckling", level, word, f"{margin} the load at which it buckles, {force_text(answer, limit, error)}"
+        )
+    reason = f"at {force_text(answer, load)}, beyond {force_text(answer, limit, error)}"
     if answer.first.at(load).stable:
         return Status("Buckling", CAUTION, "buckled, stable", reason)
     return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
@@ -63,26 +66,28 @@ def _contact(answer: Answer) -> Status:
     if load is None:
         if lift is None:
             return Status(subject, OPEN, "no load given", "no lift-off over the range computed")
-        return Status(subject, OPEN, "no load given", f"leaves the wall at {force_text(answer, lift.force)}")
+        return Status(
+            subject, OPEN, "no load given", f"leaves the wall at {force_text(answer, lift.force, lift.error)}"
+        )
     if load >= answer.critical[0].force and answer.first.lift_off_at_buckling:
         return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
     if lift is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
     if load <= lift.force:
-        return Status(subject, BAD, "leaves the wall", f"lift-off is at {force_text(answer, lift.force)}")
-    level, margin = _margin(answer, load, lift.force)
+        return Status(subject, BAD, "leaves the wall", f"lift-off is at {force_text(answer, lift.force, lift.error)}")
+    level, margin = _margin(answer, load, lift.force, lift.error)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
-    return Status(subject, level, word, f"{margin} the lift-off load, {force_text(answer, lift.force)}")
+    return Status(subject, level, word, f"{margin} the lift-off load, {force_text(answer, lift.force, lift.error)}")
 
 
-def _margin(answer: Answer, force: float, limit: float) -> tuple[str, str]:
+def _margin(answer: Answer, force: float, limit: float, error: float) -> tuple[str, str]:
     """Level of a force that has not reached a limit, and how far from it that is, measured where the load was given."""
     most = _most(answer)
     size = abs(limit - answer.case.problem.axial_weight) if most is not None and most.bottom else abs(limit)
     share = (force - limit) / size if size >= SMALL_LOAD else None
     if share is None:
         return GOOD, "above"
-    return (CAUTION if share < CLOSE else GOOD), f"{100.0 * share:.3g} % short of"
+    return (CAUTION if share < CLOSE else GOOD), f"{percent(share, error * (1.0 + share) / size)} short of"
 
 
 def _rod(answer: Answer) -> Status | None:
@@ -95,7 +100,9 @@ def _rod(answer: Answer) -> Status | None:
         return None
     factor = found.safety[0]
     level = BAD if factor < 1.0 else CAUTION if factor < 1.0 / (1.0 - CLOSE) else GOOD
-    return Status("Rod", level, "yields" if factor < 1.0 else "holds", f"safety factor {factor:.3g} {state.name}")
+    return Status(
+        "Rod", level, "yields" if factor < 1.0 else "holds", f"safety factor {amount(*found.safety, 3)} {state.name}"
+    )
 
 
 def _cylinder(answer: Answer) -> Status | None:
@@ -103,10 +110,11 @@ def _cylinder(answer: Answer) -> Status | None:
     figure = answer.figures.get("cylinder_stress")
     if cylinder is None or scales is None or figure is None:
         return None
-    part = figure.value * scales.factor("stress") / cylinder.yield_strength
+    unit = scales.factor("stress") / cylinder.yield_strength
+    part = figure.value * unit
     level = BAD if part > 1.0 else CAUTION if part > 1.0 - CLOSE else GOOD
     word = "yields" if part > 1.0 else "holds"
-    reason = f"at lift-off its stress is {100.0 * part:.3g} % of the strength"
+    reason = f"at lift-off its stress is {percent(part, figure.error * unit)} of the strength"
     return Status("Cylinder", level, word, reason)
 
 
@@ -138,12 +146,15 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
 
 
 def _about_the_load(answer: Answer) -> list[str]:
-    load, limit, lift = judged(answer), answer.critical[0].force, answer.lift_off
+    load, lift = judged(answer), answer.lift_off
+    limit, error = answer.critical[0].force, answer.critical[0].error
     if load is None:
         return ["Give the end force that acts as load.applied in the case file: this page then judges it."]
     if load >= limit:
         return []
-    out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(answer, limit)}."]
+    out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(answer, limit, error)}."]
     if lift is not None and load <= lift.force and lift.force < limit:
-        out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(answer, lift.force)}.")
+        out.append(
+            f"To keep it on the wall, keep the end force at s = 1 above {force_text(answer, lift.force, lift.error)}."
+        )
     return out

@@ -62,7 +62,15 @@ class Window:
     @property
     def percent(self) -> float | None:
         """The width in percent of the compression at the lower end at buckling."""
-        return None if self.width is None or self.bottom <= 0.0 else 100.0 * self.width[0] / self.bottom
+        return None if self.share is None else 100.0 * self.share[0]
+
+    @property
+    def share(self) -> tuple[float, float] | None:
+        """The width as a part of the compression at the lower end at buckling, and its error estimate."""
+        if self.width is None or self.bottom <= 0.0:
+            return None
+        part = self.width[0] / self.bottom
+        return part, (self.width[1] + abs(part) * self.buckling[1]) / self.bottom
 
     @property
     def end(self) -> Limit | None:

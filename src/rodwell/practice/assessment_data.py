@@ -11,6 +11,7 @@ from rodwell.practice.figures import Figure, force_scale
 from rodwell.practice.limits import LIFTS_OFF, Limit
 from rodwell.practice.loaded import LoadedRod
 from rodwell.practice.units import plain
+from rodwell.practice.wording import percent
 
 
 def assessment_figures(a: Assessment) -> list[Figure]:
@@ -50,7 +51,7 @@ def _window(a: Assessment) -> list[Figure]:
     out, window = [], a.window
     width, end = window.width, window.end
     if width is not None and end is not None and not a.branch.lift_off_at_buckling:
-        parts = [] if window.percent is None else [f"{window.percent:.4g} % of the compression at s = 0 at buckling"]
+        parts = [] if window.share is None else [f"{percent(*window.share, 4)} of the compression at s = 0 at buckling"]
         parts.append(f"ends by {end.name}")
         if a.limiting is not None:
             parts.append(f"limited before by {a.limiting.name}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +15,7 @@ from rodwell.practice.capacity import Cylinder, cylinder_stress
 from rodwell.practice.case import Case
 from rodwell.practice.scales import Scales
 from rodwell.practice.units import SI
+from rodwell.practice.wording import percent
 from rodwell.problem import Problem
 
 
@@ -40,8 +42,11 @@ class Figure:
         return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
 
     def text(self, case: Case, digits: int = 6) -> str:
-        """Value in the case's units, or nothing for a case without dimensions."""
-        return "" if case.scales is None else case.scales.text(self.value, self.dimension, digits)
+        """Value in the case's units with the digits that its error supports, or nothing for one without dimensions."""
+        if case.scales is None:
+            return ""
+        count = supported(self.value, self.error, digits)
+        return case.scales.text(self.value if count else 0.0, self.dimension, max(count, 1))
 
     def as_dict(self, case: Case) -> dict[str, Any]:
         """Everything about the number, for JSON."""
@@ -56,6 +61,13 @@ class Figure:
         if self.note:
             out["note"] = self.note
         return out
+
+
+def supported(value: float, error: float, most: int) -> int:
+    """How many significant digits of a value a table shows beside its error, the last one in doubt; 0: none."""
+    if value == 0.0 or not error > 0.0:
+        return most
+    return max(0, min(most, math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1))
 
 
 def critical_figure(mode: Mode) -> Figure:
@@ -113,7 +125,8 @@ def stress_figure(state: Solution, cylinder: Cylinder, scales: Scales) -> Figure
     """Largest equivalent stress in the cylinder in one state, as a multiple of the unit of stress B/L⁴."""
     stress = cylinder_stress(state, cylinder, scales)
     unit = scales.factor("stress")
-    note = f"{100.0 * stress.utilisation:.3g} % of the yield strength, at s/L = {stress.s:.4g}"
+    part = stress.utilisation * stress.error / stress.value
+    note = f"{percent(stress.utilisation, part)} of the yield strength, at s/L = {stress.s:.4g}"
     label = "Largest equivalent (von Mises) stress in the cylinder"
     value, error = stress.value / unit, stress.error / unit
     return Figure("cylinder_stress", label, value, error, "stress", value, note)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from rodwell.analysis.critical import Mode
 from rodwell.analysis.extent import FADED, buckled_to
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.verdict import load_sentences, verdict, window_sentences
-from rodwell.practice.wording import force_text, place_text
+from rodwell.practice.wording import force_text, percent, place_text, places_text, size_text
 from rodwell.problem import ends_text
 
 __all__ = ["ASSUMPTIONS", "assumptions", "force_text", "place_text", "sentences"]
@@ -60,18 +63,37 @@ def _mode(answer: Answer) -> str:
     y = first.shape(s)
     farthest, y = buckled_to(first), y[np.abs(y) > FADED]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
+    error = shape_error(answer)
+    about = "" if error < FADED else "about "
     why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
-    text = f"It buckles sideways along the wall into {waves} half wave{plural}, {shape} about mid-length."
+    text = f"It buckles sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
-        text += f" Beyond {place_text(answer, farthest)} the rod stays straight"
-        text += f" (deflections below {FADED:g} of the largest)."
+        place = place_text(answer, farthest, error / _falls(first, farthest))
+        text += f" Beyond {place} the rod stays straight (deflections below {FADED:g} of the largest)."
     if len(answer.critical) > 1:
-        gap = abs(answer.critical[1].force - first.force) / max(abs(first.force), 1e-300)
+        second, size = answer.critical[1], max(abs(first.force), 1e-300)
+        gap, error = abs(second.force - first.force) / size, (first.error + second.error) / size
         if gap < 0.05:
-            text += f" The second mode follows within {100.0 * gap:.2g} %: imperfections may favour either."
+            text += f" The second mode follows within {percent(gap, error, 2)}: imperfections may favour either."
     return text
+
+
+def shape_error(answer: Answer) -> float:
+    """Error of the first mode's shape, as part of its largest deflection.
+
+    A load's error is of second order in that of its mode: their ratio to the gap to the next load is the square.
+    """
+    first = answer.critical[0]
+    others = [abs(mode.force - first.force) for mode in answer.critical[1:]] or [abs(first.force)]
+    return math.sqrt(first.error / max(min(others), 1e-300))
+
+
+def _falls(mode: Mode, faded: float) -> float:
+    """How steeply the deflection falls where it is :data:`FADED` of the largest, in largest deflections per L."""
+    y, slope = mode.space.evaluate(mode.coefficients, np.array([faded]), 2)[:, 0]
+    return max(abs(float(slope / y)) * FADED, 1e-300)
 
 
 def _applied(answer: Answer) -> list[str]:
@@ -103,10 +125,10 @@ def _lift_off(answer: Answer) -> str:
             "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "
             "as soon as it buckles."
         )
-    places = " and ".join(place_text(answer, s) for s in lift.s)
+    force = force_text(answer, lift.force, lift.error)
     return (
-        f"The buckled rod stays on the wall until the end force at s = 1 is {force_text(answer, lift.force)}; there it "
-        f"lifts off at {places}."
+        f"The buckled rod stays on the wall until the end force at s = 1 is {force}; there it lifts off at "
+        f"{places_text(answer, lift)}."
     )
 
 
@@ -125,7 +147,7 @@ def _stability(answer: Answer) -> str:
         return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
     if lost.kind == CRITICAL:
         return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
-    where = force_text(answer, lost.force)
+    where = force_text(answer, lost.force, lost.error)
     return (
         f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
         "there the rod takes another shape."
@@ -137,12 +159,11 @@ def _inputs(answer: Answer) -> str:
     load, spread = answer.sensitivities[-1], answer.spreads[-1]
     if abs(load.force) < SMALL_LOAD:
         return ""
-    e = {name: value for name, (value, _) in load.elasticities().items()}
+    e = load.elasticities()
     names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
-    parts = ", ".join(f"{names[name]} {e[name]:+.2f} %" for name in names)
+    parts = ", ".join(f"{names[name]} {_signed(*e[name])}" for name in names)
     text = f"One percent more of an input changes the {load.name} by: {parts}; one degree more from the vertical by "
-    text += f"{e['alpha']:+.2f} %."
-    text = text.replace(" -", " −")
+    text += f"{_signed(*e['alpha'])}."
     if spread is not None:
         scales = answer.case.scales
         size = f"{spread.total:.2g} B/L²" if scales is None else scales.system.text(spread.total, "force", 3)
@@ -150,17 +171,23 @@ def _inputs(answer: Answer) -> str:
     return text
 
 
+def _signed(value: float, error: float) -> str:
+    """A change in percent with its sign: two decimals, or as many as the error allows."""
+    places = 2
+    while places > 0 and 0.5 * 10.0**-places < error:
+        places -= 1
+    text = f"{value:+.{places}f}" if 0.5 * 10.0**-places >= error else f"{value:+.1g} ± {error:.1g}"
+    return f"{text} %".replace("-", "−")
+
+
 def _wall(answer: Answer) -> str:
     if answer.at_lift_off is None:
         return ""
     figures = answer.figures
-    scales = answer.case.scales
 
     def text(name: str, unit: str) -> str:
         figure = figures[name]
-        if scales is None:
-            return f"{figure.value:.4g} {unit}".replace("-", "−")
-        return figure.text(answer.case, 4)
+        return size_text(answer, figure.value, figure.error, figure.dimension, unit)
 
     torque = figures["support_torque"]
     support = (
@@ -172,7 +199,7 @@ def _wall(answer: Answer) -> str:
     stress = ""
     if "cylinder_stress" in figures:
         figure = figures["cylinder_stress"]
-        stress = f" Its equivalent stress is then {figure.text(answer.case, 4)}, {figure.note.split(',')[0]}."
+        stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {figure.note.split(',')[0]}."
     return (
         f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
         f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "

@@ -13,6 +13,7 @@ from rodwell.practice.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
 from rodwell.practice.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
 from rodwell.practice.table import Cell, Table
 from rodwell.practice.units import in_unit_of
+from rodwell.practice.wording import amount, percent
 
 FORCE_UNITS = {"m": "kN", "ft": "klbf"}
 """Unit of forces in tables and figures, by the survey's unit of depth."""
@@ -69,8 +70,10 @@ def sentences(screening: Screening) -> list[str]:
     def at(i: int) -> str:
         return f"{survey.md[i] / metre:.6g} {depth}, {survey.inclination[i]:.3g}° from the vertical"
 
-    def load(value: float) -> str:
-        return f"{value / newton:.4g} {force}".replace("-", "−")
+    def load(value: float, error: float = 0.0) -> str:
+        return f"{amount(value / newton, error / newton)} {force}"
+
+    exact = screening.critical
 
     worst, used = screening.worst, screening.utilisation
     if used is not None and worst is not None and screening.compression is not None:
@@ -79,8 +82,8 @@ def sentences(screening: Screening) -> list[str]:
         bent = int(np.sum(np.logical_and(screening.dropping, above)))
         verdict = "The string buckles" if past else "By the straight-hole loads the string does not buckle"
         out.append(
-            f"{verdict}: the largest utilisation is {100.0 * used[worst]:.3g} % at {at(worst)}, where it bears "
-            f"{load(screening.compression[worst])} and buckles at {load(screening.critical.values[worst])}."
+            f"{verdict}: the largest utilisation is {percent(*_used(screening, worst))} at {at(worst)}, where it bears "
+            f"{load(screening.compression[worst])} and buckles at {load(exact.values[worst], exact.errors[worst])}."
         )
         if past:
             over = np.nonzero(used > 1.0)[0]
@@ -97,15 +100,17 @@ def sentences(screening: Screening) -> list[str]:
         out.append("The string is in tension at every station: it does not buckle.")
     weakest = screening.weakest
     out.append(
-        f"Least compression buckles it at {at(weakest)}: {load(screening.critical.values[weakest])} there "
+        f"Least compression buckles it at {at(weakest)}: {load(exact.values[weakest], exact.errors[weakest])} there "
         "(exact local load, compression positive)."
     )
     ratio = screening.formulas["dawson_paslay"] / screening.critical.values
     inclined = screening.local > 0.0
     if np.any(inclined):
-        low, high = float(np.nanmin(ratio[inclined])), float(np.nanmax(ratio[inclined]))
+        known = [i for i in np.flatnonzero(inclined) if np.isfinite(ratio[i])]
+        low, high = min(known, key=lambda i: ratio[i]), max(known, key=lambda i: ratio[i])
+        least, most = (percent(ratio[i], ratio[i] * exact.errors[i] / exact.values[i]) for i in (low, high))
         out.append(
-            f"Dawson–Paslay, which is 0 in a vertical hole, is {100 * low:.3g} % to {100 * high:.3g} % of the exact "
+            f"Dawson–Paslay, which is 0 in a vertical hole, is {least} to {most} of the exact "
             "load at the inclined stations."
         )
     dropping = int(np.sum(screening.dropping))
@@ -118,6 +123,13 @@ def sentences(screening: Screening) -> list[str]:
     if missing:
         out.append(f"{len(missing)} stations lack an exact load; the table says why.")
     return out
+
+
+def _used(screening: Screening, i: int) -> tuple[float, float]:
+    """Utilisation at a station and its error: that of the exact load."""
+    assert screening.utilisation is not None
+    used = float(screening.utilisation[i])
+    return used, abs(used) * float(screening.critical.errors[i] / screening.critical.values[i])
 
 
 def assumptions(screening: Screening) -> list[str]:

@@ -9,6 +9,7 @@ from rodwell.practice import study_loads_data
 from rodwell.practice.study import APPLIED, Study
 from rodwell.practice.study_points import Point
 from rodwell.practice.table import Cell, Table
+from rodwell.practice.wording import amount, percent
 
 NOTES = (
     "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
@@ -166,8 +167,8 @@ def sentences(study: Study) -> list[str]:
     for kind in _told(study):
         used = {point.number: point.used[kind] for point in study.points if kind in point.used}
         most = max(used, key=lambda number: used[number].value)
-        part = used[most].value
-        share = f"{100.0 * part:.3g} %" if part < 10.0 else f"{part:.3g} times all of it"
+        part, error = used[most].value, used[most].error
+        share = percent(part, error) if part < 10.0 else f"{amount(part, error, 3)} times all of it"
         where = study.rod_inputs(study.points[most])
         out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}{f', for {where}' if where else ''}.")
     out += study_loads_data.load_sentences(study)

@@ -6,8 +6,7 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, AtLoad
 from rodwell.practice.limits import LIFTS_OFF, UNSTABLE, YIELDS, Limit
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.units import plain
-from rodwell.practice.wording import force_text
+from rodwell.practice.wording import amount, force_text, percent, quantity, size_text
 from rodwell.problem import ends_text
 
 
@@ -43,7 +42,8 @@ def window_sentences(answer: Answer) -> list[str]:
         when = (
             "after buckling, before lift-off" if limit.buckled else "before buckling: the elastic loads come too late"
         )
-        out.append(f"{limit.name.capitalize()} at the end force {force_text(answer, limit.force)} at s = 1, {when}.")
+        where = force_text(answer, limit.force, limit.error)
+        out.append(f"{limit.name.capitalize()} at the end force {where} at s = 1, {when}.")
     return [*out, *_stresses(answer), local_sentence(answer)]
 
 
@@ -59,12 +59,12 @@ def _range(answer: Answer) -> str:
     if first.force > 0.0:
         text = (
             "The rod buckles under its own weight: it stays straight only if the end s = 1 is held in tension of at "
-            f"least {force_text(answer, first.force)}"
+            f"least {force_text(answer, first.force, first.error)}"
         )
     else:
         text = (
             "The straight rod is stable until the compression at the end s = 1 reaches "
-            f"{force_text(answer, -first.force)}"
+            f"{force_text(answer, -first.force, first.error)}"
         )
     return text + _window(answer)
 
@@ -79,8 +79,9 @@ def _window(answer: Answer) -> str:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    percent = "" if window.percent is None else f" ({plain(window.percent, 3)} %{_at_bottom(answer)})"
-    text = f"; buckled, it stays on the wall, stable, for another {_size(answer, width[0])}{percent} until it "
+    share = window.share
+    of_bottom = "" if share is None else f" ({percent(*share)}{_at_bottom(answer)})"
+    text = f"; buckled, it stays on the wall, stable, for another {size_text(answer, *width)}{of_bottom} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     state = answer.assessment.at_lift_off
     if end.kind == LIFTS_OFF and state is not None and answer.assessment.stress(state) is not None:
@@ -88,7 +89,9 @@ def _window(answer: Answer) -> str:
     yields = _yield(answer)
     if yields is not None:
         before = "buckles" if not yields.buckled else "lifts off"
-        where = "at any load" if yields.force is None else f"already at {force_text(answer, yields.force)}"
+        where = (
+            "at any load" if yields.force is None else f"already at {force_text(answer, yields.force, yields.error)}"
+        )
         text += f"; but it yields {where}, before it {before}"
     return text
 
@@ -102,21 +105,16 @@ def _yield(answer: Answer) -> Limit | None:
     return next((limit for limit in answer.assessment.window.limits if limit.kind == YIELDS), None)
 
 
-def _size(answer: Answer, value: float) -> str:
-    """A difference of forces."""
-    scales = answer.case.scales
-    return f"{value:.4g} B/L²" if scales is None else scales.text(value, "force")
-
-
 def _stress(answer: Answer, state: LoadedRod) -> str:
     """Largest stress and safety factor in a state, as the end of a sentence."""
     found, scales = answer.assessment.stress(state), answer.case.scales
     if found is None or scales is None:
         return ""
-    text = f"with a largest von Mises stress of {scales.system.text(found.value, 'stress', 3)} in the rod"
+    stress = quantity(scales.system, found.value, found.error, "stress", 3)
+    text = f"with a largest von Mises stress of {stress} in the rod"
     if found.safety is None:
         return text
-    text += f", safety factor {found.safety[0]:.3g} against yield"
+    text += f", safety factor {amount(*found.safety, 3)} against yield"
     return text if found.safety[0] >= 1.0 or state.name == "at lift-off" else text + ": it yields"
 
 
@@ -132,24 +130,28 @@ def _at(answer: Answer, at: AtLoad) -> str:
     assessment = answer.assessment
     lift, critical = answer.lift_off, answer.critical[0]
     if at.what == STRAIGHT:
-        text = f"{start} the rod is straight and stable, {_apart(answer, at, critical.force, 'buckling')}"
+        text = (
+            f"{start} the rod is straight and stable, {_apart(answer, at, critical.force, critical.error, 'buckling')}"
+        )
     elif at.what == BUCKLED:
         far, last = "", assessment.window.end
         if last is not None and last.force is not None:
             what = "lift-off" if last.kind == LIFTS_OFF else "the loss of its stability"
-            far = f", {_apart(answer, at, last.force, what)}"
+            far = f", {_apart(answer, at, last.force, last.error, what)}"
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
         lost = assessment.window.stable_until
         where = (
-            "" if lost is None or lost.force is None else f", which ends at {force_text(answer, lost.force)} at s = 1"
+            ""
+            if lost is None or lost.force is None
+            else f", which ends at {force_text(answer, lost.force, lost.error)} at s = 1"
         )
         text = f"{start} the rod is buckled beyond the stable part of mode 1{where}"
         return f"{text}: it takes another shape, not given here"
     elif at.what == LEFT:
         assert lift is not None
         what = "buckling" if answer.first.lift_off_at_buckling else "lift-off"
-        text = f"{start} the rod has left the wall, {_apart(answer, at, lift.force, what)}"
+        text = f"{start} the rod has left the wall, {_apart(answer, at, lift.force, lift.error, what)}"
         text += ", where nothing presses it to the wall" if answer.first.lift_off_at_buckling else ""
         return text + ": its shape and stresses are no longer those of a rod on the wall and are not given"
     else:
@@ -158,18 +160,18 @@ def _at(answer: Answer, at: AtLoad) -> str:
     return f"{text}{', ' if assessment.stress(at.state) else ''}{_stress(answer, at.state)}"
 
 
-def _apart(answer: Answer, at: AtLoad, force: float, what: str) -> str:
+def _apart(answer: Answer, at: AtLoad, force: float, error: float, what: str) -> str:
     """How far a load lies from another, measured where it was given: "12 % short of lift-off (−38.5 kN there)"."""
     more = answer.case.problem.axial_weight if at.load.bottom else 0.0
     here, other = more - at.load.force, more - force
     word = "short of" if here <= other else "beyond"
-    scales = answer.case.scales
-    there = f"{-other:.6g} B/L²".replace("-", "−") if scales is None else scales.text(-other, "force")
     far = (
-        _size(answer, abs(other - here))
+        size_text(answer, abs(other - here), error)
         if other <= 0.0 or here < 0.0
-        else f"{plain(100.0 * abs(1.0 - here / other), 3)} %"
+        else percent(abs(1.0 - here / other), error * here / other**2)
     )
+    scales = answer.case.scales
+    there = f"{amount(-other, error, 6)} B/L²" if scales is None else size_text(answer, -other, error)
     return f"{far} {word} {what} ({there}{' effective' if at.load.real else ''} there)"
 
 
@@ -183,8 +185,8 @@ def _stresses(answer: Answer) -> list[str]:
         found = None if state is None else assessment.stress(state)
         if state is None or found is None:
             continue
-        safety = "" if found.safety is None else f" (safety factor {found.safety[0]:.3g})"
-        parts.append(f"{scales.system.text(found.value, 'stress', 3)} {state.name}{safety}")
+        safety = "" if found.safety is None else f" (safety factor {amount(*found.safety, 3)})"
+        parts.append(f"{quantity(scales.system, found.value, found.error, 'stress', 3)} {state.name}{safety}")
     return [f"Largest von Mises stress in the rod: {', '.join(parts)}."]
 
 
@@ -194,9 +196,11 @@ def local_sentence(answer: Answer) -> str:
     over = assessment.over_local(assessment.at_buckling)
     if over is None or scales is None or assessment.local is None:
         return ""
+    local = assessment.local
+    error = local.critical.error + abs(local.length_effect) * over.limit  # of the rod that was computed, and its length
     text = (
         f"Locally, an endless rod in a straight hole of this inclination would buckle at "
-        f"{scales.system.text(over.limit, 'force')} of compression"
+        f"{quantity(scales.system, over.limit, error, 'force')} of compression"
     )
     if over.to <= 0.0:
         return f"{text}: nowhere exceeded when this string buckles."
@@ -205,7 +209,9 @@ def local_sentence(answer: Answer) -> str:
             f"{text}: exceeded all along the string when it buckles, since its ends hold it; the string's exact load "
             "decides."
         )
+    slope = answer.case.problem.axial_weight * scales.factor("force")
+    lowest = size_text(answer, over.to, error / slope, "length")
     return (
-        f"{text}: when this string buckles, that is exceeded over its lowest {scales.text(over.to, 'length')}, where "
+        f"{text}: when this string buckles, that is exceeded over its lowest {lowest}, where "
         "buckling starts; the string's exact load decides."
     )

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from rodwell.analysis.certificate import Certificate
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
-from rodwell.practice.figures import Figure
+from rodwell.practice.figures import Figure, supported
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
 
 
 def number(value: float, error: float) -> str:
     """A value with the digits that its error estimate supports, ten at most; the last one is in doubt."""
-    if value == 0.0:
-        return "0"
-    digits = 10
-    if error > 0.0:
-        digits = math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1
-    return f"{value:.{min(max(digits, 1), 10)}g}".replace("-", "−")
+    digits = supported(value, error, 10)
+    return f"{value:.{digits}g}".replace("-", "−") if digits and value else "0"
 
 
 def error_text(text: str) -> str:
