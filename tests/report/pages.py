@@ -8,7 +8,7 @@ EMPTY = {"meta", "img", "input", "br", "link"}
 
 
 class Page(HTMLParser):
-    """A page taken apart: tags that do not close, ids, rows of tables, text."""
+    """A page taken apart: tags that do not close, ids, rows of tables, text; spaces that do not break are spaces."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -36,6 +36,7 @@ class Page(HTMLParser):
             self.faults.append(tag)
 
     def handle_data(self, text: str) -> None:
+        text = text.replace("\u00a0", " ")
         if not {"script", "style"} & set(self.open):
             self.words.append(text)
         if "td" in self.open or "th" in self.open:

@@ -86,6 +86,14 @@ def test_page_is_well_formed(page: Page, folder: Path) -> None:
     assert "nan" not in text.lower().split()
 
 
+def test_no_line_ends_within_an_end_of_the_rod(folder: Path) -> None:
+    said = (folder / "report.html").read_text(encoding="utf-8").partition("<body>")[2]
+    said = re.sub(r"<script.*?</script>", "", said, flags=re.DOTALL)
+    assert re.search("end force at s\u00a0=\u00a01", said)
+    assert "(B\u00a0=\u00a0L\u00a0=\u00a01)" in said
+    assert not re.search(r"\bs = [01]|B = L", said)
+
+
 def test_numbers_of_the_page_are_those_of_the_json(page: Page, figures: dict[str, Any]) -> None:
     rows = {row[0]: row for row in page.tables[0][1:]}
     assert set(rows) == {figure["label"] for figure in figures.values()}

@@ -175,9 +175,9 @@ def _labels(ax: Any, branches: Sequence[Branch], ordinate: Measured, fx: float, 
     for y, x, number, branch in ends:
         place = min(_upper(y, ordinate), last - 0.055 * height)
         ax.annotate(
-            branch.name, (x, y), xytext=(x, place), textcoords="data", color=_color(branch, number),
+            branch.name, (x, place), xytext=(5.0, 0.0), textcoords="offset points", color=_color(branch, number),
             va="center", fontweight="bold", fontsize=8.5, annotation_clip=False,
-        ).set_position((x * 1.012, place))  # fmt: skip
+        )  # fmt: skip
         last = place
 
 

@@ -70,7 +70,7 @@ def plot_contact_pressure(
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
         label = minus(f"F = {plain(state.force * ff, 4)} {uf}")
         ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
-    _lift_off_marks(ax, branch, fs)
+    _lift_off_marks(ax, branch, fs, part)
     low, high = ax.get_ylim()
     high = max(high, -0.12 * low)
     ax.axhspan(0.0, 10.0 * abs(low) + 10.0 * high, color=WARN, alpha=0.07, lw=0)
@@ -100,18 +100,19 @@ def _free_place(branch: Branch, part: float) -> float:
     return max((0.995, 0.005, 0.5), key=lambda place: min((min(abs(place - s), 0.3) for s in marked), default=1.0))
 
 
-def _lift_off_marks(ax: Any, branch: Branch, fs: float) -> None:
+def _lift_off_marks(ax: Any, branch: Branch, fs: float, part: float) -> None:
     lift = branch.lift_off
     if lift is None or branch.lift_off_at_buckling:
         return
     for s in lift.s:
-        ax.plot([s * fs], [0.0], "o", color=WARN, mec="white", ms=7, zorder=6)
+        ax.plot([s * fs], [0.0], "o", color=WARN, mec="white", ms=7, zorder=6, clip_on=False)
+        side = "left" if s < 0.05 * part else "right" if s > 0.95 * part else "center"
         ax.annotate(
             "lift-off",
             (s * fs, 0.0),
-            xytext=(0, 9),
+            xytext=({"left": 4, "center": 0, "right": -4}[side], 9),
             textcoords="offset points",
-            ha="center",
+            ha=side,
             color=WARN,
             fontsize=8.5,
         )

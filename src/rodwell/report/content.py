@@ -6,6 +6,7 @@ pictures. All of it is text that is ready to be read; a picture is named, its fi
 
 from __future__ import annotations
 
+import re
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
@@ -101,4 +102,20 @@ class Report:
         out["front"]["picture"]["kind"] = Picture.kind
         for section, plain in zip(self.sections, out["sections"], strict=True):
             plain["blocks"] = [{"kind": block.kind, **asdict(block)} for block in section.blocks]
-        return out
+        return dict(unbroken(out))
+
+
+_KEPT_TOGETHER = re.compile(
+    r"(?<=\bs) (?==)|(?<=\bs =) (?=\d)|(?<=\bB) (?==)|(?<=\bB =) (?=L)"
+    r"|(?<=\bL) (?==)|(?<=\bL =) (?=\d)|(?<=±) (?=error)"
+)
+"""Spaces at which no line may end: in s = 1, s/L = 0.5, B = L = 1 and ± error."""
+
+
+def unbroken(item: Any) -> Any:
+    """Return the same plain data with spaces that hold together what belongs together."""
+    if isinstance(item, str):
+        return _KEPT_TOGETHER.sub("\u00a0", item)
+    if isinstance(item, dict):
+        return {key: unbroken(value) for key, value in item.items()}
+    return [unbroken(value) for value in item] if isinstance(item, list | tuple) else item

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rodwell.report.content import Report
+from dataclasses import replace
+
+from rodwell.report.content import Report, unbroken
 from rodwell.report.templates import HERE, embedded, template
 from rodwell.report.viewer import Viewer
 
@@ -19,5 +21,7 @@ def render(report: Report, pictures: Pictures, rod: Viewer | None = None) -> str
     and stands in where the browser cannot draw in three dimensions.
     """
     images = {name: embedded(*picture) for name, picture in pictures.items()}
+    if rod is not None:
+        rod = replace(rod, caption=unbroken(rod.caption))
     style = (HERE / "assets" / STYLE).read_text(encoding="utf-8")
     return str(template("report.html.j2").render(report=report.as_dict(), pictures=images, rod=rod, style=style))
