@@ -24,7 +24,7 @@ NAMES = {
 """Exact loads, where a case has none to be named."""
 
 
-@click.command()
+@click.command(short_help="Hold the formulas of practice against a case's exact loads.")
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option(
     "--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-OF-THE-CASE-audit]"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 KINDS = {"pipe": "rod.pipe", "material": "rod.material", "grade": "rod.grade"}
 
 
-@click.command()
+@click.command(short_help="List the pipes, materials and grades a case file can name.")
 @click.argument("words", nargs=-1)
 @click.option(
     "--file", "files", type=click.Path(path_type=Path), multiple=True,

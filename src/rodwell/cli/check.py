@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.verify import Verification
 
 
-@click.command()
+@click.command(short_help="Solve a case once more with SciPy's solve_bvp, and compare.")
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option("--mode", default=1, show_default=True, help="Buckling mode whose branch is verified.")
 @click.option(

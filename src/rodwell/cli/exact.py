@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 UNIT = "B/L²"
 
 
-@click.command()
+@click.command(short_help="Critical loads with proof, to 30 digits.")
 @problem_options(required=False)
 @click.option("--modes", type=int, help="How many critical loads of one problem.  [default: 5]")
 @click.option("--digits", default=30, show_default=True, help="Decimal digits.")
@@ -77,7 +77,7 @@ def _paper(digits: int, as_json: bool) -> None:
     click.echo(f"{len(values)} values, {len(values) - wrong} of them as printed.")
 
 
-@click.command()
+@click.command(short_help="Which mode of a horizontal rod is first; where modes switch.")
 @click.option("--weight", type=float, help="γ = mg L³/B, weight of the rod.")
 @click.option("--clearance", default=0.01, show_default=True, help="Δ/L, distance between the axes.")
 @click.option("--pairs", default=1, show_default=True, help="How many pairs of modes.")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 LIFT_OFF = "lift-off"
 
 
-@click.command()
+@click.command(short_help="Write one state of a case in space: glTF, STL, VTK, picture.")
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option(
     "--at",

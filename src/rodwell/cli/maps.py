@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rodwell.problem import Problem
 
 
-@click.command()
+@click.command(short_help="Bifurcation diagram: branches and their special points.")
 @problem_options(coiled=True)
 @click.option("--modes", default=4, show_default=True, help="How many primary branches.")
 @click.option("--until", type=float, help="End force at s = 1 (tension positive) at which branches end.")
@@ -109,7 +109,7 @@ def _print_diagram(result: Diagram) -> None:
         click.echo("Not every number meets the tolerance.")
 
 
-@click.command()
+@click.command(short_help="A load against another parameter.")
 @click.argument("kind", type=click.Choice(["lift-off", "critical", "secondary", "twist"]))
 @problem_options(required=False)
 @click.option(

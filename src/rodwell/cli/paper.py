@@ -20,7 +20,7 @@ UNEXPLAINED_EXIT = 1
 COLOURS = {"agrees": "green", "differs, documented": "yellow", "differs": "bold red"}
 
 
-@click.command()
+@click.command(short_help="Recompute the paper: numbers, tables, figures.")
 @click.option("--only", help="Items, separated by commas: for example table1,fig5.  [default: all; --list names them]")
 @click.option("--figures/--no-figures", default=True, show_default=True, help="Draw the figures (PDF and PNG).")
 @click.option("--list", "as_list", is_flag=True, help="List the items and stop.")

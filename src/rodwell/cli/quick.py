@@ -94,7 +94,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         click.echo(f"Not every number meets the tolerance {rtol:g}.")
 
 
-@click.command()
+@click.command(short_help="How loads change with weight, inclination, clearance, twist.")
 @problem_options()
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @rtol_option
@@ -135,7 +135,7 @@ _MORE = {
 }
 
 
-@click.command()
+@click.command(short_help="Which twist presses a rod at its lift-off load to the wall.")
 @problem_options()
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")

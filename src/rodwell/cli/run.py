@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rodwell.practice.answer import Answer
 
 
-@click.command()
+@click.command(short_help="Compute a case: report, figures, data; or a parameter study.")
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option(
     "--out",

@@ -16,7 +16,7 @@ SHOWN = 12
 """Stations in the table on the terminal."""
 
 
-@click.command()
+@click.command(short_help="Screen a whole well, station by station, from its survey.")
 @click.argument("survey", type=click.Path(path_type=Path))
 @click.option("--case", required=True, type=click.Path(path_type=Path), help="Case file of string and hole.")
 @click.option("--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-screen]")
