@@ -13,6 +13,7 @@ from numba import types
 from rodwell import compiling
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.numerics.corrector import correct
+from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.watch import softest
 from rodwell.physics.model import RodOnCylinder
 
@@ -26,6 +27,7 @@ _TAGS: Any = types.Tuple(  # type: ignore[no-untyped-call]
 _FREE = (types.int64, types.int64, types.boolean, types.boolean)  # first, last, tied_first, tied_last
 
 KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
+    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
     (
         correct,
         (

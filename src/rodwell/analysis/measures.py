@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.compiling import wait_for
 from rodwell.jit import kernel
 from rodwell.numerics.assembly import SHARED, at_points
 from rodwell.numerics.bsplines import combine
@@ -138,30 +139,23 @@ def measure(family: Family, state: State) -> FloatArray:
     STEEPEST stands last. A spline's third derivative is its coefficients' third difference over h³: round-off in them
     comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
     """
-    space = state.space
+    space, p = state.space, family.parameters(state.lam)
+    _, values, lowest = pressure_maxima(family, state, p)
     return np.asarray(
-        _measured(
-            family.model, space.tags, space.knots, *space.samples, space.table, space.points, space.weights,
-            *space.landmarks, state.c, family.parameters(state.lam), state.energy, space.smallest,
+        _numbers(
+            family.model, space.tags, space.table, space.points, space.weights, *space.landmarks, state.c, p,
+            state.energy, values.max(), lowest, space.smallest,
         )
     )  # fmt: skip
 
 
-@kernel
-def _measured(
-    model, tags, knots, grid, samples, table, points, weights, landmarks, marks, c, parameters, energy, smallest
-):
-    """Highest pressure and :func:`_numbers` together."""
-    _, values, lowest = contact_maxima(model, tags[0], knots, grid, samples, c, parameters, NEAR_THE_TOP)
-    return _numbers(
-        model, tags, table, points, weights, landmarks, marks, c, parameters, energy, np.max(values), lowest, smallest
-    )
-
-
-def pressure_maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
+def pressure_maxima(
+    family: Family, state: State, parameters: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
-    space = state.space
+    space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
+    wait_for("contact_maxima")
     places, values, lowest = contact_maxima(
-        family.model, space.tags[0], space.knots, *space.samples, state.c, family.parameters(state.lam), NEAR_THE_TOP
+        family.model, space.tags[0], space.knots, *space.samples, state.c, p, NEAR_THE_TOP
     )
     return places, values, float(lowest)

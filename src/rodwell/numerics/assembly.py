@@ -133,19 +133,16 @@ ONE = (0,)
 
 
 @kernel
-def assemble_form(tags, table, weights, factors):
+def assemble_form(local_tag, table, weights, elements, factors):
     """Band (n, p+1) of the quadratic form Σ_d ∫ factors[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds, ``factors`` (3, m) at the points."""
-    local, per_element = len(tags[0]), len(tags[1])
-    elements = weights.size // per_element
+    local, tags = len(local_tag), (local_tag, ONE)  # point by point: for any number of them in an element
     band = np.zeros((elements + local - 1, local))
-    unused, terms, product = np.empty(band.shape[0]), np.zeros((17, per_element)), np.empty((local + 2, local))
-    for element in range(elements):
-        first = element * per_element
+    unused, terms, product = np.empty(band.shape[0]), np.zeros((17, 1)), np.empty((local + 2, local))
+    for q in range(weights.size):
         for d in range(3):
-            for i in range(per_element):
-                terms[8 + 4 * d, i] = weights[first + i] * factors[d, first + i]
-        congruence(ONE, tags, table, first, terms, 0, 0, product)
-        _scatter(ONE, tags, product, element, 0, 0, unused, unused, band)
+            terms[8 + 4 * d, 0] = weights[q] * factors[d, q]
+        congruence(ONE, tags, table, q, terms, 0, 0, product)
+        _scatter(ONE, tags, product, q * elements // weights.size, 0, 0, unused, unused, band)
     return band
 
 

@@ -107,6 +107,15 @@ def find_span(knots, degree, s):
 
 
 @kernel
+def _copy(table, known, first, count):
+    """Copy the basis functions at ``count`` places; an assignment of slices would take seconds to compile."""
+    for q in range(count):
+        for order in range(table.shape[1]):
+            for a in range(table.shape[2]):
+                table[first + q, order, a] = table[known + q, order, a]
+
+
+@kernel
 def tabulate(knots, degree, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
@@ -121,7 +130,7 @@ def tabulate(knots, degree, places, per_element, orders):
         even = _evenly_spaced(knots, span, degree)
         width = knots[span + 1] - knots[span]
         if even and known >= 0 and abs(width - spacing) <= SPACING:
-            table[first : first + per_element] = table[known : known + per_element]
+            _copy(table, known, first, per_element)
             continue
         for q in range(first, first + per_element):
             basis_derivatives(knots, span, degree, places[q], table[q])

@@ -213,10 +213,10 @@ def hyperplane(gram, weight_c, weight_lam, tangent_c, tangent_lam, row):
     Written: ``row`` (n,), and ``tangent_c``, scaled to length one with its λ component. Returns that component and
     ``row_λ``.
     """
-    row[:] = multiply(gram, tangent_c)
+    product = multiply(gram, tangent_c)
     square = weight_lam * tangent_lam * tangent_lam
     for i in range(row.size):
-        row[i] *= weight_c
+        row[i] = weight_c * product[i]
         square += row[i] * tangent_c[i]
     length = np.sqrt(square)
     for i in range(row.size):

@@ -98,7 +98,7 @@ class SplineSpace:
     def form(self, density: FloatArray) -> FloatArray:
         """Band of Σ_d ∫ density[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds; ``density`` is (3,) or (3, m) at the quadrature points."""
         full = np.array(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)), order="C")
-        return np.asarray(assembly.assemble_form(self.tags, self.table, self.weights, full))
+        return np.asarray(assembly.assemble_form(self.tags[0], self.table, self.weights, self.elements, full))
 
     def grams(self, density: FloatArray, block: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Matrices (k, k) of the form with ``density`` (3, m), and of ∫u'v' ds, for functions with coefficients (k, n).
