@@ -14,6 +14,7 @@ from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
+from rodwell.numerics.corrector import symmetrise
 from rodwell.numerics.events import INDEX, NEARLY, Found, events_between
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
@@ -40,7 +41,9 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
 
     def straight(on: SplineSpace) -> FloatArray:
         shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
-        return on.project(-shape if mirror else shape, equilibria.ends)
+        projected = on.project(-shape if mirror else shape, equilibria.ends)
+        symmetrise(projected, equilibria.parity)  # what round-off leaves of the other parity would stay
+        return projected
 
     states = []
     for f in (ladder.coarse, ladder.fine):

@@ -65,15 +65,15 @@ def _loads(console: Console, study: Study) -> None:
     from rich.table import Table  # noqa: PLC0415
 
     from rodwell.practice.study_data import scales  # noqa: PLC0415
-    from rodwell.practice.study_loads_data import LEGEND, cells, fails, head, most_loads  # noqa: PLC0415
+    from rodwell.practice.study_loads_data import LEGEND, STATE, cells, fails, head, most_loads  # noqa: PLC0415
 
     if not most_loads(study):
         return
     scale, force, _, _ = scales(study)
     console.print(f"\nAt the loads that act. {LEGEND}")
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in head(study, force):
-        table.add_column(escape(title), justify="left" if title == "the rod is" else "right")
+    table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
+    for title in head(study, force, short=True):
+        table.add_column(escape(title), justify="left" if title == STATE else "right", overflow="fold")
     for point in study.points:
         for one, row in zip(point.loads, cells(study, point, scale), strict=True):
             table.add_row(*(escape(cell) for cell in row), style="bold red" if fails(one) else None)

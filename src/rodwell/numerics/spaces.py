@@ -13,6 +13,9 @@ from rodwell.numerics.ends import Ends
 FloatArray = NDArray[np.float64]
 
 SAMPLES_PER_ELEMENT = 3
+ROUND_OFF = 1e-12
+"""How far a mesh may be from symmetric by round-off."""
+
 TINY = 1e-300
 
 AT_ONCE = 1 << 17
@@ -210,4 +213,7 @@ def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, l
     count += count % 2  # a mesh point at s = 1/2 where the wavenumber is symmetric
     mesh = np.interp(np.linspace(0.0, phase[-1], count + 1), phase, places)
     mesh[0], mesh[-1] = 0.0, 1.0
+    mirrored = 1.0 - mesh[::-1]
+    if np.allclose(mesh, mirrored, rtol=0.0, atol=ROUND_OFF):
+        mesh = 0.5 * (mesh + mirrored)
     return np.asarray(mesh)

@@ -20,8 +20,11 @@ STATES = {
 }
 """What the rod is at a load, as tables and summary say it."""
 
-WORDS = {STRAIGHT: "straight", BUCKLED: "buckled", OTHER_SHAPE: "other shape", LEFT: "off the wall", UNKNOWN: "unknown"}
+WORDS = {STRAIGHT: "straight", BUCKLED: "buckled", OTHER_SHAPE: "reshaped", LEFT: "off wall", UNKNOWN: "unknown"}
 """The same in a word or two."""
+
+STATE = "the rod is"
+"""Title of their column."""
 
 UNTIL = {
     BUCKLES: "it buckles",
@@ -91,13 +94,14 @@ def _pair(found: Result | None, unit: float = 1.0) -> list[Cell]:
     return [None, None] if found is None else [found.value * unit, found.error * unit]
 
 
-def head(study: Study, force: str) -> list[str]:
-    """Columns for reading: one row for each point and load."""
-    inputs = [v.key + f" [{v.unit}]" * bool(v.unit) for v in study.varied]
-    out = [*inputs, f"F at s = 1 [{force}]", "the rod is", f"to buckling [{force}]", "±", f"to lift-off [{force}]", "±"]
+def head(study: Study, force: str, short: bool = False) -> list[str]:
+    """Columns for reading, one row for each point and load; ``short`` for the terminal."""
+    inputs = [(v.key.replace("_", " ") if short else v.key) + f" [{v.unit}]" * bool(v.unit) for v in study.varied]
+    end = "F" if short else "F at s = 1"
+    out = [*inputs, f"{end} [{force}]", STATE, f"to buckling [{force}]", "±", f"to lift-off [{force}]", "±"]
     if _others(study):
         out += [f"gives first [{force}]", "±"]
-    return [*out, "safety factor", "±"] if _any(study, "safety") else out
+    return [*out, "safety" if short else "safety factor", "±"] if _any(study, "safety") else out
 
 
 def _others(study: Study) -> bool:
@@ -107,8 +111,8 @@ def _others(study: Study) -> bool:
 
 
 LEGEND = (
-    "F: effective end force at s = 1, tension positive. Buckled: on the wall and stable. To buckling, to lift-off: "
-    "compression to spare, negative where exceeded."
+    "F: effective end force at s = 1, tension positive. Buckled: on the wall and stable; reshaped: buckled into another "
+    "shape. To buckling, to lift-off: compression to spare, negative where exceeded. Safety: factor against yield."
 )
 """What stands beside the table for reading."""
 
