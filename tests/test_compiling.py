@@ -29,7 +29,7 @@ def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
 
 def test_each_kernel_is_announced(capsys):
     ahead.main()
-    assert capsys.readouterr().out.split() == ["correct", "contact_maxima"]
+    assert capsys.readouterr().out.split() == ["contact_maxima", "correct", "softest"]
 
 
 def test_waiting_ends_with_the_name_and_when_the_other_process_dies(no_helper, tmp_path, monkeypatch):

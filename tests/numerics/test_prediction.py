@@ -73,6 +73,13 @@ def test_only_the_last_points_count() -> None:
     np.testing.assert_allclose(course.ahead(0.1)[0], on_ellipse(0.5).c + 0.1 * on_ellipse(0.5).tangent, rtol=1e-14)
 
 
+def test_round_off_against_an_end_condition_does_not_grow_along_a_branch() -> None:
+    """A slope held at zero ties two coefficients, which Newton's method moves together."""
+    problem = Problem(68.0, alpha=73.5, clearance=0.018, ends=("clamped", "guided"))
+    state = follow(problem, 3, until=-206.0, rtol=1e-10).last[1].fine
+    assert abs(state.c[-1] - state.c[-2]) <= 2e-15 * np.max(np.abs(state.c))
+
+
 def test_round_off_against_the_symmetry_does_not_grow_along_a_branch() -> None:
     """Polynomials through the last points multiply what Newton's method, which keeps the symmetry, leaves alone."""
     problem = Problem(15.0)

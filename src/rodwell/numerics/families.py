@@ -18,7 +18,7 @@ import numpy as np
 
 from rodwell.compiling import wait_for
 from rodwell.numerics import assembly, banded, corrector
-from rodwell.numerics.ends import Ends
+from rodwell.numerics.ends import Ends, spread
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
 
@@ -262,7 +262,10 @@ class Family:
         that lies from where it was expected, and the factors of the last Hessian.
         """
         increment = c - state.c
-        corrector.symmetrise(increment, self.parity)  # round-off off the symmetry would grow from step to step
+        # Newton's method leaves alone what breaks the symmetry or an end condition: round-off in it would grow
+        # from prediction to prediction
+        corrector.symmetrise(increment, self.parity)
+        spread(increment, self.free.start, self.free.stop, *self.ends.tied)
         c = state.c + increment
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)
