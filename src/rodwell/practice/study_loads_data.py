@@ -112,7 +112,8 @@ def _others(study: Study) -> bool:
 
 LEGEND = (
     "F: effective end force at s = 1, tension positive. Buckled: on the wall and stable; reshaped: buckled into "
-    "another shape. To buckling, to lift-off: compression to spare, negative where exceeded. Safety: factor against yield."
+    "another shape. To buckling, to lift-off: compression to spare, negative where exceeded. Safety: factor against "
+    "yield."
 )
 """What stands beside the table for reading."""
 
