@@ -27,7 +27,7 @@ import rodwell
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.families import family
-from rodwell.numerics import assembly, banded
+from rodwell.numerics import banded
 from rodwell.numerics.spaces import SplineSpace
 from rodwell.physics.exact_horizontal import horizontal_loads
 from rodwell.plots.style import MODES as COLORS
@@ -69,7 +69,7 @@ def iteration(elements: int) -> Callable[[], object]:
         block = rng.standard_normal((5, space.size))
         for vector in block:
             banded.solve(stiffness, vector)
-        assembly.grams(space.table, space.weights, space.elements, factors, block)
+        space.grams(factors, block)
 
     return work
 

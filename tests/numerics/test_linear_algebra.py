@@ -88,6 +88,30 @@ def test_variation_along_a_direction_is_that_of_the_hessian() -> None:
     assert size >= abs(above)
 
 
+@pytest.mark.parametrize(("degree", "per_element"), [(4, 3), (9, 8), (9, 6), (6, 1)])
+def test_forms_and_gram_matrices_are_sums_over_the_points(degree: int, per_element: int) -> None:
+    space = SplineSpace(np.sort(np.append(np.random.default_rng(1).random(9), [0.0, 1.0])), degree, per_element)
+    rng = np.random.default_rng(2)
+    density, block = rng.standard_normal((3, space.points.size)), rng.standard_normal((5, space.size))
+    basis = np.array([space.evaluate(one, space.points, 3) for one in np.eye(space.size)])
+    form = np.einsum("idq,dq,q,jdq->ij", basis, density, space.weights, basis)
+    np.testing.assert_allclose(dense(space.form(density)), form, rtol=1e-12, atol=1e-12 * np.max(np.abs(form)))
+    slopes = np.einsum("iq,q,jq->ij", basis[:, 1], space.weights, basis[:, 1])
+    for found, expected in zip(space.grams(density, block), (form, slopes), strict=True):
+        expected = block @ expected @ block.T  # noqa: PLW2901
+        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
+
+
+def test_gram_matrices_do_not_depend_on_how_many_values_are_computed_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    space = SplineSpace(np.linspace(0.0, 1.0, 12), 5)
+    rng = np.random.default_rng(3)
+    density, block = rng.standard_normal((3, space.points.size)), rng.standard_normal((3, space.size))
+    whole = space.grams(density, block)
+    monkeypatch.setattr("rodwell.numerics.spaces.AT_ONCE", 200)  # five elements
+    for part, all_of_it in zip(space.grams(density, block), whole, strict=True):
+        np.testing.assert_allclose(part, all_of_it, rtol=1e-12)
+
+
 def test_a_ramp_beside_the_spline_is_the_spline_of_the_sum() -> None:
     space = SplineSpace(np.linspace(0.0, 1.0, 7), 7)
     c = 0.004 * np.random.default_rng(8).standard_normal(space.size)
