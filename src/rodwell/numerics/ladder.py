@@ -46,6 +46,12 @@ def estimated_error(fine: Any, coarse: Any) -> Any:
     return np.abs(fine - coarse) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine)
 
 
+@formula
+def _larger(a, b):
+    """The larger of two numbers; none if one of them is none."""
+    return b if b > a or np.isnan(b) else a
+
+
 @kernel
 def _judged(fine, coarse, kin):
     """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale."""
@@ -56,13 +62,12 @@ def _judged(fine, coarse, kin):
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
     for first, last in kin:
         for i in range(first, last + 1):
-            error[first] = max(error[first], error[i])
+            error[first] = _larger(error[first], error[i])
         for i in range(first, last + 1):
             error[i] = error[first]
     worst = 0.0
     for i in range(error.size):
-        part = error[i] / fine[1, i]
-        worst = part if part > worst or np.isnan(part) else worst
+        worst = _larger(worst, error[i] / fine[1, i])
     return error, worst
 
 

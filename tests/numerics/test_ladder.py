@@ -1,0 +1,27 @@
+"""Errors of measured numbers from two meshes, against the same in NumPy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rodwell.numerics.ladder import CLAIMED_GAIN, ROUND_OFF, _judged
+
+
+def test_errors_from_two_meshes() -> None:
+    rng = np.random.default_rng(0)
+    fine, coarse = rng.uniform(0.1, 1.0, (2, 3, 6))
+    fine[1, 5] = np.inf  # a guard: it is not judged
+    error, worst = _judged(fine, coarse, ((2, 4),))
+    expected = np.abs(fine[0] - coarse[0]) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine[0]) + fine[2]
+    expected[:5] += ROUND_OFF * fine[1, :5]
+    expected[2:5] = expected[2:5].max()  # numbers of one kind share the largest error
+    np.testing.assert_allclose(error, expected, rtol=1e-14)
+    assert worst == pytest.approx(np.max(expected[:5] / fine[1, :5]), rel=1e-14)
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_a_number_that_is_none_is_not_passed_over(place: int) -> None:
+    fine, coarse = np.ones((3, 3)), np.ones((3, 3))
+    fine[0, place] = np.nan
+    assert np.isnan(_judged(fine, coarse, ((0, 1),))[1])
