@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.fields import largest_of
+from rodwell.numerics.location import bracketed_root
 from rodwell.numerics.spaces import FloatArray, SplineSpace
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ FADED = 1e-3
 LOOKS = 16
 """Places in each element at which the end of the buckled part is looked for."""
 
-FIRST_WINDOW, HALVINGS = 8, 50
+FIRST_WINDOW = 8
 
 
 def buckled_to(shape: Mode | Solution) -> float:
@@ -50,15 +50,14 @@ def buckled_to(shape: Mode | Solution) -> float:
             break
         window *= 2
     at = int(found[-1])
-    return float(s[at]) if at == s.size - 1 else _crossing(size, level, float(s[at]), float(s[at + 1]))
+    if at == s.size - 1:
+        return float(s[at])
 
+    def above_level(place: float) -> float:
+        return float(size(np.array([place]))[0]) - level
 
-def _crossing(size: Callable[[FloatArray], FloatArray], level: float, inside: float, outside: float) -> float:
-    """Where ``size`` falls to ``level``, by bisection."""
-    for _ in range(HALVINGS):
-        middle = 0.5 * (inside + outside)
-        inside, outside = (middle, outside) if size(np.array([middle]))[0] >= level else (inside, middle)
-    return inside
+    ends = float(s[at]), float(s[at + 1])
+    return bracketed_root(above_level, *ends, above_level(ends[0]), above_level(ends[1]))
 
 
 def spline_of(shape: Mode | Solution) -> tuple[SplineSpace, FloatArray]:

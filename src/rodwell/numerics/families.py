@@ -201,7 +201,7 @@ class Family:
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
         energy, _ = assembly.assemble(
             self.model, space.tags, space.table, space.points, space.weights, c,
-            self.parameters(lam), self.rates(lam), gradient, mixed, band,
+            *self._on_path(lam), gradient, mixed, band,
         )  # fmt: skip
         return energy, gradient, band
 

@@ -73,11 +73,9 @@ class _Writer:
     def widened(self, x: Any) -> Any:
         """A chunk filled up with zeros."""
         count = x.type.count
-        return (
-            x
-            if count == WIDTH
-            else self.mixed(x, ir.Constant(x.type, [0.0] * count), *range(count), *[count] * (WIDTH - count))
-        )
+        if count == WIDTH:
+            return x
+        return self.mixed(x, ir.Constant(x.type, [0.0] * count), *range(count), *[count] * (WIDTH - count))
 
     def sums(self, parts: list[Any]) -> Any:
         """Vector of the sums of the numbers in each of four vectors."""
