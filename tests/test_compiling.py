@@ -9,13 +9,13 @@ import sys
 import pytest
 
 import rodwell
-from rodwell import compiling
 from rodwell.analysis import ahead
+from rodwell.compiling import second_process
 
 
 @pytest.fixture
 def no_helper(monkeypatch):
-    monkeypatch.setattr(compiling, "_helper", None)
+    monkeypatch.setattr(second_process, "_helper", None)
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
 
 
@@ -35,11 +35,11 @@ def test_each_kernel_is_announced(capsys):
 def test_waiting_ends_with_the_name_and_when_the_other_process_dies(no_helper, tmp_path, monkeypatch):
     (tmp_path / "short_lived.py").write_text("print('one', flush=True)\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    compiling.begin("short_lived")
-    compiling.wait_for("one")
-    assert "one" in compiling._helper.ready
-    compiling.wait_for("never printed")
-    assert compiling._helper.process is None
+    second_process.begin("short_lived")
+    second_process.wait_for("one")
+    assert "one" in second_process._helper.ready
+    second_process.wait_for("never printed")
+    assert second_process._helper.process is None
 
 
 def test_without_permission_to_start_processes_there_is_no_helper(no_helper, monkeypatch):
@@ -47,26 +47,26 @@ def test_without_permission_to_start_processes_there_is_no_helper(no_helper, mon
         raise PermissionError
 
     monkeypatch.setattr(subprocess, "Popen", refused)
-    compiling.begin("anything")
-    assert compiling._helper is None
-    compiling.wait_for("correct")
+    second_process.begin("anything")
+    assert second_process._helper is None
+    second_process.wait_for("correct")
 
 
 def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
     begun = []
-    monkeypatch.setattr(compiling, "begin", begun.append)
-    monkeypatch.setattr(compiling, "on_disk", lambda _kernel: False)
+    monkeypatch.setattr(second_process, "begin", begun.append)
+    monkeypatch.setattr(second_process, "on_disk", lambda _kernel: False)
     ahead.begin()
     assert begun == ["rodwell.analysis.ahead"]
-    monkeypatch.setattr(compiling, "on_disk", lambda _kernel: True)
+    monkeypatch.setattr(second_process, "on_disk", lambda _kernel: True)
     ahead.begin()
     assert len(begun) == 1
 
 
 def test_machine_code_on_disk_is_seen(tmp_path):
     script = (
-        "from rodwell import compiling; from rodwell.numerics.corrector import dot; import numpy as np;"
-        "print(compiling.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(compiling.on_disk(dot))"
+        "from rodwell.compiling import second_process; from rodwell.numerics.corrector import dot; import numpy as np;"
+        "print(second_process.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(second_process.on_disk(dot))"
     )
     run = subprocess.run(
         [sys.executable, "-c", script],

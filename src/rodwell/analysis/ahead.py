@@ -1,4 +1,4 @@
-"""What the second process of a first run compiles: see :mod:`rodwell.compiling`.
+"""What the second process of a first run compiles: see :mod:`rodwell.compiling.second_process`.
 
 ``python -m rodwell.analysis.ahead`` compiles the kernels below in the order in which a branch needs them.
 """
@@ -10,8 +10,8 @@ from typing import Any
 import numba
 from numba import types
 
-from rodwell import compiling
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
+from rodwell.compiling import second_process
 from rodwell.numerics.corrector import correct
 from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.watch import softest
@@ -44,8 +44,8 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
 
 def begin() -> None:
     """Start the second process, on the first run."""
-    if correct.stats.cache_path is not None and not compiling.on_disk(correct):
-        compiling.begin(__name__)
+    if correct.stats.cache_path is not None and not second_process.on_disk(correct):
+        second_process.begin(__name__)
 
 
 def main() -> None:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling import wait_for
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
+from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.assembly import SHARED, at_points
 from rodwell.numerics.bsplines import combine
 from rodwell.numerics.extrema import contact_maxima

@@ -121,7 +121,7 @@ def progress_bar(show: bool, first: str) -> Iterator[Progress]:
     from rich.console import Console  # noqa: PLC0415
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
-    from rodwell.compiling import on_disk  # noqa: PLC0415
+    from rodwell.compiling.second_process import on_disk  # noqa: PLC0415
     from rodwell.numerics.corrector import correct  # noqa: PLC0415
 
     note = "" if on_disk(correct) else " (first run: compiling once, some seconds)"

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.jit import formula, kernel
+from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.bsplines import combine
 from rodwell.numerics.lanes import on_lanes
 from rodwell.numerics.products import congruence, dots

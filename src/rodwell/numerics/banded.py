@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
 from rodwell.numerics.products import subtract
 
 PIVOT_FLOOR = 1e-30

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
 
 SPACING = 4.0 * np.finfo(np.float64).eps
 """Round-off in the difference of two knots, which are numbers from 0 to 1."""

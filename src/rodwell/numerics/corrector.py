@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
 from rodwell.numerics.assembly import assemble
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.ends import gather, restrict, spread

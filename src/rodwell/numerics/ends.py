@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
 
 FloatArray = NDArray[np.float64]
 

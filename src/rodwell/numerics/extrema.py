@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import formula, kernel
+from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.bsplines import basis_derivatives, find_span
 from rodwell.numerics.lanes import on_lanes
 from rodwell.numerics.products import dots

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling import wait_for
+from rodwell.compiling.second_process import wait_for
 from rodwell.numerics import assembly, banded, corrector
 from rodwell.numerics.ends import Ends, spread
 from rodwell.numerics.spaces import FloatArray, SplineSpace

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.jit import formula, kernel
+from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family, Outcome, State
 from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace

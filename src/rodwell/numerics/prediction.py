@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
 from rodwell.numerics.families import State
 from rodwell.numerics.spaces import FloatArray
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.compiling import wait_for
-from rodwell.jit import kernel
+from rodwell.compiling.kernels import kernel
+from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.banded import factorise, multiply, solve
 from rodwell.numerics.corrector import dot, symmetrise
 from rodwell.numerics.ends import gather, spread
