@@ -27,9 +27,10 @@ PURPOSE = {
     "problem": "the dimensionless problem",
     "physics": "energy, braid, closed forms; no solver",
     "numerics": "splines, Newton, continuation; no rod",
+    "quantities": "names, units, scales, text",
     "compiling": "kernels, first run",
     "errors": "messages",
-    "display": "notebooks",
+    "faces": "notebooks",
     "_version": "the version",
 }
 

@@ -24,7 +24,7 @@ from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments, plot_shapes
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
-from rodwell.problem import ENDS
+from rodwell.problem.ends import ENDS
 
 DPI = 140
 

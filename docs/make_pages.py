@@ -26,12 +26,13 @@ import make_wells
 from click.testing import CliRunner
 
 import rodwell
-from rodwell.analysis import nomenclature
 from rodwell.cli.main import cli
 from rodwell.practice import schema
 from rodwell.practice.case import SECTIONS
 from rodwell.practice.catalogue import package_catalogue
-from rodwell.practice.units import KINDS, SI, System, readable
+from rodwell.quantities import names as nomenclature
+from rodwell.quantities.text import readable
+from rodwell.quantities.units import KINDS, SI, System
 
 HERE = Path(__file__).resolve().parent
 OUT = HERE / "_generated"

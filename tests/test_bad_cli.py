@@ -304,7 +304,7 @@ def test_disk_full_over_earlier_results(rodwell: Run, monkeypatch: pytest.Monkey
 
 @pytest.mark.parametrize("command", ["critical", "liftoff"])
 def test_quick_answers_interrupted(rodwell: Run, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
-    monkeypatch.setattr("rodwell.problem.Problem.__post_init__", stopped)
+    monkeypatch.setattr("rodwell.problem.problem.Problem.__post_init__", stopped)
     code, out, err = rodwell(command, "--weight", 15, "--alpha", 90, "--json")
     assert (code, out) == (INTERRUPTED, "")
     assert "rodwell: interrupted" in err

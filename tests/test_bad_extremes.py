@@ -22,7 +22,7 @@ from rodwell import (
 )
 from rodwell.cli.main import main
 from rodwell.practice.case import CaseError
-from rodwell.practice.units import to_si
+from rodwell.quantities.units import to_si
 
 PHYSICAL = {
     "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},

@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.equilibrium import equilibrium
 from rodwell.analysis.follow import follow
+from rodwell.analysis.minimum import equilibrium
 from rodwell.errors import InputError, NotConvergedError, RodwellError
 from rodwell.practice.answer import answer
 from rodwell.practice.case import SECTIONS, Case, CaseError
-from rodwell.practice.units import KINDS, to_si
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.units import KINDS, to_si
 
 NAN, INF = math.nan, math.inf
 

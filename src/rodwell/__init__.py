@@ -18,6 +18,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from rodwell._version import __version__
+from rodwell.faces import Face, fill
 
 _HOME = {
     "Branch": "rodwell.analysis.branches",
@@ -35,7 +36,7 @@ _HOME = {
     "InputError": "rodwell.errors",
     "Mode": "rodwell.analysis.critical",
     "NotConvergedError": "rodwell.errors",
-    "Problem": "rodwell.problem",
+    "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.practice.screening",
     "Solution": "rodwell.analysis.solution",
@@ -50,7 +51,7 @@ _HOME = {
     "critical_curves": "rodwell.analysis.critical_curves",
     "critical_loads": "rodwell.analysis.critical",
     "diagram": "rodwell.analysis.diagram",
-    "equilibrium": "rodwell.analysis.equilibrium",
+    "equilibrium": "rodwell.analysis.minimum",
     "export": "rodwell.report.export",
     "follow": "rodwell.analysis.follow",
     "lift_off_curve": "rodwell.analysis.state_curves",
@@ -77,8 +78,8 @@ if TYPE_CHECKING:
     from rodwell.analysis.critical_curves import critical_curves
     from rodwell.analysis.curves import Curve
     from rodwell.analysis.diagram import Diagram, diagram
-    from rodwell.analysis.equilibrium import equilibrium
     from rodwell.analysis.follow import branch_off, follow
+    from rodwell.analysis.minimum import equilibrium
     from rodwell.analysis.modes import mode_pairs, switching_table
     from rodwell.analysis.paper_values import paper_values
     from rodwell.analysis.sensitivity import Sensitivity, sensitivities
@@ -95,8 +96,26 @@ if TYPE_CHECKING:
     from rodwell.practice.screening import Screening, screen
     from rodwell.practice.study import Study, study
     from rodwell.practice.survey import Survey
-    from rodwell.problem import Problem
+    from rodwell.problem.problem import Problem
     from rodwell.report.export import export
+
+
+def _late(module: str, name: str) -> Face:
+    """A function of a module that is imported at the first call."""
+
+    def call(result: object, *arguments: Any, **options: Any) -> Any:
+        return getattr(import_module(module), name)(result, *arguments, **options)
+
+    return call
+
+
+fill(
+    html=_late("rodwell.report.notebook", "html"),
+    plot=_late("rodwell.plots.methods", "plot"),
+    plot_in_space=_late("rodwell.plots.methods", "plot_in_space"),
+    dataset=_late("rodwell.store.dataset", "dataset"),
+    plain=_late("rodwell.store.plain", "plain"),
+)
 
 
 def __getattr__(name: str) -> Any:

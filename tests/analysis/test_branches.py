@@ -220,7 +220,7 @@ def test_on_top_the_index_of_the_branch_counts_the_ways_to_fall() -> None:
 
 
 def test_dataset_holds_every_field_with_units_and_equation(fig3c: dict[int, Branch]) -> None:
-    from rodwell.analysis.nomenclature import FIELDS, SCALARS
+    from rodwell.quantities.names import FIELDS, SCALARS
 
     data = fig3c[2].dataset
     for name in (*FIELDS, *SCALARS):

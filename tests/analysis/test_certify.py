@@ -23,7 +23,7 @@ from rodwell.analysis.modes import mode_pairs, switching_table
 from rodwell.analysis.paper_values import self_weights
 from rodwell.analysis.roots import Counter, _enclosed, critical_values
 from rodwell.physics import exact
-from rodwell.problem import ENDS
+from rodwell.problem.ends import ENDS
 
 CLAMPED = ("clamped", "clamped")
 

@@ -15,8 +15,9 @@ from click.testing import CliRunner
 import rodwell
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
-from rodwell.practice.audit import audit, compare
+from rodwell.practice.audit import audit
 from rodwell.practice.audit_map import chart_weights, error_map, hanging_coefficients
+from rodwell.practice.beside import compare
 from rodwell.practice.exact_loads import PLACES, Load, critical, exact_loads
 from rodwell.practice.formulas import FORMULAS, LEFT_OUT
 

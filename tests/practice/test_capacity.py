@@ -9,8 +9,9 @@ import pytest
 
 import rodwell
 from rodwell import Case, InputError, Problem
-from rodwell.practice.capacity import Cylinder, cylinder_stress
-from rodwell.practice.scales import Scales
+from rodwell.practice.capacity import cylinder_stress
+from rodwell.practice.cylinder import Cylinder
+from rodwell.quantities.scales import Scales
 
 
 def test_odd_modes_need_no_torque_even_ones_do() -> None:

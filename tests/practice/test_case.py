@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell import Case
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import readable, to_si
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import readable
+from rodwell.quantities.units import to_si
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -14,7 +14,8 @@ from scipy.optimize import brentq
 from scipy.special import jv
 
 from rodwell import Case, Problem, answer, critical_loads
-from rodwell.practice.audit import audit, rod_of
+from rodwell.practice.audit import audit
+from rodwell.practice.beside import rod_of
 from rodwell.practice.figures import STANDING, critical_length
 from rodwell.practice.formulas import FORMULAS
 

@@ -16,8 +16,9 @@ from rodwell.cli.main import main
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.units import axis
 from rodwell.practice.answer import Answer, answer
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import SYSTEMS, System, plain, to_si
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import plain
+from rodwell.quantities.units import SYSTEMS, System, to_si
 from rodwell.report.texts import derived, rows
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

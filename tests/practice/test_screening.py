@@ -28,7 +28,7 @@ from rodwell.practice.long_rod import (
     length_effect,
     lift_off_compression,
 )
-from rodwell.practice.screening_data import screening_dict
+from rodwell.practice.screening_plain import screening_dict
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PIPE = String(1.228e6, 241.0, 0.04445)  # 5 in, 19.5 lb/ft in 10 ppg, 8.5 in hole

@@ -25,9 +25,10 @@ from rodwell.practice import study_points
 from rodwell.practice.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
 from rodwell.practice.limits import LIFTS_OFF, YIELDS
 from rodwell.practice.study import Study, is_study
-from rodwell.practice.study_data import sentences, study_dict, study_table
-from rodwell.practice.table import Table
+from rodwell.practice.study_data import sentences, study_table
+from rodwell.practice.study_plain import study_dict
 from rodwell.practice.varied import MOST_POINTS, varied_inputs
+from rodwell.quantities.table import Table
 from rodwell.store.tables import write_csv, write_xlsx
 
 STRING: dict[str, Any] = {

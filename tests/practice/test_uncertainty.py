@@ -12,7 +12,7 @@ import pytest
 import rodwell
 from rodwell import Case, InputError
 from rodwell.analysis.sensitivity import of_critical_load
-from rodwell.practice.uncertainty import spread_of_load
+from rodwell.practice.spread import spread_of_load
 
 STRING: dict[str, Any] = {
     "rod": {

@@ -11,10 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
-from rodwell.practice.figures import Figure
+from rodwell.practice.figure import Figure
 from rodwell.practice.meaning import sentences
-from rodwell.practice.units import System
-from rodwell.practice.wording import amount, certain, force_text, percent, place_text, quantity
+from rodwell.practice.wording import force_text, place_text, quantity
+from rodwell.quantities.text import amount, certain, percent
+from rodwell.quantities.units import System
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "drill-string.toml"
 CASE = {

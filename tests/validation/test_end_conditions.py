@@ -17,7 +17,7 @@ import scipy.linalg
 
 from rodwell import Branch, Problem, critical_loads, follow
 from rodwell.analysis.measures import Measured
-from rodwell.problem import ENDS
+from rodwell.problem.ends import ENDS
 
 PI2 = math.pi**2
 PAIRS = list(itertools.product(ENDS, ENDS))

@@ -12,10 +12,7 @@ POINTS_OF_BRANCH = DEGREE - 3
 """Gauss points in each element of the meshes of branches. Two less than make φ″φ″ exact: with splines this smooth,
 errors of neighbouring elements cancel, and every number keeps its error; with one less, the end curvatures do not."""
 
-RTOL = 1e-8
-"""Default relative tolerance of every reported number."""
 
-LOWEST_RTOL, HIGHEST_RTOL = 1e-11, 1e-2
 MOST_ELEMENTS = 40_000
 """Elements allowed for critical loads."""
 
@@ -25,8 +22,6 @@ MOST_ELEMENTS_OF_BRANCH = 4_000
 MOST_WORK = 1.5e6
 """Elements times solves allowed for one branch: about 20 s."""
 
-LARGEST_FORCE = 1e9
-"""Largest end force, in B/L², that may be asked for."""
 
 ELEMENTS_PER_RADIAN = 0.85
 """Density of the first mesh of a branch, per radian of the local wavenumber."""
@@ -35,18 +30,6 @@ LINEAR_ELEMENTS_PER_RADIAN = 0.8
 """The same for critical loads: an eigenvalue converges with order 2(degree − 1), twice as fast as the shape."""
 
 
-def checked_rtol(rtol: float) -> float:
-    """Return a tolerance that double precision can meet, or raise."""
-    allowed = f"from {LOWEST_RTOL:g} (what double precision allows) to {HIGHEST_RTOL:g}"
-    return checked_number("rtol", rtol, LOWEST_RTOL, HIGHEST_RTOL, allowed)
-
-
 def checked_step(largest_step: float) -> float:
     """Return a longest step of continuation that can be asked for, or raise."""
     return checked_number("largest_step", largest_step, 1e-4, 1.0, "from 0.0001 to 1")
-
-
-def checked_force(field: str, value: object) -> float:
-    """Return an end force that can be asked for, or raise."""
-    allowed = f"a finite end force in B/L², tension positive, of at most {LARGEST_FORCE:g} either way"
-    return checked_number(field, value, -LARGEST_FORCE, LARGEST_FORCE, allowed)

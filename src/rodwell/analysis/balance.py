@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import fields_at
 from rodwell.analysis.measures import shape
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.frames import frames
 from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
-from rodwell.problem import Problem
-
-if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 ENERGIES = ("bending_energy", "twist_energy", "lateral_energy", "axial_energy", "end_work")
 """Names of the energies; bending + lateral + axial − end work is the energy that is stationary."""
@@ -48,7 +45,7 @@ class Reaction:
     moment_error: FloatArray
 
 
-def energies(solution: Solution) -> dict[str, tuple[float, float]]:
+def energies(solution: Equilibrium) -> dict[str, tuple[float, float]]:
     """Energies in B/L relative to the straight, equally twisted rod, each with its error estimate; see ``ENERGIES``."""
     coarse, fine = (_energies(solution.problem, f, state) for f, state in solution.levels)
     return {k: (fine[k], float(estimated_error(fine[k], coarse[k]))) for k in ENERGIES}
@@ -69,7 +66,7 @@ def _energies(problem: Problem, family: Family, state: State) -> dict[str, float
     }
 
 
-def reactions(solution: Solution) -> tuple[Reaction, ...]:
+def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:
     """What the supports exert on rod and cylinder at s = 0 and s = 1.
 
     The part of rod or cylinder towards larger s exerts F⁽ⁱ⁾, M⁽ⁱ⁾ on the part towards smaller s, so a support at s = 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,24 +10,24 @@ import numpy as np
 
 from rodwell.analysis.critical import EULER, Mode
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.special import END, LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, index_at_start, special_points
+from rodwell.analysis.solution import Solution, solution_of
+from rodwell.analysis.special import LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, index_at_start
 from rodwell.analysis.symmetry import Reflection, images
-from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_number
+from rodwell.faces import Shown, drawn, face
 from rodwell.numerics.continuation import Trace
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
 from rodwell.numerics.location import LocationError, Span, locate
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import FORCE
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
 
-    from rodwell.practice.scales import Scales
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
 
 
 class Branch(Shown):
@@ -44,6 +43,8 @@ class Branch(Shown):
         Its name and where it comes from.
     special_points
         In order of travel.
+    trace
+        Points and ladders as continuation left them: for what goes on from here.
     reached_end
         Whether it was followed to where it was asked to end.
     ended_because
@@ -51,21 +52,28 @@ class Branch(Shown):
     """
 
     def __init__(
-        self, problem: Problem, origin: Origin, result: Trace, reached: bool, why: str, parameter: str = "force"
+        self,
+        problem: Problem,
+        origin: Origin,
+        trace: Trace,
+        special_points: tuple[SpecialPoint, ...],
+        reached: bool,
+        why: str,
+        parameter: str = "force",
     ) -> None:
         self.problem, self.origin, self.parameter = problem, origin, parameter
-        self._trace = result
+        self.trace = trace
+        self.special_points = special_points
         self._solutions: dict[int, Solution] = {}
         self.reached_end, self.ended_because = reached, why
-        self.special_points = special_points(self, result)
 
     def __len__(self) -> int:
-        return len(self._trace.points)
+        return len(self.trace.points)
 
     def __getitem__(self, i: int) -> Solution:
         i = range(len(self))[i]  # refuses what lies outside
         if i not in self._solutions:  # kept: with it the certificate, once asked for
-            self._solutions[i] = self.solution(self._trace.points[i], self._trace.ladders[i])
+            self._solutions[i] = self.solution(self.trace.points[i], self.trace.ladders[i])
         return self._solutions[i]
 
     def __iter__(self) -> Iterator[Solution]:
@@ -88,20 +96,20 @@ class Branch(Shown):
     @cached_property
     def values(self) -> FloatArray:
         """The parameter at each point, (n,)."""
-        return np.array([p.lam for p in self._trace.points])
+        return np.array([p.lam for p in self.trace.points])
 
     @cached_property
     def force(self) -> FloatArray:
         """End force F at s = 1 in B/L², tension positive, (n,)."""
-        pairs = zip(self._trace.points, self._trace.ladders, strict=True)
+        pairs = zip(self.trace.points, self.trace.ladders, strict=True)
         return np.array([ladder.fine.parameters(p.lam)[FORCE] for p, ladder in pairs])
 
     @cached_property
     def stability_index(self) -> FloatArray:
         """Stability index of each point, (n,): 0 is stable under dead loads, for a rod kept on the wall."""
-        index = np.array([p.fine.index for p in self._trace.points])
+        index = np.array([p.fine.index for p in self.trace.points])
         if self.origin.switched and len(index) > 1:
-            index[0] = index_at_start(self._trace)
+            index[0] = index_at_start(self.trace)
         return index
 
     @property
@@ -119,15 +127,15 @@ class Branch(Shown):
     @property
     def last(self) -> tuple[Ladder, Point]:
         """Ladder and state of the last point, from which the branch can be continued."""
-        return self._trace.ladders[-1], self._trace.points[-1]
+        return self.trace.ladders[-1], self.trace.points[-1]
 
     def numbers(self, which: Measured) -> FloatArray:
         """Measured numbers of all points, (n,)."""
-        return np.array([p.values[which] for p in self._trace.points])
+        return np.array([p.values[which] for p in self.trace.points])
 
     def errors(self, which: Measured) -> FloatArray:
         """Error estimates of :meth:`numbers`, (n,)."""
-        return np.array([p.error[which] for p in self._trace.points])
+        return np.array([p.error[which] for p in self.trace.points])
 
     @cached_property
     def certificates(self) -> FloatArray:
@@ -140,7 +148,7 @@ class Branch(Shown):
 
         Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
         """
-        rtol = self._trace.ladders[0].rtol
+        rtol = self.trace.ladders[0].rtol
         return all(solution.converged for solution in self) and all(
             p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
         )
@@ -217,8 +225,8 @@ class Branch(Shown):
 
     def _spans(self, i: int) -> tuple[Ladder, tuple[Span, Span]]:
         """The stretch of the branch between points i and i+1 on both meshes."""
-        ladder, last = self._trace.ladders[i + 1], self._trace.points[i + 1]
-        _, first = ladder.adopt(self._trace.ladders[i], self._trace.points[i])
+        ladder, last = self.trace.ladders[i + 1], self.trace.points[i + 1]
+        _, first = ladder.adopt(self.trace.ladders[i], self.trace.points[i])
         if first is None:
             raise LocationError("the point before it could not be solved on a finer mesh")
         return ladder, (Span(ladder.coarse, first.coarse, last.coarse), Span(ladder.fine, first.fine, last.fine))
@@ -231,10 +239,9 @@ class Branch(Shown):
 
     @cached_property
     def dataset(self) -> xr.Dataset:
-        """All points as an xarray Dataset: see :func:`rodwell.analysis.dataset.branch_dataset`."""
-        from rodwell.analysis.dataset import branch_dataset  # noqa: PLC0415
-
-        return branch_dataset(self)
+        """All points as an xarray Dataset: see :func:`rodwell.store.dataset.branch_dataset`."""
+        data: xr.Dataset = face("dataset")(self)
+        return data
 
     def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
         """Draw the bifurcation diagram of this branch and its images: end curvature against end compression.
@@ -257,25 +264,9 @@ class Branch(Shown):
 
     def solution(self, point: Point, ladder: Ladder) -> Solution:
         """Return the solution of a state of this branch, or of one between its points."""
-        problem = self.problem
-        if self.parameter != "force":
-            problem = problem.but(**{self.parameter: point.lam})
-        return Solution(problem, point, ladder)
+        return solution_of(self.problem, self.parameter, point, ladder)
 
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""
-        return Branch(self.problem, origin, self._trace, self.reached_end, self.ended_because, self.parameter)
-
-
-def continued(branch: Branch, result: Trace, reached: bool, why: str) -> Branch:
-    """Return ``branch`` followed by ``result``, a trace from its last point."""
-    old = branch._trace
-    merged = replace(
-        old,
-        points=old.points[:-1] + result.points,
-        ladders=old.ladders[:-1] + result.ladders,
-        found=[f for f in old.found if f.name != END]
-        + [replace(f, after=f.after + len(old.points) - 1) for f in result.found],
-        end=result.end,
-    )
-    return Branch(branch.problem, branch.origin, merged, reached, why, branch.parameter)
+        ending = self.reached_end, self.ended_because
+        return Branch(self.problem, origin, self.trace, self.special_points, *ending, self.parameter)

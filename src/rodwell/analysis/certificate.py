@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import element_fields, gauss_calculus
 from rodwell.analysis.measures import shape
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics import paper
 from rodwell.physics.paper import NAMES, NUMBERS, Fifteen, Load
+from rodwell.quantities.arrays import FloatArray
 
 if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
-    from rodwell.problem import Problem
+    from rodwell.problem.problem import Problem
 
 LIMIT = 1e-7
 """Largest certificate of a solution that counts as converged, at tolerances of 1e-8 and below."""
@@ -101,7 +101,7 @@ def load_of(problem: Problem, force: float) -> Load:
     )
 
 
-def certify(solution: Solution) -> Certificate:
+def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
     half, fields = element_fields(solution.problem, solution.ladder.fine, solution.point.fine)
     derivative = gauss_calculus()[3]
@@ -165,7 +165,7 @@ def _torque(fields: dict[str, FloatArray], problem: Problem) -> float:
     return float(np.max(np.abs(fields["T2"] - fields["T2_by_moments"]))) / (scale + _TINY)
 
 
-def _work_and_energy(solution: Solution, load: Load) -> float:
+def _work_and_energy(solution: Equilibrium, load: Load) -> float:
     """Rate of the stored energy (strain and height) along the branch, against the power of the end loads.
 
     Along a branch the rod moves by u = dy/dλ. The bending moments ω₂, ω₃ work on the curvatures, the weight on the

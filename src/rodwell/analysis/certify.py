@@ -20,7 +20,7 @@ from rodwell.analysis.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics import exact_horizontal as horizontal
 from rodwell.physics import exact_vertical as vertical
-from rodwell.problem import Problem, ends_text
+from rodwell.problem.problem import Problem, ends_text
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from rodwell.analysis.accuracy import RTOL, checked_force
 from rodwell.analysis.branches import Branch
-from rodwell.analysis.equilibrium import equilibrium
 from rodwell.analysis.follow import LARGEST_STEP, follow
+from rodwell.analysis.minimum import equilibrium
 from rodwell.analysis.special import Origin
 from rodwell.analysis.tracing import Progress
 from rodwell.errors import InputError
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL, checked_force
 
 REACH = 8.0
 """Without ``until``, a coil is followed to this many times (2πn)², the scale of load of n turns."""

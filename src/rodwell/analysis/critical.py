@@ -7,24 +7,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.accuracy import (
-    MOST_ELEMENTS,
-    RTOL,
-    checked_rtol,
-)
+from rodwell.analysis.accuracy import MOST_ELEMENTS
 from rodwell.analysis.families import parameters, spline_ends
 from rodwell.analysis.meshes import linear_space, wkb_load
-from rodwell.display import Shown, drawn
 from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.faces import Shown, drawn
 from rodwell.numerics import eigen
-from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
+from rodwell.numerics.spaces import Prolongation, SplineSpace
 from rodwell.physics.linear import second_variation
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from rodwell.practice.scales import Scales
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
 
 MOST_MODES = 200
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import EULER, MOST_MODES, Mode, critical_loads
 from rodwell.analysis.curves import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.location import bracketed_root
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 SMOOTH = 1e-5
 """Relative to the range of loads: how far a point may lie from the cubic through its neighbours."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.curve_points import Guess, Solved
-from rodwell.numerics.spaces import FloatArray, Prolongation
+from rodwell.numerics.spaces import Prolongation
+from rodwell.quantities.arrays import FloatArray
 
 BECOMES_STRAIGHT = "the buckled rod becomes straight"
 STRAIGHT = 1e-3

@@ -15,7 +15,8 @@ from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.spaces import FloatArray, Prolongation
+from rodwell.numerics.spaces import Prolongation
+from rodwell.quantities.arrays import FloatArray
 
 MOST_REFINEMENTS = 3
 

@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodwell.analysis.dataset import Variable
-from rodwell.analysis.nomenclature import UNITS
 from rodwell.analysis.solution import Solution
-from rodwell.display import drawn
 from rodwell.errors import InputError, checked_number
-from rodwell.numerics.spaces import FloatArray
-from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem, ends_text
+from rodwell.faces import drawn
+from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem, ends_text
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.names import UNITS
+from rodwell.quantities.table import Variable
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
+
+    from rodwell.faces import Axes
 
 OVER = ("weight", "alpha", "clearance", "twist")
 """Parameters over which curves can be traced."""

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis import ahead
-from rodwell.analysis.accuracy import RTOL, checked_force, checked_rtol, checked_step
+from rodwell.analysis.accuracy import checked_step
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.coiled import coil
 from rodwell.analysis.critical import MOST_MODES, CriticalLoads, critical_loads
@@ -17,16 +17,17 @@ from rodwell.analysis.families import PATHS
 from rodwell.analysis.follow import LARGEST_STEP, checked_end
 from rodwell.analysis.special import SpecialPoint
 from rodwell.analysis.symmetry import Reflection
-from rodwell.display import drawn
 from rodwell.errors import InputError, checked_whole
-from rodwell.problem import Problem, ends_text
+from rodwell.faces import drawn
+from rodwell.problem.problem import Problem, ends_text
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
 
     from rodwell.analysis.measures import Measured
-    from rodwell.practice.scales import Scales
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
 
 MODES = 4
 """Default number of primary branches."""
@@ -96,7 +97,7 @@ class Diagram:
 
     @cached_property
     def datasets(self) -> dict[str, xr.Dataset]:
-        """Each branch as an xarray Dataset, by name: see :func:`rodwell.analysis.dataset.branch_dataset`."""
+        """Each branch as an xarray Dataset, by name: see :func:`rodwell.store.dataset.branch_dataset`."""
         return {branch.name: branch.dataset for branch in self.branches}
 
     def as_dict(self) -> dict[str, Any]:

@@ -1,97 +1,123 @@
-"""A single state at a given end force, found by minimising the energy: coiled rods, or buckled ones."""
+"""One equilibrium as a record: the state on both meshes, and the numbers and fields read off it, with their errors."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 
-from rodwell.analysis import ahead
-from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH, RTOL, checked_force, checked_rtol
-from rodwell.analysis.families import family as equilibria
-from rodwell.analysis.measures import measured_ladder
-from rodwell.analysis.meshes import first_space
-from rodwell.analysis.solution import Solution
-from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family, Outcome, State
-from rodwell.numerics.minimise import minimise
-from rodwell.numerics.spaces import FloatArray
-from rodwell.problem import Problem
-
-LOPSIDED = 0.3
-"""How far, in radians around the cylinder, the search for an unsymmetric coil starts from the symmetric one."""
+from rodwell.analysis.fields import GRID, end_force, fields_at, largest, total_wall_force
+from rodwell.analysis.measures import Measured, pressure_maxima
+from rodwell.numerics.families import Family, State
+from rodwell.numerics.ladder import Ladder, Point, estimated_error
+from rodwell.physics.parameters import FORCE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 
-STEEP = 0.45
-"""Slope of the even winding from which one with level ends, twice as steep at its middle, would turn across."""
+@dataclass(frozen=True)
+class Equilibrium:
+    """An equilibrium of ``problem``; all numbers are in units B = L = 1.
 
-
-def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
-    """Stable state of a coiled rod (``problem.turns`` ≠ 0) at an end force, by minimising its energy.
-
-    The search starts from the even winding y = 2πnΔ (s − sin 2πs/2π) and goes downhill: the state found is a
-    minimum under dead loads among states on the wall. Without turns, that is the straight rod.
-
-    Parameters
+    Attributes
     ----------
     problem
-        The rod; ``turns`` sets how often its end is carried around the cylinder.
-    force
-        End force F at s = 1 in B/L², tension positive.
-    rtol
-        Relative tolerance.
-
-    Raises
-    ------
-    InputError
-        If ``force`` is not finite, or a straight rod is asked for.
-    NotConvergedError
-        If no minimum was found, with the reason.
+        The problem.
+    point
+        The state on both meshes, with the measured numbers and their errors.
+    ladder
+        Its equations on both meshes.
     """
-    ahead.begin()
-    rtol = checked_rtol(rtol)
-    force = checked_force("force", force)
-    if problem.turns == 0:
-        raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
-    family, outcome, coarse = _odd_or_any(problem, force)
-    if coarse is None:
-        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
-    outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
-    if point is None:
-        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
-    return Solution(problem, ladder.at(point, force) or point, ladder)
 
+    problem: Problem
+    point: Point
+    ladder: Ladder
 
-def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State | None]:
-    """A minimum of the energy: odd about mid-length if the problem allows that and it is stable, else of any shape."""
-    space = first_space(problem, min(force, 0.0), max(force, 0.0))
-    wavenumber = 2.0 * np.pi * abs(problem.turns)
-    for parity in (-1, 0) if problem.symmetric else (0,):
-        scale = max(abs(force), wavenumber**2)
-        family = equilibria(problem, space, parity=parity, wavenumber=wavenumber, scale=scale)
-        start = _winding(problem, family)
-        if parity < 0:  # steps are kept odd: what is even in the start, if only by round-off, would stay
-            start = 0.5 * (start - start[::-1])
-        if parity == 0 and problem.symmetric:  # the odd one is no minimum: leave its symmetry
-            bump = problem.clearance * np.sin(np.pi * space.points) ** 2
-            start = start + LOPSIDED * space.project(bump, family.ends)
-        outcome, c = minimise(family, start, force)
-        if outcome is Outcome.CONVERGED:
-            outcome, state, _ = family.at(c, force)
-            if state is not None:
-                return family, outcome, state
-    return family, outcome, None
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} at F = {self.force:.10g} B/L², stability index {self.stability_index}>"
 
+    @property
+    def force(self) -> float:
+        """End force F at s = 1 in B/L², tension positive."""
+        return float(self.ladder.fine.parameters(self.point.lam)[FORCE])
 
-def _winding(problem: Problem, family: Family) -> FloatArray:
-    """Coefficients of a winding that is level at both ends, less the even one, y = 2πnΔ s.
+    @property
+    def stability_index(self) -> int:
+        """Number of negative eigenvalues of the energy's second variation under dead loads F and T₁."""
+        return self.point.fine.index
 
-    What the ends hold stands in the outermost coefficients: a linear function has the value of the ramp at the
-    Greville abscissae, so a level end is one whose first two values are those of the end less the ramp there.
-    """
-    space, held = family.space, family.ends
-    end = problem.rise
-    if problem.ends == ("pinned", "pinned") and abs(end) >= STEEP:
-        return np.zeros(space.size)  # the even winding itself
-    level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
-    kept = level - end * space.greville
-    gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]
-    return kept + space.project(gap, held)
+    @property
+    def stable(self) -> bool:
+        """Whether the state is a minimum of the energy among states on the wall, under dead loads."""
+        return self.stability_index == 0
+
+    @property
+    def accurate(self) -> bool:
+        """Whether every measured number meets the tolerance asked for."""
+        return self.point.accurate
+
+    @property
+    def levels(self) -> tuple[tuple[Family, State], tuple[Family, State]]:
+        """Equations and state on the coarse and on the fine mesh."""
+        ladder, point = self.ladder, self.point
+        return (ladder.coarse, point.coarse), (ladder.fine, point.fine)
+
+    def value_of(self, parameter: str) -> float:
+        """Value of a parameter of :data:`rodwell.analysis.families.PATHS`."""
+        return self.force if parameter == "force" else float(getattr(self.problem, parameter))
+
+    def number(self, which: Measured) -> tuple[float, float]:
+        """Return a measured number and its error estimate."""
+        return float(self.point.values[which]), float(self.point.error[which])
+
+    @cached_property
+    def highest_pressure(self) -> tuple[float, float, tuple[float, ...]]:
+        """Largest contact pressure max p (negative: in contact everywhere), its error, and where.
+
+        More than one place if they agree to within the error (or to eight digits).
+        """
+        places, values, lowest = pressure_maxima(self.ladder.fine, self.point.fine)
+        top, error = self.number(Measured.P_MAX)
+        within = max(2.0 * error, 1e-8 * max(abs(top), abs(lowest)))
+        return top, error, tuple(float(s) for s in places[values >= top - within])
+
+    def fields(self, s: FloatArray | int = GRID) -> dict[str, FloatArray]:
+        """Fields along the rod at ``s`` (m,), or at that many evenly spaced places; names as in nomenclature."""
+        places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
+        return fields_at(self.problem, self.ladder.fine, self.point.fine, places)
+
+    def field_errors(self, s: FloatArray | int = GRID) -> dict[str, float]:
+        """Error estimate of each field, the largest over ``s``: from the two nested meshes."""
+        return self.fields_with_errors(s)[1]
+
+    def fields_with_errors(self, s: FloatArray | int = GRID) -> tuple[dict[str, FloatArray], dict[str, float]]:
+        """Return :meth:`fields` and :meth:`field_errors` together."""
+        places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
+        coarse, fine = (fields_at(self.problem, f, state, places) for f, state in self.levels)
+        return fine, {k: float(np.max(estimated_error(fine[k], coarse[k]))) for k in fine}
+
+    def largest(self, name: str) -> tuple[float, float, float]:
+        """Largest size of a field over s, its error estimate, and where (the first place, if there are more)."""
+        values, places = zip(*(largest(self.problem, f, state, name) for f, state in self.levels), strict=True)
+        return values[1], float(estimated_error(values[1], values[0])), places[1]
+
+    @cached_property
+    def end_reactions(self) -> dict[str, tuple[float, float]]:
+        """What the fitting at s = 1 exerts on the rod across the axis, each with its error estimate.
+
+        ``shear``: circumferential force in B/L², at a clamped end F₃(1) = ω₂′(1) along u₁; ``moment``: bending moment
+        M₂(1) = ω₂(1) in B/L, about d₁. What the end does not hold is zero. The axial force there is F, the twisting
+        moment −T₁.
+        """
+        coarse, fine = (end_force(f, state) for f, state in self.levels)
+        return {
+            "shear": (fine.shear, float(estimated_error(fine.shear, coarse.shear))),
+            "moment": (fine.omega2, float(estimated_error(fine.omega2, coarse.omega2))),
+        }
+
+    @cached_property
+    def total_wall_force(self) -> tuple[float, float]:
+        """∫|p| ds, the contact force with all directions added, and its error estimate."""
+        totals = [total_wall_force(f, state) for f, state in self.levels]
+        return totals[1], float(estimated_error(totals[1], totals[0]))

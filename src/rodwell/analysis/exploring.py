@@ -14,7 +14,7 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.symmetry import images
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
 
 MOST_SECONDARY = 60
 """Secondary branches followed at most; more end the diagram, with a message."""

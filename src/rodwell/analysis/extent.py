@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from rodwell.analysis.critical import Mode
+from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import largest_of
 from rodwell.numerics.location import bracketed_root
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-
-if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.quantities.arrays import FloatArray
 
 FADED = 1e-3
 """Part of the largest deflection below which a rod counts as straight."""
@@ -23,7 +20,7 @@ LOOKS = 16
 FIRST_WINDOW = 8
 
 
-def buckled_to(shape: Mode | Solution) -> float:
+def buckled_to(shape: Mode | Equilibrium) -> float:
     """Return the last place s/L at which a shape deflects by :data:`FADED` of its largest deflection.
 
     Beyond it |y(s)| < 10⁻³ max |y|. 1 for a shape that deflects at its end s = 1, 0 for the straight rod.
@@ -60,7 +57,7 @@ def buckled_to(shape: Mode | Solution) -> float:
     return bracketed_root(above_level, *ends, above_level(ends[0]), above_level(ends[1]))
 
 
-def spline_of(shape: Mode | Solution) -> tuple[SplineSpace, FloatArray]:
+def spline_of(shape: Mode | Equilibrium) -> tuple[SplineSpace, FloatArray]:
     """Space and coefficients of y(s), on the finer mesh of a state."""
     if isinstance(shape, Mode):
         return shape.space, shape.coefficients

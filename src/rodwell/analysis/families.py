@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family
-from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.numerics.spaces import SplineSpace
 from rodwell.physics.model import RodOnCylinder
 from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
-from rodwell.problem import Problem
-
-if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 HELD = {"clamped": (2, False), "pinned": (1, False), "guided": (1, True), "free": (0, False)}
 """Of the first two spline coefficients at an end, how many are held, and whether the outermost follows the next."""
@@ -57,11 +53,6 @@ def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
         which = {"force": FORCE, "clearance": CLEARANCE, "twist": TWIST}[parameter]
         out[1, which], out[0, which] = 1.0, 0.0
     return out
-
-
-def parameter_value(solution: Solution, parameter: str) -> float:
-    """Value of a parameter of :data:`PATHS` at a state."""
-    return solution.force if parameter == "force" else float(getattr(solution.problem, parameter))
 
 
 def _per_weight(problem: Problem) -> tuple[float, float]:

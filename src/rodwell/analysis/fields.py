@@ -9,10 +9,11 @@ import numpy as np
 
 from rodwell.analysis.measures import shape
 from rodwell.numerics.families import Family, State
-from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.numerics.spaces import SplineSpace
 from rodwell.physics import braid
 from rodwell.physics.strand import contact_pressure
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 GRID = 201
 """Places along the rod at which fields are reported by default."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rodwell.analysis import ahead
-from rodwell.analysis.accuracy import MOST_WORK, RTOL, checked_force, checked_rtol, checked_step
-from rodwell.analysis.branches import Branch, continued
+from rodwell.analysis.accuracy import MOST_WORK, checked_step
+from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import MOST_MODES, Mode, critical_loads
-from rodwell.analysis.families import PATHS, parameter_value
+from rodwell.analysis.families import PATHS
+from rodwell.analysis.making import continued, made
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import (
     BRANCH_POINT,
@@ -22,7 +23,8 @@ from rodwell.analysis.starts import at_branch_point, at_critical, at_state
 from rodwell.analysis.tracing import Progress, traced
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.continuation import Stepping
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 
 LARGEST_STEP = 0.06
 """Default of the longest step: one unit is an amplitude of about 1 rad, or the whole range of the parameter."""
@@ -142,7 +144,7 @@ def _from_straight(
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
     origin = Origin(f"mode {found.number}" + (", mirror arm" if mirror else ""), found, switched=True)
-    return Branch(problem, origin, result, reached, result.end)
+    return made(problem, origin, result, reached, result.end)
 
 
 def _from_state(
@@ -159,13 +161,13 @@ def _from_state(
     until = checked_end(problem, parameter, until)
     if start.problem != problem:
         raise InputError("start", start.problem, "belongs to another problem")
-    if until == parameter_value(start, parameter):
+    if until == start.value_of(parameter):
         raise InputError("until", until, "must differ from the value at the start")
     stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
     begin = at_state(problem, start, parameter, until, rtol)
     result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=progress)
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
-    return Branch(problem, origin, result, result.end == END, result.end, parameter)
+    return made(problem, origin, result, result.end == END, result.end, parameter)
 
 
 def checked_end(problem: Problem, parameter: str, until: float) -> float:
@@ -219,7 +221,7 @@ def branch_off(
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return Branch(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
+    return made(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:

@@ -10,16 +10,13 @@ material frame is the braid frame turned about t₁ by −ξ₁. Its rate of tur
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.errors import InputError, checked_number, checked_whole
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.frames import frames
-
-if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
+from rodwell.quantities.arrays import FloatArray
 
 DISPLAY_RADIUS = 0.2
 """Radius of the rod against Δ where none is known: the dimensionless problem has no radius."""
@@ -113,7 +110,7 @@ class Geometry:
 
 
 def geometry(
-    solution: Solution,
+    solution: Equilibrium,
     places: int | None = None,
     *,
     rod_radius: float | None = None,
@@ -158,7 +155,7 @@ def readable_scale(fields: dict[str, FloatArray], reach: float) -> float:
     return float(max(1.0, np.floor(scale / digit) * digit))
 
 
-def checked_radius(solution: Solution, given: float | None, fields: dict[str, FloatArray]) -> float:
+def checked_radius(solution: Equilibrium, given: float | None, fields: dict[str, FloatArray]) -> float:
     """Return the rod's radius in L, or raise: it must fit the cylinder, and bends must not close on themselves."""
     clearance = solution.problem.clearance
     if given is None:
@@ -174,7 +171,7 @@ def checked_radius(solution: Solution, given: float | None, fields: dict[str, Fl
     return radius
 
 
-def _places(solution: Solution, places: int | None) -> int:
+def _places(solution: Equilibrium, places: int | None) -> int:
     if places is not None:
         return checked_whole("places", places, FEWEST_PLACES, MOST_PLACES)
     elements = solution.ladder.fine.space.breaks.size - 1
@@ -192,7 +189,7 @@ def _running(rate: FloatArray, s: FloatArray) -> FloatArray:
     return np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(s))])
 
 
-def _lift_off(solution: Solution, fields: dict[str, FloatArray]) -> tuple[float, ...]:
+def _lift_off(solution: Equilibrium, fields: dict[str, FloatArray]) -> tuple[float, ...]:
     top, error, places = solution.highest_pressure
     size = float(np.max(np.abs(fields["contact_pressure"])))
     straight = not np.any(fields["y"])  # nothing lifts off by itself where nothing presses either

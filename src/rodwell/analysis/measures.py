@@ -16,8 +16,8 @@ from rodwell.numerics.extrema import contact_maxima
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder
 from rodwell.numerics.lanes import on_lanes
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
+from rodwell.quantities.arrays import FloatArray
 
 NEAR_THE_TOP = 0.05
 """Sampled maxima of the contact pressure within this part of its range from the highest are refined."""

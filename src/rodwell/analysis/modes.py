@@ -9,7 +9,7 @@ from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.physics.exact_horizontal import Switching, pair_loads, switching, switchings
-from rodwell.problem import LIMITS, Problem
+from rodwell.problem.problem import LIMITS, Problem
 
 MOST_PAIRS = 50
 MOST_WAVES = 200

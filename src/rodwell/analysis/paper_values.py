@@ -21,7 +21,7 @@ from rodwell.analysis.inertia import Rod, inertia
 from rodwell.analysis.roots import Counter, critical_values
 from rodwell.errors import NotConvergedError
 from rodwell.physics import exact_vertical as vertical
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""

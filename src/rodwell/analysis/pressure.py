@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.families import parameter_value
 from rodwell.analysis.measures import shape
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.starts import at_state
@@ -25,7 +24,7 @@ def pressure_rates(
     p carries the sign that makes contact negative. Returns the rates and the estimates of their errors: from the two
     meshes and from twice the step.
     """
-    here = parameter_value(solution, parameter)
+    here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size
     ladder, point = at_state(solution.problem, solution, parameter, here + size, solution.ladder.rtol)

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import Mode, critical_loads
 from rodwell.analysis.follow import follow
 from rodwell.analysis.pressure import pressure_rates
@@ -24,8 +23,10 @@ from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import InputError, checked_whole
 from rodwell.numerics.ladder import ROUND_OFF
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-from rodwell.problem import Problem
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 PARAMETERS = ("weight", "alpha", "clearance")
 """The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L."""

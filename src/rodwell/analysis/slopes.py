@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-from rodwell.problem import Problem
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 
 def load_slope(space: SplineSpace, coefficients: FloatArray, axial: float, foundation: float) -> float:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.solution import Solution
 from rodwell.numerics.continuation import Trace
-from rodwell.numerics.events import INDEX, TURN, Found
+from rodwell.numerics.events import INDEX, TURN
 from rodwell.numerics.families import Outcome
-
-if TYPE_CHECKING:
-    from rodwell.analysis.branches import Branch
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
 EQUAL_ENERGY = "equal_energy"
@@ -105,57 +102,8 @@ class Origin:
     parent: str | None = None
 
 
-def special_points(branch: Branch, trace: Trace) -> tuple[SpecialPoint, ...]:
-    """Return the special points of a branch, made of what continuation found, in order of travel.
-
-    Its start is one where it is shared with another branch, and its end always is.
-    """
-    out = [_start(branch, trace)] if branch.origin.switched else []
-    met = trace.found[-1:] if trace.end in (REJOINS, STRAIGHT) else []
-    for found in trace.found:
-        if found.name in KINDS:
-            out.append(_special(branch, found, met=any(found is m for m in met)))
-    if not out or out[-1].kind != END:
-        point, number = trace.points[-1], len(trace.points) - 1
-        last = branch.solution(point, trace.ladders[-1])
-        index = trace.found[-1].index_after if met else last.stability_index
-        out.append(SpecialPoint(END, last.force, point.lam, 0.0, (), index, index, last, number, branch.parameter))
-    return tuple(out)
-
-
 def index_at_start(trace: Trace) -> int:
     """Return the index just after the start of a branch whose first point is a state of the branch that it leaves."""
     changes = [found for found in trace.found if found.name == INDEX]
     after_first = trace.points[min(1, len(trace.points) - 1)].fine.index
     return changes[0].index_before if changes else int(after_first)
-
-
-def _start(branch: Branch, trace: Trace) -> SpecialPoint:
-    """The point where the branch leaves another one, or the straight rod."""
-    point = trace.points[0]
-    first = branch.solution(point, trace.ladders[0])
-    lifts = branch.lift_off_at_buckling and len(trace.points) > 1
-    places = branch[1].highest_pressure[2] if lifts else ()
-    kind, error = BRANCH_POINT, float(point.lam_gap)
-    if branch.mode is not None:
-        kind, error = CRITICAL, branch.mode.error
-    before, index = point.fine.index, int(branch.stability_index[0])
-    return SpecialPoint(kind, first.force, point.lam, error, places, before, index, first, 0, branch.parameter)
-
-
-def _special(branch: Branch, found: Found, *, met: bool) -> SpecialPoint:
-    """What was found between two points; ``met``: the branch ends there, at another one."""
-    solution = branch.solution(found.point, found.ladder)
-    kind = found.name
-    if kind == INDEX:
-        kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
-    elif kind == TURN:
-        kind = BRANCH_POINT if met else FOLD
-    elif kind == LIFT_OFF and not found.rising:
-        kind = TOUCH_DOWN
-    places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
-    error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
-    index = found.index_before, found.index_after
-    return SpecialPoint(
-        kind, solution.force, found.point.lam, error, places, *index, solution, found.after, branch.parameter
-    )

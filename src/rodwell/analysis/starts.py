@@ -8,7 +8,7 @@ import numpy as np
 
 from rodwell.analysis.accuracy import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.critical import Mode
-from rodwell.analysis.families import family, parameter_value
+from rodwell.analysis.families import family
 from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
@@ -18,8 +18,9 @@ from rodwell.numerics.corrector import symmetrise
 from rodwell.numerics.events import INDEX, NEARLY, Found, events_between
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-from rodwell.problem import Problem
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 Start = tuple[Ladder, Point]
 
@@ -74,7 +75,7 @@ def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:
 
 def at_state(problem: Problem, start: Solution, parameter: str, until: float, rtol: float) -> Start:
     """A known state, heading for ``until``."""
-    here = parameter_value(start, parameter)
+    here = start.value_of(parameter)
     old = start.point
     equilibria = family(
         problem,

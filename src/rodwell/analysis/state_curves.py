@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.curve_checks import BECOMES_STRAIGHT
 from rodwell.analysis.curve_points import Seed, Spot, Zero
@@ -21,7 +20,8 @@ from rodwell.analysis.torsion import torsion
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 __all__ = ["lift_off_curve", "secondary_curve", "twist_curve"]
 

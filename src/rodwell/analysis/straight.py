@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.spaces import FloatArray
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 ZERO = ("y", "eta", "rod_F2", "rod_F3", "rod_M2", "rod_M3", "cylinder_F1", "cylinder_F2", "cylinder_F3", "T2", "mu",
         "cylinder_M3")  # fmt: skip

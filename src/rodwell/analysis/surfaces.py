@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rodwell.analysis.geometry import Geometry
 from rodwell.errors import checked_whole
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 IntArray = NDArray[np.int64]
 

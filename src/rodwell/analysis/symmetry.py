@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rodwell.analysis.measures import Measured
-from rodwell.numerics.spaces import FloatArray
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 
 @dataclass(frozen=True)

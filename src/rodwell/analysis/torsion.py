@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.accuracy import RTOL, checked_rtol
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.follow import follow
 from rodwell.analysis.pressure import pressure_rates
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.problem import Problem, ends_text
+from rodwell.problem.problem import Problem, ends_text
+from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 LARGEST_TWIST = 200.0
 """Twist in B/L up to which a second lift-off is sought."""

@@ -13,7 +13,7 @@ from rodwell.analysis.starts import Start, rejoined
 from rodwell.numerics.continuation import Stepping, Trace, trace
 from rodwell.numerics.events import INDEX, TURN, Event, Found
 from rodwell.numerics.ladder import Ladder, Point
-from rodwell.problem import LIMITS, SMALLEST_CLEARANCE, Problem
+from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
 LARGEST_BRAID_ANGLE = 89.5
 """Degrees of |η| at which a branch ends: the theory holds below 90°."""

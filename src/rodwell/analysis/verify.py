@@ -20,9 +20,9 @@ from rodwell.analysis.fields import GRID
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.tracing import Progress
 from rodwell.errors import InputError, NotConvergedError, checked_number
-from rodwell.numerics.spaces import FloatArray
 from rodwell.physics import paper
 from rodwell.physics.paper import NAMES, Fifteen, Load
+from rodwell.quantities.arrays import FloatArray
 
 RTOL = 1e-8
 """Relative residual that ``solve_bvp`` is asked for, and the tolerance of agreement."""

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.measures import Measured
-
-if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
 
 SELF_BALANCED = 1e-6
 """A support torque below this part of the largest twisting moment counts as none."""
@@ -69,7 +66,7 @@ class WallLoads:
         return "the end supports need not provide a torque: the twisting moment balances itself"
 
 
-def wall_loads(solution: Solution) -> WallLoads:
+def wall_loads(solution: Equilibrium) -> WallLoads:
     """Return the loads on cylinder and supports in a state."""
     peaks = {name: Peak(*solution.largest(name)) for name in ("contact_pressure", *MOMENTS)}
     torque = solution.number(Measured.TORQUE_0)

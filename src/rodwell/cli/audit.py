@@ -13,7 +13,8 @@ from rodwell.cli.listing import print_listing
 from rodwell.cli.options import print_json, progress_bar, units_option
 
 if TYPE_CHECKING:
-    from rodwell.practice.audit import Audit, Comparison, Other, Row
+    from rodwell.practice.audit import Audit
+    from rodwell.practice.beside import Comparison, Other, Row
 
 NAMES = {
     "critical": "the first critical load",
@@ -85,7 +86,7 @@ def _print(audit: Audit) -> None:
 
     from rodwell.practice.exact_loads import PLACES  # noqa: PLC0415
     from rodwell.practice.formulas import LEFT_OUT  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     console = Console(highlight=False)
     problem = audit.problem

@@ -11,7 +11,7 @@ from rodwell.cli.options import print_json
 
 if TYPE_CHECKING:
     from rodwell.practice import schema
-    from rodwell.practice.units import System
+    from rodwell.quantities.units import System
 
 KINDS = {"pipe": "rod.pipe", "material": "rod.material", "grade": "rod.grade"}
 
@@ -32,7 +32,7 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
     """
     from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.practice.catalogue import read_catalogue  # noqa: PLC0415
-    from rodwell.practice.units import System  # noqa: PLC0415
+    from rodwell.quantities.units import System  # noqa: PLC0415
 
     try:
         known = read_catalogue([str(file) for file in files], Path())

@@ -64,7 +64,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
 
 
 def _print(result: Verification, title: str, mode: int) -> None:
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"{title}: mode {mode}, {ends_text(result.branch.problem)}")
     wrapped("Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15)).")

@@ -35,7 +35,7 @@ def certify(modes: int | None, digits: int, as_json: bool, **given: Any) -> None
         _paper(digits, as_json)
         return
     from rodwell.analysis.certify import certify as certified  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
     loads = certified(problem, 5 if modes is None else modes, digits=digits)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from rodwell.analysis.curves import Curve
     from rodwell.analysis.diagram import Diagram
-    from rodwell.problem import Problem
+    from rodwell.problem.problem import Problem
 
 
 @click.command(short_help="Bifurcation diagram: branches and their special points.")
@@ -88,7 +88,7 @@ def diagram(
 
 
 def _print_diagram(result: Diagram) -> None:
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
     for branch in result:

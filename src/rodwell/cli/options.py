@@ -13,7 +13,7 @@ import click
 
 if TYPE_CHECKING:
     from rodwell.practice.case import Case
-    from rodwell.problem import Problem
+    from rodwell.problem.problem import Problem
 
 Progress = Callable[[str, float], None]
 
@@ -68,7 +68,7 @@ units_option = click.option(
 
 def make_problem(given: dict[str, Any]) -> Problem:
     """Return the problem that the options describe; what is not given keeps its default."""
-    from rodwell.problem import Problem  # noqa: PLC0415
+    from rodwell.problem.problem import Problem  # noqa: PLC0415
 
     values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
     return Problem(**{"weight": 0.0, **values})
@@ -90,7 +90,7 @@ def force_at(at: str, case: Case, word: str = "") -> float:
     ``word`` is what may be given instead of a force.
     """
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.units import to_si  # noqa: PLC0415
+    from rodwell.quantities.units import to_si  # noqa: PLC0415
 
     instead = f'"{word}" or ' if word else ""
     if case.scales is None:

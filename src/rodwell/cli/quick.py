@@ -23,7 +23,7 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     depend on twist.
     """
     from rodwell.analysis.critical import critical_loads  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
     loads = critical_loads(problem, modes, rtol=rtol)
@@ -61,7 +61,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     """
     from rodwell.analysis.follow import follow  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
@@ -106,7 +106,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     input, the others constant.
     """
     from rodwell.analysis.sensitivity import sensitivities  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
     loads = sensitivities(problem, mode, rtol=rtol)
@@ -148,7 +148,7 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     The rod is prepared without twist (leave --twist at 0), then T₁ grows either way at constant end force.
     """
     from rodwell.analysis.torsion import torsion  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     result = torsion(make_problem(given), mode, mirror=mirror, until=until, rtol=rtol)
     if as_json:

@@ -68,7 +68,7 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     from rich.panel import Panel  # noqa: PLC0415
 
     from rodwell.practice.meaning import sentences  # noqa: PLC0415
-    from rodwell.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
     from rodwell.report.pdf import PDF  # noqa: PLC0415
     from rodwell.report.texts import rows  # noqa: PLC0415
     from rodwell.report.write import FILES  # noqa: PLC0415

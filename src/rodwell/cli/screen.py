@@ -54,7 +54,7 @@ def screen(
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
 
     from rodwell.practice.screening import screen as compute  # noqa: PLC0415
-    from rodwell.practice.screening_data import screening_dict  # noqa: PLC0415
+    from rodwell.practice.screening_plain import screening_dict  # noqa: PLC0415
     from rodwell.report.survey import write_screening  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
@@ -70,7 +70,7 @@ def screen(
 
 def _force(option: str, text: str | None) -> float | None:
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.units import to_si  # noqa: PLC0415
+    from rodwell.quantities.units import to_si  # noqa: PLC0415
 
     if text is None:
         return None

@@ -18,8 +18,8 @@ from rodwell.numerics.families import Outcome, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError
 from rodwell.numerics.prediction import Course
-from rodwell.numerics.spaces import FloatArray
 from rodwell.numerics.watch import Watch, hidden_change
+from rodwell.quantities.arrays import FloatArray
 
 STRAYED = 0.2
 """A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""

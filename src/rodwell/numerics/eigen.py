@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rodwell.numerics.banded import factorise, multiply, solve
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 Gram = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """From vectors (k, n) to their Gram matrices (k, k) under K and G."""

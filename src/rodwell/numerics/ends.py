@@ -10,11 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import kernel
-
-FloatArray = NDArray[np.float64]
+from rodwell.quantities.arrays import FloatArray
 
 
 @kernel

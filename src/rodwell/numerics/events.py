@@ -12,7 +12,7 @@ from rodwell.numerics.crossings import Crossing, index_crossings
 from rodwell.numerics.families import State
 from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
 from rodwell.numerics.location import LocationError, Place, Span, locate
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 INDEX, TURN = "index", "turn"
 """Names under which changes of the stability index, and turning points without one, are reported."""

@@ -19,7 +19,8 @@ import numpy as np
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics import assembly, banded, corrector
 from rodwell.numerics.ends import Ends, spread
-from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.quantities.arrays import FloatArray
 
 
 class Outcome(Enum):

@@ -19,7 +19,8 @@ import numpy as np
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.ends import Ends
 from rodwell.numerics.families import Family, Outcome, State
-from rodwell.numerics.spaces import FloatArray, Prolongation, SplineSpace
+from rodwell.numerics.spaces import Prolongation, SplineSpace
+from rodwell.quantities.arrays import FloatArray
 
 Measure = Callable[[Family, State], FloatArray]
 """Rows of (3, k): numbers to report of a state, the scales against which their errors are judged, and the errors that

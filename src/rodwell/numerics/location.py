@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from rodwell.numerics.families import Family, State
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 PLACE_TOLERANCE = 1e-12
 """Width, as a part of the span, to which a zero is bracketed."""

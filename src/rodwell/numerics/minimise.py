@@ -6,7 +6,7 @@ import numpy as np
 
 from rodwell.numerics import banded, corrector
 from rodwell.numerics.families import Family, Outcome
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 SMALLEST_LENGTH = 1e-12
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from rodwell.compiling.kernels import kernel
 from rodwell.numerics.families import State
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 MOST_POINTS = 5
 """Points through which the polynomial goes at most: with more, round-off in them counts."""

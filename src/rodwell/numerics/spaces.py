@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from rodwell.numerics import assembly, banded, bsplines
 from rodwell.numerics.ends import Ends
-
-FloatArray = NDArray[np.float64]
+from rodwell.quantities.arrays import FloatArray
 
 SAMPLES_PER_ELEMENT = 3
 ROUND_OFF = 1e-12

@@ -19,7 +19,8 @@ from rodwell.numerics.ends import gather, spread
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import Ladder, Point
 from rodwell.numerics.location import LocationError, Span
-from rodwell.numerics.spaces import FloatArray, SplineSpace
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.quantities.arrays import FloatArray
 
 FIRST_ITERATIONS, ITERATIONS = 8, 1
 DEEP = 0.5

@@ -107,7 +107,7 @@ def reconstruct(
     Returns
     -------
     dict
-        Field name to values (m,); names, symbols, units and equations are in ``rodwell.analysis.nomenclature``.
+        Field name to values (m,); names, symbols, units and equations are in ``rodwell.quantities.names``.
     """
     out = _rod(s, u, from_left, parameters, torsional_stiffness)
     frame = _Frame.along(u[0] / parameters[CLEARANCE], u[1])

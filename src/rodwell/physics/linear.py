@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rodwell.physics._density import rod_density
-
-FloatArray = NDArray[np.float64]
+from rodwell.quantities.arrays import FloatArray
 
 
 def second_variation(places: FloatArray, parameters: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ from rodwell.analysis.measures import Measured
 from rodwell.analysis.symmetry import ODD, Reflection
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
+from rodwell.quantities.scales import Scales
 
 MARKERS = {
     "critical": ("D", "critical load"),

@@ -11,10 +11,10 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.solution import Solution
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
-from rodwell.plots.style import GREY, MODES, SIZE, minus, new_axes
+from rodwell.plots.style import GREY, MODES, SIZE, new_axes
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import plain
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, plain
 
 PLACES = 601
 

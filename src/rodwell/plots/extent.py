@@ -9,7 +9,7 @@ import numpy as np
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.extent import buckled_to, spline_of
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 SHORT = 0.5
 """A buckled part longer than this part of the rod is no reason to leave out the rest."""

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.nomenclature import FIELDS, QUANTITIES
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError
-from rodwell.plots.style import GREY, MODES, minus, new_axes
+from rodwell.plots.style import GREY, MODES, new_axes
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import plain
+from rodwell.quantities.names import FIELDS, QUANTITIES
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, plain
 
 PLACES = 601
 

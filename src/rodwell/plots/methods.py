@@ -1,4 +1,4 @@
-"""What the ``plot`` methods of results draw: found by :mod:`rodwell.display`."""
+"""What the ``plot`` methods of results draw: found by :mod:`rodwell.faces`."""
 
 from __future__ import annotations
 

@@ -12,10 +12,10 @@ from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.solution import Solution
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
-from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, minus, new_axes
+from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import plain
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, plain
 
 SHOWN = 5
 """States between buckling and lift-off of which the contact pressure is drawn."""

@@ -15,12 +15,12 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.surfaces import straight_contact
-from rodwell.numerics.spaces import FloatArray
-from rodwell.plots.style import RC, minus
+from rodwell.plots.style import RC
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
 from rodwell.practice.scene import NO_PULL, WALL, drawn, limits, palette, scene
-from rodwell.practice.units import plain
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, plain
 
 ELEVATION, AZIMUTH = 20.0, -66.0
 LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])

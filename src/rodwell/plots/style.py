@@ -44,8 +44,3 @@ def new_axes(size: tuple[float, float] = SIZE, nrows: int = 1, index: int = 1) -
         figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
         return figure.add_subplot(nrows, 1, index)
-
-
-def minus(text: str) -> str:
-    """Typographic minus signs."""
-    return text.replace("-", "−")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.nomenclature import QUANTITIES, UNITS
-from rodwell.practice.scales import Scales
+from rodwell.quantities.names import QUANTITIES, UNITS
+from rodwell.quantities.scales import Scales
 
 _PRETTY = {"B/L^2": "B/L²", "B/L^3": "B/L³", "1/L": "1/L", "B/L": "B/L", "L": "L", "rad": "rad", "1": ""}
 

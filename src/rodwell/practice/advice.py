@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from rodwell.practice.answer import Answer
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.meaning import SMALL_LOAD
-from rodwell.practice.wording import amount, force_text, percent
+from rodwell.practice.wording import force_text
+from rodwell.quantities.text import amount, percent
 
 GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
 """Levels of a status; "open" where no load was given that could be judged."""

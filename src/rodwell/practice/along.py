@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.fields import GRID
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.answer import Answer
 from rodwell.practice.loaded import Fields, LoadedRod
 from rodwell.practice.stress import Loading, Stresses
-from rodwell.practice.table import Cell, Table
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.table import Cell, Table
 
 LARGEST_SAFETY = 1e6
 """Safety factors are not written larger than this: a place without stress has none."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from rodwell.practice.answer import Answer
-from rodwell.practice.figures import Figure
-from rodwell.practice.table import Cell, Table
+from rodwell.practice.figure import Figure
+from rodwell.quantities.table import Cell, Table
 
 NOTES = (
     "Tension positive, compression negative; forces are those at the end s = 1.",

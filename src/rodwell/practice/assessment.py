@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.applied import AppliedLoad
-from rodwell.practice.audit import Row, load_rows
+from rodwell.practice.beside import Row, load_rows
 from rodwell.practice.capacity import Stress, cylinder_stress
+from rodwell.practice.computed import Computed
 from rodwell.practice.exact_loads import Load
 from rodwell.practice.limits import LIFTS_OFF, UNSTABLE, Limit, limits
 from rodwell.practice.loaded import LoadedRod
 from rodwell.practice.local import Exceeded, LocalLimits, exceeded, local_limits
 from rodwell.practice.strength import RodSection, RodStress, rod_section
 from rodwell.practice.supports import Support, support_loads
-
-if TYPE_CHECKING:
-    from rodwell.practice.answer import Answer
-    from rodwell.practice.figures import Figure
 
 STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN = "straight", "buckled", "other shape", "left the wall", "unknown"
 """What has become of the rod at a load: straight and stable; buckled, on the wall and stable; mode 1 has lost its
@@ -108,9 +104,9 @@ class AtLoad:
 class Assessment:
     """Strength, window, limits and formulas of an answer; everything is computed when it is first asked for."""
 
-    def __init__(self, answer: Answer) -> None:
-        self.answer, self.case = answer, answer.case
-        self.critical, self.branch = answer.critical[0], answer.first
+    def __init__(self, computed: Computed) -> None:
+        self.computed, self.case = computed, computed.case
+        self.critical, self.branch = computed.critical[0], computed.first
 
     @cached_property
     def section(self) -> RodSection | None:
@@ -125,7 +121,7 @@ class Assessment:
     @cached_property
     def at_lift_off(self) -> LoadedRod | None:
         """The buckled rod at lift-off, None where lift-off coincides with buckling or was not found."""
-        lift, state = self.answer.lift_off, self.answer.at_lift_off
+        lift, state = self.computed.lift_off, self.computed.at_lift_off
         if lift is None or state is None:
             return None
         return LoadedRod("at lift-off", self.case.problem, lift.force, lift.error, state)
@@ -187,7 +183,7 @@ class Assessment:
     @cached_property
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
-        lift, problem = self.answer.lift_off, self.case.problem
+        lift, problem = self.computed.lift_off, self.case.problem
         found = limits(self.case, self.branch, self.critical.force)
         bottom = problem.axial_weight - self.critical.force
         pair = None if lift is None else (lift.force, lift.error)
@@ -210,7 +206,7 @@ class Assessment:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
         weight = self.case.problem.axial_weight
         loads = [Load("critical", "first critical load", self.critical.force, self.critical.error, weight)]
-        lift = self.answer.lift_off
+        lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:
             loads.append(Load("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))
         rows = load_rows(self.case, tuple(loads))
@@ -227,16 +223,3 @@ class Assessment:
         """Whether the states at the applied loads meet the tolerance."""
         states = [at.state.solution for at in self.applied if at.state is not None]
         return all(solution is None or solution.converged for solution in states)
-
-    @cached_property
-    def figures(self) -> list[Figure]:
-        """Key figures of strength and of the safe window."""
-        from rodwell.practice.assessment_data import assessment_figures  # noqa: PLC0415 - it looks at assessments
-
-        return assessment_figures(self)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return everything as plain data, for JSON."""
-        from rodwell.practice.assessment_data import assessment_dict  # noqa: PLC0415
-
-        return assessment_dict(self)

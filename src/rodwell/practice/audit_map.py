@@ -8,15 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.accuracy import RTOL
 from rodwell.analysis.critical import critical_loads
 from rodwell.errors import InputError
-from rodwell.numerics.spaces import FloatArray
-from rodwell.practice.audit import rod_of
+from rodwell.practice.beside import rod_of
 from rodwell.practice.exact_loads import WHERE, critical
 from rodwell.practice.formulas import FORMULAS
 from rodwell.practice.formulas.record import Place
-from rodwell.problem import LARGEST_WEIGHT, Problem
+from rodwell.problem.problem import LARGEST_WEIGHT, Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL
 
 Progress = Callable[[float], None]
 

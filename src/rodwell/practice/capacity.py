@@ -2,39 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from rodwell.analysis.fields import fields_at, largest_of
 from rodwell.analysis.solution import Solution
-from rodwell.errors import InputError
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
-from rodwell.numerics.spaces import FloatArray
-from rodwell.practice import schema
-from rodwell.practice.scales import Scales
-
-
-@dataclass(frozen=True)
-class Cylinder:
-    """Section and strength of the cylinder: diameters in m, yield strength in Pa."""
-
-    outer_diameter: float
-    inner_diameter: float
-    yield_strength: float
-
-    @property
-    def inertia(self) -> float:
-        """Second moment of area in m⁴."""
-        return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
-
-    def von_mises(self, f: dict[str, FloatArray], scales: Scales) -> FloatArray:
-        """Equivalent stress at the outer surface in Pa, (m,), from fields along the rod in units B = L = 1."""
-        per_moment = 0.5 * self.outer_diameter / self.inertia * scales.factor("moment")
-        bending = per_moment * np.hypot(f["mu"], f["cylinder_M3"])
-        return np.asarray(np.sqrt(bending**2 + 3.0 * (0.5 * per_moment * f["T2"]) ** 2))
+from rodwell.practice.cylinder import Cylinder
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.scales import Scales
 
 
 @dataclass(frozen=True)
@@ -45,30 +23,6 @@ class Stress:
     error: float
     s: float
     utilisation: float
-
-
-def cylinder_of(given: schema.Cylinder, hole: schema.Hole) -> Cylinder:
-    """Return the cylinder of a case.
-
-    Raises
-    ------
-    InputError
-        If diameters contradict each other or are missing.
-    """
-    inner = given.inner_diameter
-    if hole.diameter is not None:
-        if inner is not None and not math.isclose(inner, hole.diameter, rel_tol=1e-9):
-            raise InputError(
-                "cylinder.inner_diameter", inner, f"contradicts hole.diameter of {hole.diameter:g} m: leave it out"
-            )
-        inner = hole.diameter
-    if inner is None:
-        raise InputError("cylinder.inner_diameter", None, "is missing: give it, or hole.diameter")
-    if given.outer_diameter <= inner:
-        raise InputError(
-            "cylinder.outer_diameter", given.outer_diameter, f"must be above the inner diameter of {inner:g} m"
-        )
-    return Cylinder(given.outer_diameter, inner, given.yield_strength)
 
 
 def cylinder_stress(state: Solution, cylinder: Cylinder, scales: Scales) -> Stress:
@@ -82,8 +36,15 @@ def cylinder_stress(state: Solution, cylinder: Cylinder, scales: Scales) -> Stre
     return Stress(values[1], error, places[1], values[1] / cylinder.yield_strength)
 
 
+def von_mises(cylinder: Cylinder, f: dict[str, FloatArray], scales: Scales) -> FloatArray:
+    """Equivalent stress at the outer surface in Pa, (m,), from fields along the rod in units B = L = 1."""
+    per_moment = 0.5 * cylinder.outer_diameter / cylinder.inertia * scales.factor("moment")
+    bending = per_moment * np.hypot(f["mu"], f["cylinder_M3"])
+    return np.asarray(np.sqrt(bending**2 + 3.0 * (0.5 * per_moment * f["T2"]) ** 2))
+
+
 def _largest(
     solution: Solution, family: Family, state: State, cylinder: Cylinder, scales: Scales
 ) -> tuple[float, float]:
     """Largest stress and its place on one mesh."""
-    return largest_of(lambda s: cylinder.von_mises(fields_at(solution.problem, family, state, s), scales), state.space)
+    return largest_of(lambda s: von_mises(cylinder, fields_at(solution.problem, family, state, s), scales), state.space)

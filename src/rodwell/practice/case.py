@@ -10,24 +10,24 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from rodwell.analysis.accuracy import checked_rtol
-from rodwell.display import Shown
 from rodwell.errors import InputError
+from rodwell.faces import Shown
 from rodwell.practice import schema
 from rodwell.practice.applied import AppliedLoad
-from rodwell.practice.capacity import Cylinder, cylinder_of
 from rodwell.practice.case_file import read_toml
 from rodwell.practice.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.practice.cylinder import Cylinder, cylinder_of
 from rodwell.practice.dimensionless import check_sections, dimensionless
 from rodwell.practice.explain import SECTIONS, explain
 from rodwell.practice.facts import Fact
 from rodwell.practice.fluids import NO_FLUIDS, Fluids
 from rodwell.practice.physical import physical
-from rodwell.practice.scales import Scales
 from rodwell.practice.strings import PhysicalRod
-from rodwell.practice.uncertainty import Moved, UncertainInput, split
-from rodwell.practice.units import SYSTEMS, System
-from rodwell.problem import Problem
+from rodwell.practice.uncertain import Moved, UncertainInput, split
+from rodwell.problem.problem import Problem
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.tolerance import checked_rtol
+from rodwell.quantities.units import SYSTEMS, System
 
 __all__ = ["SECTIONS", "Case", "CaseError"]
 

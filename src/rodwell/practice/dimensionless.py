@@ -6,7 +6,8 @@ from rodwell.errors import InputError
 from rodwell.practice import schema
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.physical import check_force_words, check_reach
-from rodwell.problem import Problem, checked_ends
+from rodwell.problem.ends import checked_ends
+from rodwell.problem.problem import Problem
 
 
 def check_sections(parsed: schema.CaseFile) -> None:

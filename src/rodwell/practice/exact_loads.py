@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rodwell.analysis.accuracy import RTOL
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.coiled import coil
 from rodwell.analysis.critical import critical_loads
@@ -14,7 +13,9 @@ from rodwell.analysis.follow import follow
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.formulas.record import Place
-from rodwell.problem import HOLD_ANGLE, Problem
+from rodwell.problem.ends import HOLD_ANGLE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL
 
 PLACES: tuple[Place, ...] = ("top", "middle", "bottom")
 """s = 1, 1/2 and 0: compression grows downwards by the axial weight."""

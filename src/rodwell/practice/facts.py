@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.practice.units import SI, System
+from rodwell.quantities.units import SI, System
 
 
 @dataclass(frozen=True)

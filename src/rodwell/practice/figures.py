@@ -2,72 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Any
-
 from rodwell.analysis.critical import EULER, Mode
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.nomenclature import QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.wall import Peak
-from rodwell.practice.capacity import Cylinder, cylinder_stress
+from rodwell.practice.capacity import cylinder_stress
 from rodwell.practice.case import Case
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import SI
-from rodwell.practice.wording import percent
-from rodwell.problem import Problem
-
-
-@dataclass(frozen=True)
-class Figure:
-    """A number of the answer: value and error estimate in units B = L = 1, and what it is.
-
-    ``scale`` is the size of its kind, against which the error is judged.
-    """
-
-    name: str
-    label: str
-    value: float
-    error: float
-    dimension: str
-    scale: float
-    note: str = ""
-
-    def physical(self, case: Case) -> tuple[float, float, str] | None:
-        """Value, error and unit in SI, or None for a case without dimensions."""
-        if case.scales is None:
-            return None
-        factor = case.scales.factor(self.dimension)
-        return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
-
-    def text(self, case: Case, digits: int = 6) -> str:
-        """Value in the case's units with the digits that its error supports, or nothing for one without dimensions."""
-        if case.scales is None:
-            return ""
-        count = supported(self.value, self.error, digits)
-        return case.scales.text(self.value if count else 0.0, self.dimension, max(count, 1))
-
-    def as_dict(self, case: Case) -> dict[str, Any]:
-        """Everything about the number, for JSON."""
-        out: dict[str, Any] = {
-            "label": self.label, "value": self.value, "error": self.error, "unit": UNITS[self.dimension],
-        }  # fmt: skip
-        physical = self.physical(case)
-        if physical is not None:
-            out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
-        if case.scales is not None and case.scales.system != SI:
-            out[case.scales.system.name] = case.scales.shown(self.value, self.error, self.dimension)
-        if self.note:
-            out["note"] = self.note
-        return out
-
-
-def supported(value: float, error: float, most: int) -> int:
-    """How many significant digits of a value a table shows beside its error, the last one in doubt; 0: none."""
-    if value == 0.0 or not error > 0.0:
-        return most
-    return max(0, min(most, math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1))
+from rodwell.practice.cylinder import Cylinder
+from rodwell.practice.figure import Figure, force_scale
+from rodwell.problem.problem import Problem
+from rodwell.quantities.names import QUANTITIES
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import percent
 
 
 def critical_figure(mode: Mode) -> Figure:
@@ -114,11 +60,6 @@ def real_force(figure: Figure, case: Case) -> list[Figure]:
     label = f"{figure.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
     scale = abs(figure.value) + abs(less) + EULER
     return [Figure(f"{figure.name}_real", label, value, figure.error, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
-
-
-def force_scale(force: float) -> float:
-    """Size against which the error of a force is judged."""
-    return abs(force) + EULER
 
 
 def stress_figure(state: Solution, cylinder: Cylinder, scales: Scales) -> Figure:

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from rodwell.errors import InputError
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice import schema
 from rodwell.practice.facts import Fact
 from rodwell.practice.strings import PhysicalRod
+from rodwell.quantities.arrays import FloatArray
 
 Drop = TypeVar("Drop", float, FloatArray)
 """A height in m, or heights (m,)."""

@@ -13,11 +13,12 @@ from rodwell.analysis.special import CRITICAL, LIFT_OFF, SpecialPoint
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.location import bracketed_root
+from rodwell.practice.capacity import von_mises
 from rodwell.practice.case import Case
 from rodwell.practice.loaded import LoadedRod, OnMesh, on_mesh
 from rodwell.practice.strength import rod_section
 from rodwell.practice.supports import most_used
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
 
 LIFTS_OFF, UNSTABLE, YIELDS, CYLINDER, SUPPORT = "lift-off", "stability", "yield", "cylinder", "support"
 NAMES = {
@@ -92,7 +93,7 @@ def uses(case: Case) -> tuple[Use, ...]:
     if case.cylinder is not None and scales is not None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
-        out.append(Use(CYLINDER, lambda at, n: at.largest(lambda f: cylinder.von_mises(f, scales) / bears, n)))
+        out.append(Use(CYLINDER, lambda at, n: at.largest(lambda f: von_mises(cylinder, f, scales) / bears, n)))
     if case.supports is not None and scales is not None:
         supports = case.supports
         out.append(Use(SUPPORT, lambda at, _n: (most_used(at, supports, scales), None)))

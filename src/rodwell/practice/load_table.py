@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.long_rod import LocalLoad
+from rodwell.quantities.arrays import FloatArray
 
 Solve = Callable[[float], LocalLoad]
 

@@ -13,8 +13,9 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.straight import straight_fields
 from rodwell.numerics.families import Family, State
 from rodwell.numerics.ladder import estimated_error
-from rodwell.numerics.spaces import FloatArray, SplineSpace
-from rodwell.problem import Problem
+from rodwell.numerics.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 Fields = dict[str, FloatArray]
 

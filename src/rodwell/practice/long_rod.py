@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.follow import follow
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
 
 HALF_WAVES = 20
 """Length for the critical load, within 1 % of the limit (0.5 % for clamped ends in a horizontal hole)."""

@@ -11,8 +11,9 @@ from rodwell.analysis.extent import FADED, buckled_to
 from rodwell.analysis.special import CRITICAL, LIFT_OFF
 from rodwell.practice.answer import Answer
 from rodwell.practice.verdict import load_sentences, verdict, window_sentences
-from rodwell.practice.wording import force_text, percent, place_text, places_text, size_text
-from rodwell.problem import ends_text
+from rodwell.practice.wording import force_text, place_text, places_text, size_text
+from rodwell.problem.problem import ends_text
+from rodwell.quantities.text import percent
 
 __all__ = ["ASSUMPTIONS", "assumptions", "force_text", "place_text", "sentences"]
 

@@ -11,10 +11,11 @@ from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.catalogue import Catalogue
 from rodwell.practice.facts import Fact
 from rodwell.practice.fluids import Fluids, checked_weight, fluid_facts, fluids_of
-from rodwell.practice.scales import Scales
 from rodwell.practice.strings import PhysicalRod, physical_rod
-from rodwell.practice.units import System
-from rodwell.problem import Problem, checked_ends
+from rodwell.problem.ends import checked_ends
+from rodwell.problem.problem import Problem
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.units import System
 
 
 @dataclass(frozen=True)

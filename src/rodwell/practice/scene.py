@@ -8,15 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.equilibrium import Equilibrium
+from rodwell.analysis.geometry import Geometry, geometry
 from rodwell.analysis.surfaces import SIDES, Mesh, cylinder, material_lines, ring, tube
 from rodwell.errors import InputError
-from rodwell.practice.scales import Scales
-
-FloatArray = NDArray[np.float64]
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.scales import Scales
 
 STOPS = ((-1.0, "#08306b"), (-0.5, "#2f7fbf"), (0.0, "#d3e3f0"), (1.0, "#b3261e"))
 """Colours of the contact pressure: pressed most, half as much, not at all, and where the wall would have to pull."""
@@ -40,7 +38,7 @@ class Part:
 
 
 def drawn(
-    solution: Solution,
+    solution: Equilibrium,
     scales: Scales | None,
     places: int | None = None,
     rod_radius: float | None = None,
@@ -52,11 +50,11 @@ def drawn(
     """
     if rod_radius is None and scales is not None and scales.radius is not None:
         try:
-            return solution.geometry(places, rod_radius=scales.radius / scales.length, radial_scale=radial_scale)
+            return geometry(solution, places, rod_radius=scales.radius / scales.length, radial_scale=radial_scale)
         except InputError as problem:
             if problem.field != "rod_radius":
                 raise
-    return solution.geometry(places, rod_radius=rod_radius, radial_scale=radial_scale)
+    return geometry(solution, places, rod_radius=rod_radius, radial_scale=radial_scale)
 
 
 def scene(geometry: Geometry, sides: int = SIDES, lines: int = 4) -> list[Part]:

@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from rodwell.errors import InputError
-from rodwell.practice.units import SYSTEMS, to_si
-from rodwell.problem import checked_ends
+from rodwell.problem.ends import checked_ends
+from rodwell.quantities.units import SYSTEMS, to_si
 
 
 def _quantity(kind: str, above: float = -math.inf, least: float = -math.inf) -> BeforeValidator:

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.case import Case
 from rodwell.practice.formulas import FORMULAS
 from rodwell.practice.load_table import Loads, Precision, loads_at
 from rodwell.practice.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 from rodwell.practice.survey import Survey
+from rodwell.quantities.arrays import FloatArray
 
 CRITICAL_PRECISION = Precision(1e-3, 6)
 LIFT_OFF_PRECISION = Precision(1e-2, 4)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from rodwell._version import __version__
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
 from rodwell.practice.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
-from rodwell.practice.table import Cell, Table
-from rodwell.practice.units import in_unit_of
-from rodwell.practice.wording import amount, percent
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.table import Cell, Table
+from rodwell.quantities.text import amount, percent
+from rodwell.quantities.units import in_unit_of
 
 FORCE_UNITS = {"m": "kN", "ft": "klbf"}
 """Unit of forces in tables and figures, by the survey's unit of depth."""
@@ -157,44 +155,3 @@ def assumptions(screening: Screening) -> list[str]:
             "Near the vertical the load falls with the length of the rod, ever more slowly, without a foundation."
         )
     return out
-
-
-def screening_dict(screening: Screening) -> dict[str, Any]:
-    """Everything as plain data in SI units (m, N, degrees), for JSON; null where there is no value."""
-    survey = screening.survey
-
-    def listed(values: FloatArray | None) -> list[float | None] | None:
-        return None if values is None else [None if math.isnan(v) else float(v) for v in values]
-
-    string = screening.string
-    return {
-        "title": screening.case.title,
-        "rodwell_version": __version__,
-        "conventions": "SI units, angles in degrees; compression positive, at the station",
-        "assumptions": assumptions(screening),
-        "summary": sentences(screening),
-        "survey": survey.source,
-        "ignored_columns": list(survey.ignored),
-        "string": {
-            "bending_stiffness": string.stiffness,
-            "weight_per_length": string.weight,
-            "clearance": string.clearance,
-            "ends": list(string.ends),
-        },
-        "measured_depth": listed(survey.md),
-        "vertical_depth": listed(survey.tvd),
-        "inclination": listed(survey.inclination),
-        "azimuth": listed(survey.azimuth),
-        "local_rod_length": listed(screening.lengths),
-        "critical_compression": listed(screening.critical.values),
-        "critical_error": listed(screening.critical.errors),
-        "lift_off_compression": listed(screening.lift_off.values),
-        "lift_off_error": listed(screening.lift_off.errors),
-        "formulas": {key: listed(values) for key, values in screening.formulas.items()},
-        "compression": listed(screening.compression),
-        "utilisation": listed(screening.utilisation),
-        "weakest_station": screening.weakest + 1,
-        "worst_station": None if screening.worst is None else screening.worst + 1,
-        "length_effect": [{"inclination": a, "relative": v} for a, v in screening.length_effect.items()],
-        "remarks": {str(i + 1): text for i in range(len(survey)) if (text := screening.remarks(i))},
-    }

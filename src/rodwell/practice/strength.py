@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.case import Case
 from rodwell.practice.loaded import Fields, LoadedRod
-from rodwell.practice.scales import Scales
 from rodwell.practice.stress import PLACES, Loading, Section, Stresses, section_of, stresses
 from rodwell.practice.strings import PhysicalRod
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.scales import Scales
 
 
 @dataclass(frozen=True)

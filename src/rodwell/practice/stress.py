@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.strings import PhysicalRod
+from rodwell.quantities.arrays import FloatArray
 
 PLACES = ("outer surface, bending in tension", "outer surface, bending in compression",
           "inner surface, bending in tension", "inner surface, bending in compression")  # fmt: skip

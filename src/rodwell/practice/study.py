@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from rodwell.errors import InputError
+from rodwell.faces import plain
 from rodwell.practice.case import Case, CaseError
 from rodwell.practice.case_file import read_toml
 from rodwell.practice.study_points import Point, computed, point
-from rodwell.practice.units import SI, System
 from rodwell.practice.varied import LISTS, Varied, may_vary, varied_inputs
+from rodwell.quantities.units import SI, System
 
 APPLIED = "load.applied"
 
@@ -94,9 +95,7 @@ class Study:
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain data, for JSON."""
-        from rodwell.practice.study_data import study_dict  # noqa: PLC0415
-
-        return study_dict(self)
+        return plain(self)
 
 
 def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None) -> Study:

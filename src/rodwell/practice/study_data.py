@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from rodwell._version import __version__
 from rodwell.practice import study_loads_data
 from rodwell.practice.study import APPLIED, Study
 from rodwell.practice.study_points import Point
-from rodwell.practice.table import Cell, Table
-from rodwell.practice.wording import amount, percent
+from rodwell.quantities.table import Cell, Table
+from rodwell.quantities.text import amount, percent
 
 NOTES = (
     "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
@@ -178,51 +175,4 @@ def sentences(study: Study) -> list[str]:
     partly = [p for p in study.points if p.critical is not None and p.lift_off is None]
     if partly:
         out.append(f"{len(partly)} points have no lift-off load; the table says why.")
-    return out
-
-
-def study_dict(study: Study) -> dict[str, Any]:
-    """Everything as plain data, for JSON."""
-    worst = {name: None if (p := study.worst(name)) is None else p.number + 1 for name in LOADS}
-    return {
-        "title": study.title,
-        "rodwell_version": __version__,
-        "conventions": "units B = L = 1 unless si; end force at s = 1, tension positive; points are numbered from 1",
-        "varied": [
-            {"key": v.name, "written": v.written, "unit": v.unit, "values": list(v.numbers or v.values)}
-            for v in study.varied
-        ],
-        "worst": worst,
-        "summary": sentences(study),
-        "points": [_point_dict(study, point) for point in study.points],
-    }
-
-
-def _point_dict(study: Study, point: Point) -> dict[str, Any]:
-    problem = None if point.case is None else point.case.problem
-    out: dict[str, Any] = {
-        "point": point.number + 1,
-        "inputs": {v.name: v.values[i] for v, i in zip(study.varied, point.at, strict=True)},
-        "problem": None
-        if problem is None
-        else {
-            "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
-            "poisson": problem.poisson, "twist": problem.twist, "ends": list(problem.ends),
-        },
-        "half_waves": point.half_waves,
-        "places": list(point.places),
-        "reasons": dict(point.reasons or {}),
-    }  # fmt: skip
-    out["applied"] = [study_loads_data.load_dict(point, one) for one in point.loads]
-    out["used_at_lift_off"] = {kind: {"value": r.value, "error": r.error} for kind, r in point.used.items()}
-    for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
-        found = getattr(point, name)
-        if found is None:
-            out[name] = None
-            continue
-        out[name] = {"value": found.value, "error": found.error}
-        if point.case is not None and point.case.scales is not None:
-            unit = point.factor(dimension)
-            si = "N" if dimension == "force" else "N/m"
-            out[name]["si"] = {"value": found.value * unit, "error": found.error * unit, "unit": si}
     return out

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
-from rodwell.practice.answer import Answer
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.assessment import STRAIGHT, UNKNOWN, Assessment, AtLoad
 from rodwell.practice.case import Case
+from rodwell.practice.computed import Computed
 from rodwell.practice.loaded import LoadedRod
 from rodwell.practice.strength import RodStress, rod_section
 
@@ -63,7 +63,7 @@ def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadR
     """Return what becomes of the rod at each load that acts, from its first critical load and its first branch."""
     if not case.applied:
         return ()
-    assessment = Assessment(Answer(case, critical, (branch,), branch[-1].force))
+    assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
     return tuple(_at(assessment, at) for at in assessment.applied)
 
 

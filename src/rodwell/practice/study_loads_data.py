@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, UNKNOWN
 from rodwell.practice.limits import CYLINDER, LIFTS_OFF, SUPPORT, UNSTABLE, YIELDS
 from rodwell.practice.study import Study
 from rodwell.practice.study_loads import BUCKLES, LoadResult, Result
 from rodwell.practice.study_points import Point
-from rodwell.practice.table import Cell
+from rodwell.quantities.table import Cell
 
 STATES = {
     STRAIGHT: "straight",
@@ -191,31 +189,3 @@ def _which(study: Study, point: Point, one: LoadResult) -> str:
 
 def _force(study: Study, value: float) -> str:
     return study.system.text(value, "force", 4) if study.physical else f"{value:.4g} B/L²".replace("-", "−")
-
-
-def load_dict(point: Point, one: LoadResult) -> dict[str, Any]:
-    """One load as plain data, for JSON: units B = L = 1, SI beside where there are dimensions; stress in Pa."""
-    scaled = point.case is not None and point.case.scales is not None
-
-    def quantity(found: Result | None, dimension: str, si: str) -> dict[str, Any] | None:
-        if found is None:
-            return None
-        out: dict[str, Any] = {"value": found.value, "error": found.error}
-        if scaled:
-            unit = point.factor(dimension)
-            out["si"] = {"value": found.value * unit, "error": found.error * unit, "unit": si}
-        return out
-
-    return {
-        "given": one.load.given,
-        "at": "bottom" if one.load.bottom else "top",
-        "kind": "real" if one.load.real else "effective",
-        "force": quantity(Result(one.load.force, 0.0), "force", "N"),
-        "what": one.what,
-        "why": one.why,
-        "to_spare": {kind: quantity(found, "force", "N") for kind, found in one.spare.items()},
-        "exceeded_at_any_load": list(one.exceeded),
-        "largest_wall_force": quantity(one.contact, "force_per_length", "N/m"),
-        "rod_stress_Pa": None if one.stress is None else {"value": one.stress.value, "error": one.stress.error},
-        "safety_factor": None if one.safety is None else {"value": one.safety.value, "error": one.safety.error},
-    }

@@ -9,8 +9,8 @@ import numpy as np
 from rodwell.analysis.balance import end_loads
 from rodwell.numerics.ladder import estimated_error
 from rodwell.practice.loaded import Fields, LoadedRod, OnMesh
-from rodwell.practice.scales import Scales
 from rodwell.practice.schema import Supports
+from rodwell.quantities.scales import Scales
 
 WHAT = {"force": "force", "moment": "bending moment", "torque": "torque"}
 """Kinds of capacity, as they are called."""

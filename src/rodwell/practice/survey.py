@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from rodwell.errors import InputError
-from rodwell.numerics.spaces import FloatArray
 from rodwell.practice.survey_file import read_columns
+from rodwell.quantities.arrays import FloatArray
 
 STEEPEST = 120.0
 """Largest inclination in degrees from the vertical that is taken for one; beyond 90 the hole goes uphill."""

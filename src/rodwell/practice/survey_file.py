@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rodwell.errors import InputError
-from rodwell.practice.units import in_unit_of
+from rodwell.quantities.units import in_unit_of
 
 COLUMNS: dict[str, tuple[str, ...]] = {
     "md": ("md", "measured depth", "depth md", "md rkb", "mdrkb", "measured depth rkb", "meas depth"),

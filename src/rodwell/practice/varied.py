@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.errors import InputError
-from rodwell.practice.units import in_unit_of
+from rodwell.quantities.units import in_unit_of
 
 MOST_POINTS = 400
 """Points that one study may have."""

@@ -6,8 +6,9 @@ from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, AtLoad
 from rodwell.practice.limits import LIFTS_OFF, UNSTABLE, YIELDS, Limit
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.wording import amount, force_text, percent, quantity, size_text
-from rodwell.problem import ends_text
+from rodwell.practice.wording import force_text, quantity, size_text
+from rodwell.problem.problem import ends_text
+from rodwell.quantities.text import amount, percent
 
 
 def verdict(answer: Answer) -> str:

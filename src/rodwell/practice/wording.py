@@ -2,39 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-from rodwell.practice.units import System, plain
+from rodwell.quantities.text import amount, certain
+from rodwell.quantities.units import System
 
 if TYPE_CHECKING:
     from rodwell.analysis.special import SpecialPoint
     from rodwell.practice.answer import Answer
-
-
-def certain(value: float, error: float, digits: int) -> int:
-    """Return how many of the first ``digits`` significant digits the error allows; 0 if not even the first.
-
-    A digit is allowed if half a unit of it is no less than the error: rounding then hides more than the error changes.
-    """
-    if not error > 0.0 or value == 0.0:
-        return digits
-    if not math.isfinite(error):
-        return 0
-    unit = math.ceil(math.log10(2.0 * error) - 1e-9)
-    return max(0, min(digits, math.floor(math.log10(abs(value))) - unit + 1))
-
-
-def amount(value: float, error: float = 0.0, digits: int = 4) -> str:
-    """A number rounded to the digits that its error allows; with the error beside it where it allows none."""
-    count = certain(value, error, digits)
-    text = plain(value, count) if count else f"{plain(value, 1)} ± {plain(error, 1)}"
-    return text.replace("-", "−")
-
-
-def percent(part: float, error: float = 0.0, digits: int = 3) -> str:
-    """A part of 1 in percent, rounded like :func:`amount`."""
-    return f"{amount(100.0 * part, 100.0 * error, digits)} %"
 
 
 def quantity(system: System, value: float, error: float, dimension: str, digits: int = 4) -> str:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from rodwell.analysis.surfaces import SIDES
 from rodwell.errors import InputError, checked_whole
-from rodwell.practice.scales import Scales
 from rodwell.practice.scene import drawn
-from rodwell.practice.units import to_si
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.units import to_si
 from rodwell.store.folder import whole_folder
 from rodwell.store.shapes import ENLARGED, WRITERS
 

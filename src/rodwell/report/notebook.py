@@ -1,4 +1,4 @@
-"""Results as small tables for notebooks: found by :mod:`rodwell.display`."""
+"""Results as small tables for notebooks: found by :mod:`rodwell.faces`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from functools import singledispatch
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.nomenclature import QUANTITIES
 from rodwell.analysis.solution import Solution
 from rodwell.plots.bifurcation import ORDINATES
 from rodwell.practice.advice import statuses
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.meaning import sentences
-from rodwell.problem import Problem, ends_text
+from rodwell.problem.problem import Problem, ends_text
+from rodwell.quantities.names import QUANTITIES
 from rodwell.report.content import Grid
 from rodwell.report.sections import key_figures
 from rodwell.report.templates import template

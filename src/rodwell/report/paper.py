@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
 
-from rodwell.analysis.accuracy import RTOL
 from rodwell.compiling import second_process
 from rodwell.errors import checked_whole
 from rodwell.numerics.corrector import correct
+from rodwell.quantities.tolerance import RTOL
 from rodwell.report.texts import number
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json

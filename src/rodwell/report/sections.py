@@ -8,7 +8,7 @@ from rodwell._version import __version__
 from rodwell.plots.bifurcation import ORDINATES, telling
 from rodwell.practice.advice import next_steps, statuses
 from rodwell.practice.answer import Answer
-from rodwell.practice.figures import Figure
+from rodwell.practice.figure import Figure
 from rodwell.practice.meaning import assumptions, sentences
 from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
 from rodwell.report.strength import strength_sections

@@ -5,11 +5,12 @@ from __future__ import annotations
 from rodwell.practice.along import along, shown
 from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
-from rodwell.practice.audit import Row
+from rodwell.practice.beside import Row
 from rodwell.practice.limits import LIFTS_OFF, Limit
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.units import SI, System, plain
 from rodwell.practice.verdict import local_sentence
+from rodwell.quantities.text import plain
+from rodwell.quantities.units import SI, System
 from rodwell.report.content import Block, Grid, Picture, Section, Words
 
 WORDS = {
@@ -23,7 +24,7 @@ WORDS = {
 def strength_sections(answer: Answer) -> tuple[Section, ...]:
     """Return the sections on strength: those that the case has something to say on."""
     a = answer.assessment
-    return (*_at_loads(a), _window(a), *_stress_section(a), *_formulas(a))
+    return (*_at_loads(a), _window(answer), *_stress_section(a), *_formulas(a))
 
 
 def _at_loads(a: Assessment) -> tuple[Section, ...]:
@@ -61,13 +62,13 @@ def _strong(a: Assessment) -> bool:
     return a.case.yield_strength is not None and a.section is not None
 
 
-def _window(a: Assessment) -> Section:
+def _window(answer: Answer) -> Section:
     """Window, limits, and the figure along the rod."""
-    local = local_sentence(a.answer)
+    a, local = answer.assessment, local_sentence(answer)
     caption = "Effective axial force along the rod, tension positive"
     caption += ", with the local limits of an endless rod at its lower end." if local else "."
     if a.section is not None:
-        state = shown(a.answer, along(a.answer, 2)).state.name
+        state = shown(answer, along(answer, 2)).state.name
         caption += (
             f" Stress in the rod {state}: axial from the real force, bending at the outer surface (either sign), and "
             "the largest von Mises stress of each section."
@@ -153,7 +154,7 @@ def _window_text(a: Assessment) -> str:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
     end, width = window.end, window.width
     if end is None or width is None:
-        return f"No lift-off was found down to {_text(a, a.answer.until, 'force')} at s = 1."
+        return f"No lift-off was found down to {_text(a, a.computed.until, 'force')} at s = 1."
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"

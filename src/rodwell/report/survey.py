@@ -6,7 +6,8 @@ from pathlib import Path
 
 from rodwell.plots.survey import plot_screening
 from rodwell.practice.screening import Screening
-from rodwell.practice.screening_data import screening_dict, screening_table
+from rodwell.practice.screening_data import screening_table
+from rodwell.practice.screening_plain import screening_dict
 from rodwell.report.pictures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx

@@ -7,7 +7,8 @@ from typing import Any
 from rodwell.analysis.certificate import Certificate
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
-from rodwell.practice.figures import Figure, supported
+from rodwell.practice.figure import Figure
+from rodwell.quantities.text import supported
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
 

@@ -18,11 +18,11 @@ import numpy as np
 from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.surfaces import straight_contact
-from rodwell.numerics.spaces import FloatArray
 from rodwell.plots.units import axis
-from rodwell.practice.scales import Scales
 from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
-from rodwell.practice.units import plain
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import plain
 from rodwell.report.templates import HERE, template
 
 PLACES, SIDES = (321, 801), 16

@@ -13,11 +13,12 @@ import numpy as np
 from rodwell.analysis.branches import Branch
 from rodwell.analysis.critical import CriticalLoads
 from rodwell.analysis.curves import Curve
-from rodwell.analysis.dataset import Variable, branch_attributes, branch_variables
 from rodwell.analysis.diagram import Diagram
-from rodwell.analysis.nomenclature import QUANTITIES
 from rodwell.practice.answer import Answer
-from rodwell.practice.scales import Scales
+from rodwell.quantities.names import QUANTITIES
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.table import Variable
+from rodwell.store.dataset import branch_attributes, branch_variables
 
 
 def joined_variables(branches: Sequence[Branch]) -> dict[str, Variable]:

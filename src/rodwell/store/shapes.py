@@ -15,11 +15,11 @@ import numpy as np
 
 from rodwell._version import __version__
 from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.nomenclature import FIELDS, QUANTITIES, SI_UNITS, UNITS
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.surfaces import SIDES, Mesh, cylinder, tube
-from rodwell.practice.scales import Scales
 from rodwell.practice.scene import Part, linear_colours, scene
+from rodwell.quantities.names import FIELDS, QUANTITIES, SI_UNITS, UNITS
+from rodwell.quantities.scales import Scales
 
 VECTORS = ("t1", "d1", "u1", "d0", "v1")
 """Frames as vectors: braid frame {t₁, d₁, u₁}, material frame {t₁, d₀, v₁}."""

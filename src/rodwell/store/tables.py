@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from rodwell.practice.table import Cell, Table
+from rodwell.quantities.table import Cell, Table
 
 WIDEST, NARROWEST = 40, 9
 """Widths of columns in characters."""

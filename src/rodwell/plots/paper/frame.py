@@ -11,8 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.spaces import FloatArray
 from rodwell.plots.style import INK, MODES, RC
+from rodwell.quantities.arrays import FloatArray
 
 PAPER_RC: Any = RC | {
     "font.size": 8.5,

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from rodwell.analysis.solution import Solution
 from rodwell.plots.paper.frame import ALONG, PLACES, WEIGHT, context, letter, new_figure
-from rodwell.plots.style import INK, MODES, minus
+from rodwell.plots.style import INK, MODES
+from rodwell.quantities.text import minus
 from rodwell.studies.paper.scorer import Determinant
 from rodwell.studies.paper.shapes import FIG7, Shape
 

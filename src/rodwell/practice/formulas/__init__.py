@@ -5,7 +5,6 @@ radial clearance r is the paper's Δ. Any coherent units do. :data:`FORMULAS` ho
 :data:`LEFT_OUT` what is known from memory only or refuted.
 """
 
-from rodwell.practice.formulas import helix, inclined, path, pushing, vertical
 from rodwell.practice.formulas.left_out import LEFT_OUT, LeftOut
 from rodwell.practice.formulas.record import FORMULAS, SYMBOLS, Formula, Rod
 

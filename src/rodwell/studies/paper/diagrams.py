@@ -12,7 +12,7 @@ from rodwell.analysis.diagram import diagram as compute
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
 from rodwell.errors import NotConvergedError
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
 from rodwell.studies.paper.claims import FORMULA, Claim, Known, Value
 from rodwell.studies.paper.work import Work, rod
 

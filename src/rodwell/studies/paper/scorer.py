@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.numerics.spaces import FloatArray
+from rodwell.quantities.arrays import FloatArray
 
 NODES = 32
 """Gauss points for the integral of Gi; it is smooth over at most seven units of t."""

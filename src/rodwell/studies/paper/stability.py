@@ -15,8 +15,9 @@ from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.analysis.state_curves import lift_off_curve
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.spaces import FloatArray
-from rodwell.problem import Problem
+from rodwell.practice.formulas import FORMULAS
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 from rodwell.studies.paper.work import CLEARANCE, Work, rod
 
 FIG5_WEIGHTS = (5.0, 40.0, 140.0, 280.0)
@@ -180,8 +181,6 @@ class Fit:
 
 def fig13(work: Work) -> tuple[Fit, ...]:
     """Fig. 13(a) and (b): α = π/2 and π/3."""
-    from rodwell.practice.formulas import FORMULAS  # noqa: PLC0415
-
     formula, switches = FORMULAS["dellinger"].function, [n * n * (n + 2) ** 2 * np.pi**4 * CLEARANCE for n in (1, 2, 3)]
     weights = np.unique([*np.linspace(0.0, 300.0, 101), *switches])
     out = []

@@ -1,9 +1,4 @@
-"""Uncertain inputs: "30 m ± 0.1 m" in a case file, carried through to the loads.
-
-To first order, with inputs independent of each other: each input is moved by its uncertainty either way, what becomes
-of γ, α, Δ/L and B/L² follows from the case, and the load from these by its exact derivatives
-(``analysis.sensitivity``).
-"""
+"""Uncertain inputs: "30 m ± 0.1 m" in a case file, and the case with each of them moved either way."""
 
 from __future__ import annotations
 
@@ -13,14 +8,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.analysis.sensitivity import Sensitivity
 from rodwell.errors import InputError
-from rodwell.practice.scales import Scales
-from rodwell.practice.units import in_unit_of
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.units import in_unit_of
 
 _PLUS_MINUS = re.compile(r"\s*(.+?)\s*(?:±|\+/-|\+-)\s*(.+?)\s*")
+
+
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
+
 
 Moved = tuple[Problem, Scales | None]
 
@@ -36,22 +33,6 @@ class UncertainInput:
     written: str
     down: Moved | None
     up: Moved | None
-
-
-@dataclass(frozen=True)
-class Spread:
-    """Uncertainty of a load: one standard uncertainty if the inputs' are, and what each input contributes.
-
-    ``total`` and ``parts`` (by key of the case file) are in B/L², or in N for a case with dimensions.
-    """
-
-    total: float
-    parts: dict[str, float]
-
-    @property
-    def largest(self) -> str:
-        """Key of the input that contributes most."""
-        return max(self.parts, key=lambda key: abs(self.parts[key]))
 
 
 def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str], tuple[str, str]]]:
@@ -100,28 +81,3 @@ def _moved(key: str, written: str, nominal: str, spread: str) -> tuple[Any, Any]
     if not unit:
         return middle, (middle - size, middle + size)
     return f"{middle!r} {unit}", (f"{middle - size!r} {unit}", f"{middle + size!r} {unit}")
-
-
-def spread_of_load(load: Sensitivity, scales: Scales | None, inputs: tuple[UncertainInput, ...]) -> Spread | None:
-    """Uncertainty of a load from those of the inputs; None if no input is uncertain."""
-    if not inputs:
-        return None
-    parts = {}
-    for given in inputs:
-        here = _linear(load, scales, (load.problem, scales))
-        values = [here if moved is None else _linear(load, scales, moved) for moved in (given.down, given.up)]
-        sides = 2.0 if given.down is not None and given.up is not None else 1.0
-        parts[given.key] = (values[1] - values[0]) / sides
-    return Spread(math.sqrt(math.fsum(part**2 for part in parts.values())), parts)
-
-
-def _linear(load: Sensitivity, scales: Scales | None, moved: Moved) -> float:
-    """The load at moved inputs, to first order in γ, α, Δ/L and T₁; in N with ``scales``."""
-    problem, new = moved
-    force = load.force
-    for name, (slope, _) in load.derivatives.items():
-        force += slope * (getattr(problem, name) - getattr(load.problem, name))
-    if scales is None or new is None:
-        return force
-    unit = scales.factor("force")
-    return load.force * new.factor("force") + (force - load.force) * unit

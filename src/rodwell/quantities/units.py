@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from rodwell.quantities.text import plain, prefix_for, readable
+
 KINDS: dict[str, tuple[str, str]] = {
     "length": ("m", '"30 m", "5 cm", "8.5 in"'),
     "angle": ("rad", '"15 deg"'),
@@ -116,26 +118,6 @@ def _hint(quantity: Any, kind: str) -> str:
     return ""
 
 
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-
-
-def readable(value: float, unit: str, digits: int = 4) -> str:
-    """Return ``value`` with an engineering prefix: ``readable(-12345, "N")`` is "−12.35 kN"."""
-    if value == 0.0 or not math.isfinite(value):
-        return f"{value:g} {unit}".replace("-", "−")
-    scale, prefix = prefix_for(value)
-    return f"{plain(value / scale, digits)} {prefix}{unit}".replace("-", "−")
-
-
-def prefix_for(value: float) -> tuple[float, str]:
-    """Return factor and letter of the engineering prefix that suits ``value``."""
-    size = abs(value)
-    for scale, prefix in _PREFIXES:
-        if size >= scale * (1.0 - 1e-9):
-            return scale, prefix
-    return _PREFIXES[-1] if size > 0.0 else (1.0, "")
-
-
 LBF, FOOT, INCH, GALLON = 4.4482216152605, 0.3048, 0.0254, 231.0 * 0.0254**3
 """Units of the field in SI, exact by definition: pound-force, foot, inch, US gallon."""
 
@@ -170,13 +152,6 @@ SYSTEMS = tuple(_UNITS)
 
 SMALL = 3.0
 """Below this many of the first unit, the second is used: a rod has feet, its clearance inches."""
-
-
-def plain(number: float, digits: int = 4) -> str:
-    """Return ``number`` rounded to ``digits`` significant digits, without an exponent where twelve places will do."""
-    if math.isfinite(number):
-        number = float(f"{number:.{digits}g}")
-    return f"{number:.{max(digits, 12)}g}"
 
 
 @dataclass(frozen=True)

@@ -1,101 +1,27 @@
-"""An assessment as key figures and as plain data, for tables and JSON."""
+"""An answer as plain data, for JSON."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from rodwell.analysis.nomenclature import SI_UNITS, UNITS
+from rodwell._version import __version__
+from rodwell.analysis.branches import Branch
+from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import Assessment, AtLoad
-from rodwell.practice.audit import Row
-from rodwell.practice.figures import Figure, force_scale
-from rodwell.practice.limits import LIFTS_OFF, Limit
+from rodwell.practice.beside import Row
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.units import plain
-from rodwell.practice.wording import percent
+from rodwell.practice.spread import Spread
+from rodwell.practice.verdict import verdict
+from rodwell.problem.problem import ends_text
+from rodwell.quantities.names import SI_UNITS, UNITS
 
 
-def assessment_figures(a: Assessment) -> list[Figure]:
-    """Forces at the lower end, the window, limits; stress, safety and supports at buckling and lift-off."""
-    out = [*_at_bottom(a), *_window(a)]
-    for state, name in ((a.at_buckling, "buckling"), (a.at_lift_off, "lift_off")):
-        if state is not None:
-            out += _stress(a, state, name)
-    state = a.at_lift_off or a.at_buckling
-    for support in a.supports(state):
-        label = f"Largest load on a support {state.name}, part of its capacity: {support.text}"
-        error = support.error / support.capacity
-        out.append(Figure(f"support_{support.kind}_used", label, support.utilisation, error, "1",
-                          max(1.0, support.utilisation),
-                          f"{plain(100.0 * support.utilisation, 3)} % of its capacity"))  # fmt: skip
-    return out
-
-
-def _at_bottom(a: Assessment) -> list[Figure]:
-    """Critical and lift-off load as effective force at the lower end, where it differs from that at the upper one."""
-    weight = a.case.problem.axial_weight
-    if weight == 0.0:
-        return []
-    note = "N(0) = F − mg L cos α: the most compressed place"
-    loads = [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
-    if a.window.lift_off is not None:
-        loads.append(("lift_off_load", "Lift-off load", a.window.lift_off))
-    return [
-        Figure(f"{name}_bottom", f"{label}, effective force at the lower end s = 0", force - weight, error, "force",
-               force_scale(force) + weight, note)
-        for name, label, (force, error) in loads
-    ]  # fmt: skip
-
-
-def _window(a: Assessment) -> list[Figure]:
-    """Width of the window, and the limits on the way."""
-    out, window = [], a.window
-    width, end = window.width, window.end
-    if width is not None and end is not None and not a.branch.lift_off_at_buckling:
-        parts = [] if window.share is None else [f"{percent(*window.share, 4)} of the compression at s = 0 at buckling"]
-        parts.append(f"ends by {end.name}")
-        if a.limiting is not None:
-            parts.append(f"limited before by {a.limiting.name}")
-        label = "Safe window: compression from buckling on, buckled but stable and on the wall"
-        out.append(Figure("window", label, *width, "force", force_scale(window.buckling[0]), "; ".join(parts)))
-    for limit in window.limits:
-        if limit.kind == LIFTS_OFF or limit.force is None:
-            continue
-        label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
-        out.append(Figure(f"limit_{limit.kind}", label, limit.force, limit.error, "force",
-                          force_scale(limit.force) + a.case.problem.axial_weight, _place(limit)))  # fmt: skip
-    return out
-
-
-def _place(limit: Limit) -> str:
-    where = [] if limit.s is None else [f"at s/L = {limit.s:.4g}"]
-    return "; ".join([*where, "on the buckled rod" if limit.buckled else "on the straight rod, before it buckles"])
-
-
-def _stress(a: Assessment, state: LoadedRod, name: str) -> list[Figure]:
-    """Largest von Mises stress in the rod in a state, and the safety factor."""
-    found, scales = a.stress(state), a.case.scales
-    if found is None or scales is None:
-        return []
-    unit, value = scales.factor("stress"), found.value / scales.factor("stress")
-    note = f"at s/L = {found.s:.4g}, {found.fibre}"
-    label = f"Largest von Mises stress in the rod {state.name}"
-    out = [Figure(f"rod_stress_{name}", label, value, found.error / unit, "stress", value, note)]
-    if found.safety is not None:
-        factor, error = found.safety
-        label = f"Safety factor of the rod against yield {state.name}"
-        out.append(
-            Figure(f"safety_factor_{name}", label, factor, error, "1", factor, "yield strength / von Mises stress")
-        )
-    return out
-
-
-def assessment_dict(a: Assessment) -> dict[str, Any]:
+def assessment_dict(answer: Answer) -> dict[str, Any]:
     """Verdict, loads that act, window with limits, states with stresses, local limits, formulas."""
-    from rodwell.practice.verdict import verdict  # noqa: PLC0415 - it looks at answers
-
+    a = answer.assessment
     window = a.window
     return {
-        "verdict": verdict(a.answer),
+        "verdict": verdict(answer),
         "window": {
             "buckling": _force(a, *window.buckling),
             "lift_off": None if window.lift_off is None else _force(a, *window.lift_off),
@@ -204,3 +130,64 @@ def _formula(a: Assessment, row: Row) -> dict[str, Any]:
         "against": row.against, "exact": _force(a, main.exact, main.error), "percent": main.percent,
         "safe": main.safe, "valid": row.valid, "outside_because": list(row.reasons),
     }  # fmt: skip
+
+
+def answer_dict(answer: Answer) -> dict[str, Any]:
+    """Return the answer as plain data, for JSON."""
+    case, problem = answer.case, answer.case.problem
+    lift, assessment = answer.lift_off, assessment_dict(answer)
+    return {
+        "title": case.title,
+        "verdict": assessment.pop("verdict"),
+        "rodwell_version": __version__,
+        "conventions": "units B = L = 1 unless si, field or mm; end force at s = 1, tension positive"
+        + (", effective" if case.with_fluids else "")
+        + "; "
+        + ends_text(problem),
+        "problem": {
+            "weight": problem.weight,
+            "alpha": problem.alpha,
+            "clearance": problem.clearance,
+            "poisson": problem.poisson,
+            "twist": problem.twist,
+            "ends": list(problem.ends),
+        },
+        "critical_loads": [float(f) for f in answer.critical.forces],
+        "critical_errors": [float(e) for e in answer.critical.errors],
+        "lift_off": None
+        if lift is None
+        else {
+            "force": lift.force,
+            "error": lift.error,
+            "s": list(lift.s),
+            "coincides_with_buckling": answer.first.lift_off_at_buckling,
+        },
+        "conversions": [fact.as_dict() for fact in case.facts],
+        "yield_strength_Pa": case.yield_strength,
+        "figures": {name: figure.as_dict(case) for name, figure in answer.figures.items()},
+        "branches": [_branch_dict(branch) for branch in answer.branches],
+        "assessment": assessment,
+        "sensitivities": [
+            load.as_dict() | _spread(spread) for load, spread in zip(answer.sensitivities, answer.spreads, strict=True)
+        ],
+        "converged": answer.converged,
+        "certificate": answer.worst_certificate.as_dict(),
+        "rtol": case.rtol,
+    }
+
+
+def _spread(spread: Spread | None) -> dict[str, Any]:
+    """Uncertainty from the inputs, for JSON: in B/L², or in N for a case with dimensions."""
+    if spread is None:
+        return {"from_inputs": None}
+    return {"from_inputs": {"total": spread.total, "parts": spread.parts}}
+
+
+def _branch_dict(branch: Branch) -> dict[str, Any]:
+    return {
+        "mode": branch.mode.number if branch.mode else None,
+        "points": len(branch),
+        "reached_end": branch.reached_end,
+        "ended_because": branch.ended_because,
+        "special_points": [point.as_dict() for point in branch.special_points],
+    }

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rodwell._version import __version__
 from rodwell.analysis.balance import ENERGIES
+from rodwell.analysis.branches import Branch
 from rodwell.analysis.fields import GRID
 from rodwell.analysis.measures import Measured
-from rodwell.analysis.nomenclature import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
+from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, checked_number
 from rodwell.physics.frames import AXES, FRAMES, frames
-from rodwell.problem import Problem
+from rodwell.problem.problem import Problem
+from rodwell.quantities.names import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
+from rodwell.quantities.table import Variable
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rodwell.analysis.branches import Branch
-    from rodwell.analysis.solution import Solution
 
 _MEASURED = {
     Measured.P_MAX: "largest_pressure",
@@ -40,12 +42,10 @@ CONVENTIONS = (
 )
 
 
-class Variable(NamedTuple):
-    """A labelled array: dimensions, values, metadata."""
-
-    dims: tuple[str, ...]
-    values: np.ndarray
-    attrs: dict[str, Any]
+@singledispatch
+def dataset(result: object, *_arguments: Any, **_options: Any) -> xr.Dataset:
+    """Return a result as an xarray Dataset: for the methods of results."""
+    raise TypeError(f"{type(result).__name__} has no dataset")
 
 
 def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
@@ -117,6 +117,7 @@ def branch_attributes(branch: Branch) -> dict[str, Any]:
     }
 
 
+@dataset.register(Branch)
 def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     """Return :func:`branch_variables` as an xarray Dataset, fields at ``places`` places along the rod."""
     import xarray as xr  # noqa: PLC0415 - slow to import
@@ -126,6 +127,7 @@ def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     return xr.Dataset(data, coords=coords, attrs=branch_attributes(branch))
 
 
+@dataset.register(Solution)
 def solution_dataset(
     solution: Solution, places: int = GRID, length: float | None = None, stiffness: float | None = None
 ) -> xr.Dataset:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
 
 Cell = str | float | int | None
 """A cell; None where there is no value, never NaN."""
@@ -31,3 +34,11 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...]
     marked: frozenset[int] = frozenset()
     notes: tuple[str, ...] = ()
+
+
+class Variable(NamedTuple):
+    """A labelled array: dimensions, values, metadata."""
+
+    dims: tuple[str, ...]
+    values: np.ndarray
+    attrs: dict[str, Any]

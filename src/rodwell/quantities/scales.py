@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rodwell.analysis.nomenclature import POWERS, QUANTITIES, SI_UNITS
-from rodwell.practice.units import SI, System
+from rodwell.quantities.names import POWERS, QUANTITIES, SI_UNITS
+from rodwell.quantities.units import SI, System
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
+from rodwell.problem.ends import HOLD_ANGLE, checked_ends
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -23,20 +24,6 @@ LIMITS = {
     "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
 }
 """Lowest and highest value of each number, and what is allowed in words."""
-
-ENDS = ("clamped", "pinned", "guided", "free")
-"""End conditions: y and y' held, y held, y' held, none held."""
-
-HOLD_ANGLE = ("clamped", "pinned")
-"""End conditions that hold y."""
-
-
-def checked_ends(ends: object) -> tuple[str, str]:
-    """Return the end conditions at s = 0 and s = 1 from a pair or a text like "clamped-pinned", or raise."""
-    parts = tuple(ends.split("-")) if isinstance(ends, str) else ends
-    if isinstance(parts, list | tuple) and len(parts) == 2 and all(part in ENDS for part in parts):
-        return str(parts[0]), str(parts[1])
-    raise InputError("ends", ends, f"must be two of {', '.join(ENDS)}, that at s = 0 first: for example clamped-pinned")
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:

@@ -1,0 +1,1 @@
+"""The dimensionless problem: what the mathematics needs, and nothing else."""

@@ -1,0 +1,1 @@
+"""What a number is: its name, unit, scale, error, and how it is written."""

@@ -1,0 +1,68 @@
+"""Numbers as text: as many digits as their errors allow, engineering prefixes, a true minus sign."""
+
+from __future__ import annotations
+
+import math
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+
+
+def readable(value: float, unit: str, digits: int = 4) -> str:
+    """Return ``value`` with an engineering prefix: ``readable(-12345, "N")`` is "−12.35 kN"."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g} {unit}".replace("-", "−")
+    scale, prefix = prefix_for(value)
+    return f"{plain(value / scale, digits)} {prefix}{unit}".replace("-", "−")
+
+
+def prefix_for(value: float) -> tuple[float, str]:
+    """Return factor and letter of the engineering prefix that suits ``value``."""
+    size = abs(value)
+    for scale, prefix in _PREFIXES:
+        if size >= scale * (1.0 - 1e-9):
+            return scale, prefix
+    return _PREFIXES[-1] if size > 0.0 else (1.0, "")
+
+
+def plain(number: float, digits: int = 4) -> str:
+    """Return ``number`` rounded to ``digits`` significant digits, without an exponent where twelve places will do."""
+    if math.isfinite(number):
+        number = float(f"{number:.{digits}g}")
+    return f"{number:.{max(digits, 12)}g}"
+
+
+def certain(value: float, error: float, digits: int) -> int:
+    """Return how many of the first ``digits`` significant digits the error allows; 0 if not even the first.
+
+    A digit is allowed if half a unit of it is no less than the error: rounding then hides more than the error changes.
+    """
+    if not error > 0.0 or value == 0.0:
+        return digits
+    if not math.isfinite(error):
+        return 0
+    unit = math.ceil(math.log10(2.0 * error) - 1e-9)
+    return max(0, min(digits, math.floor(math.log10(abs(value))) - unit + 1))
+
+
+def amount(value: float, error: float = 0.0, digits: int = 4) -> str:
+    """A number rounded to the digits that its error allows; with the error beside it where it allows none."""
+    count = certain(value, error, digits)
+    text = plain(value, count) if count else f"{plain(value, 1)} ± {plain(error, 1)}"
+    return text.replace("-", "−")
+
+
+def percent(part: float, error: float = 0.0, digits: int = 3) -> str:
+    """A part of 1 in percent, rounded like :func:`amount`."""
+    return f"{amount(100.0 * part, 100.0 * error, digits)} %"
+
+
+def supported(value: float, error: float, most: int) -> int:
+    """How many significant digits of a value a table shows beside its error, the last one in doubt; 0: none."""
+    if value == 0.0 or not error > 0.0:
+        return most
+    return max(0, min(most, math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1))
+
+
+def minus(text: str) -> str:
+    """Typographic minus signs."""
+    return text.replace("-", "−")
