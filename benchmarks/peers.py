@@ -21,7 +21,7 @@ from timing import least
 
 import rodwell
 from rodwell.analysis.measures import Measured
-from rodwell.numerics.families import Family, State
+from rodwell.numerics.equilibria.family import Family, State
 
 HERE = Path(__file__).parent
 PROBLEM = rodwell.Problem(15.0)

@@ -27,9 +27,9 @@ import rodwell
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.analysis.critical import critical_loads
 from rodwell.analysis.families import family
-from rodwell.numerics import banded
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics.exact_horizontal import horizontal_loads
+from rodwell.numerics.splines import banded
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.exact.horizontal import horizontal_loads
 from rodwell.plots.style import MODES as COLORS
 from rodwell.plots.style import RC, new_axes
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Arc, Circle
 
 import rodwell
 from rodwell.analysis.solution import Solution
-from rodwell.physics.frames import frames
+from rodwell.physics.on_wall.frames import frames
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN, new_axes
 
 PROBLEM, FORCE, CUT = rodwell.Problem(15.0, alpha=60.0), -110.0, 0.4

@@ -22,11 +22,11 @@ from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.families import spline_ends
 from rodwell.analysis.measures import Measured, measure, measured_ladder
 from rodwell.analysis.meshes import first_space
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Point
-from rodwell.numerics.spaces import Prolongation, SplineSpace
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Point
+from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.physics.exact import pair_loads
-from rodwell.physics.strand import contact_pressure
+from rodwell.physics.on_wall.strand import contact_pressure
 from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
 
 PROBLEM, FORCE = Problem(40.0, alpha=60.0, twist=0.5), -190.0

@@ -65,7 +65,7 @@ def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
 
 def test_machine_code_on_disk_is_seen(tmp_path):
     script = (
-        "from rodwell.compiling import second_process; from rodwell.numerics.corrector import dot; import numpy as np;"
+        "from rodwell.compiling import second_process; from rodwell.numerics.equilibria.newton import dot; import numpy as np;"
         "print(second_process.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(second_process.on_disk(dot))"
     )
     run = subprocess.run(

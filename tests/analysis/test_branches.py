@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from rodwell import Branch, InputError, Problem, Solution, critical_loads, equilibrium, follow
 from rodwell.analysis.measures import Measured, measure
-from rodwell.numerics.families import Outcome
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.equilibria.family import Outcome
+from rodwell.numerics.splines.spaces import SplineSpace
 
 
 def special(branch: Branch, kind: str) -> list[float]:
@@ -58,7 +58,7 @@ def test_special_points_do_not_depend_on_the_step(fig3c: dict[int, Branch], step
 
 
 def test_index_is_the_count_of_negative_eigenvalues(fig3c: dict[int, Branch]) -> None:
-    from rodwell.numerics import assembly
+    from rodwell.numerics.splines import assembly
 
     for state in (fig3c[1][20], fig3c[2][6], fig3c[1][-1]):
         family, fine = state.ladder.fine, state.point.fine

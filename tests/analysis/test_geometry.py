@@ -11,7 +11,7 @@ import rodwell
 from rodwell.analysis.geometry import Geometry
 from rodwell.analysis.surfaces import Mesh, cylinder, material_lines, ring, straight_contact, tube
 from rodwell.errors import InputError
-from rodwell.physics.frames import frames
+from rodwell.physics.on_wall.frames import frames
 
 STATES = {
     "lift-off": lambda: rodwell.follow(rodwell.Problem(15)).lift_off.solution,

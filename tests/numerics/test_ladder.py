@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rodwell.numerics.ladder import CLAIMED_GAIN, ROUND_OFF, _judged
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN, ROUND_OFF
+from rodwell.numerics.equilibria.two_meshes import _judged
 
 
 def test_errors_from_two_meshes() -> None:

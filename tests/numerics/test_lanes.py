@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rodwell.numerics.lanes import on_lanes
-from rodwell.numerics.products import dots, subtract
-from rodwell.physics.model import RodOnCylinder
+from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.numerics.splines.products import dots, subtract
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 ULP = np.finfo(float).eps
 

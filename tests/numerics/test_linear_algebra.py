@@ -11,9 +11,10 @@ import scipy.linalg
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rodwell.numerics import assembly, banded, eigen
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics.model import RodOnCylinder
+from rodwell.numerics.equilibria import eigen
+from rodwell.numerics.splines import assembly, banded
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 SIZES = st.tuples(st.integers(1, 30), st.integers(1, 10), st.integers(0, 2**31))
 
@@ -107,7 +108,7 @@ def test_gram_matrices_do_not_depend_on_how_many_values_are_computed_at_once(mon
     rng = np.random.default_rng(3)
     density, block = rng.standard_normal((3, space.points.size)), rng.standard_normal((3, space.size))
     whole = space.grams(density, block)
-    monkeypatch.setattr("rodwell.numerics.spaces.AT_ONCE", 200)  # five elements
+    monkeypatch.setattr("rodwell.numerics.splines.spaces.AT_ONCE", 200)  # five elements
     for part, all_of_it in zip(space.grams(density, block), whole, strict=True):
         np.testing.assert_allclose(part, all_of_it, rtol=1e-12)
 

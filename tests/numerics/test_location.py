@@ -10,12 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell import Problem, follow
-from rodwell.numerics.crossings import _bisect
-from rodwell.numerics.ends import Ends
-from rodwell.numerics.extrema import contact_maxima
-from rodwell.numerics.location import Span, bracketed_root
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics.model import RodOnCylinder
+from rodwell.numerics.continuation.crossings import _bisect
+from rodwell.numerics.continuation.location import Span, bracketed_root
+from rodwell.numerics.equilibria.maxima import contact_maxima
+from rodwell.numerics.splines.held import Ends
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 
 @given(st.floats(0.01, 0.99), st.integers(1, 9).filter(lambda k: k % 2 == 1))
@@ -60,7 +60,7 @@ def test_every_change_of_the_index_is_resolved(jumps: dict[float, int]) -> None:
 
 def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> tuple[np.ndarray, np.ndarray]:
     """Maxima for a given y(s), projected on a fine space, and a dense sample of the pressure."""
-    from rodwell.physics.strand import contact_pressure
+    from rodwell.physics.on_wall.strand import contact_pressure
 
     space = SplineSpace(np.linspace(0.0, 1.0, 41), 9)
     s = space.points

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rodwell import Problem, critical_loads, follow
-from rodwell.numerics.families import State
-from rodwell.numerics.prediction import MOST_POINTS, Course
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.continuation.prediction import MOST_POINTS, Course
+from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.splines.spaces import SplineSpace
 
 SPACE = SplineSpace(np.linspace(0.0, 1.0, 3), 2)
 

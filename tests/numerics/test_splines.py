@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
-from rodwell.numerics.ends import Ends
-from rodwell.numerics.spaces import Prolongation, SplineSpace, graded_mesh
+from rodwell.numerics.splines.held import Ends
+from rodwell.numerics.splines.spaces import Prolongation, SplineSpace, graded_mesh
 
 DEGREES = st.integers(4, 9)
 MESHES = st.lists(st.floats(0.02, 1.0), min_size=2, max_size=9).map(

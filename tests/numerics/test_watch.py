@@ -9,8 +9,8 @@ import pytest
 from scipy.linalg import eigh
 
 from rodwell import Problem, diagram, follow
-from rodwell.numerics import continuation
-from rodwell.numerics.watch import Watch, _dips, hidden_change
+from rodwell.numerics.continuation import walk as continuation
+from rodwell.numerics.continuation.softest import Watch, _dips, hidden_change
 
 PLACE = np.array([-1.0, 0.0, 1.0])
 

@@ -8,7 +8,7 @@ import pytest
 import rodwell
 from rodwell import Problem
 from rodwell.analysis.measures import Measured
-from rodwell.physics.frames import frames
+from rodwell.physics.on_wall.frames import frames
 
 PROBLEMS = {
     "horizontal": (Problem(15.0), -180.0),

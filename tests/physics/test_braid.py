@@ -139,7 +139,7 @@ def _reweighted(state: rodwell.Solution) -> object:
     import dataclasses
 
     from rodwell.analysis.families import path
-    from rodwell.numerics.ladder import Ladder
+    from rodwell.numerics.equilibria.two_meshes import Ladder
 
     family = dataclasses.replace(state.ladder.coarse, path=path(state.problem.but(weight=41.0), "force"))
     return Ladder(family, state.ladder.measure, state.ladder.rtol)

@@ -9,9 +9,10 @@ import rodwell
 from rodwell import Problem
 from rodwell.analysis import certificate
 from rodwell.analysis.measures import Measured
-from rodwell.physics import braid, paper
-from rodwell.physics.paper import NAMES, Fifteen, Load
-from rodwell.physics.parameters import SIDE
+from rodwell.physics.on_wall import braid
+from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
+from rodwell.physics.on_wall.parameters import SIDE
 
 T2, H, WORK = "T₂ by two routes", "h by two routes", "work and energy"
 

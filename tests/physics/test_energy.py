@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rodwell.physics import _density, energy
-from rodwell.physics.linear import second_variation
-from rodwell.physics.parameters import PARAMETERS
+from rodwell.physics.on_wall import _density, energy
+from rodwell.physics.on_wall.linear import second_variation
+from rodwell.physics.on_wall.parameters import PARAMETERS
 
 STATE = st.tuples(
     st.floats(0.0, 1.0),  # s

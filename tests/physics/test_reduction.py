@@ -12,7 +12,7 @@ from functools import cache
 import sympy as sp
 from symbolic import all_vanish, cross, euler, s, vanishes
 
-from rodwell.physics import energy
+from rodwell.physics.on_wall import energy
 
 C, D, F, T1, G = sp.symbols("C Delta F T1 G", real=True)  # G: the shear force F₃(1), a constant
 wa, wl = sp.symbols("w_a w_l", real=True)  # mg cos α, mg sin α

@@ -11,9 +11,9 @@ from rodwell.analysis.families import family as equilibria
 from rodwell.analysis.families import spline_ends
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics.strand import contact_pressure
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.strand import contact_pressure
 
 PROBLEM, FORCE = Problem(40.0, alpha=60.0, twist=0.5), -190.0
 PLACES = np.linspace(0.0, 1.0, 4001)

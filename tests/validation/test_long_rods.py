@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rodwell import Problem, critical_loads, follow
-from rodwell.physics.exact_horizontal import horizontal_loads
+from rodwell.physics.exact.horizontal import horizontal_loads
 
 AIRY = {"clamped": 2.338107410459767, "pinned": 1.018792971647471}
 """−a₁ and −a'₁, the first zeros of Ai and of Ai′."""
@@ -35,7 +35,7 @@ def test_vertical_string_against_scorer_functions(weight: float) -> None:
     """(86): a string hanging in its own weight, buckled at its lower end only."""
     from flint import arb, ctx
 
-    from rodwell.physics.exact_vertical import scorer_determinant
+    from rodwell.physics.exact.vertical import scorer_determinant
 
     mode = critical_loads(Problem(weight, alpha=0.0), 1)[0]
     before = ctx.prec

@@ -12,10 +12,10 @@ from numba import types
 
 from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
 from rodwell.compiling import second_process
-from rodwell.numerics.corrector import correct
-from rodwell.numerics.extrema import contact_maxima
-from rodwell.numerics.watch import softest
-from rodwell.physics.model import RodOnCylinder
+from rodwell.numerics.continuation.softest import softest
+from rodwell.numerics.equilibria.maxima import contact_maxima
+from rodwell.numerics.equilibria.newton import correct
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 _VECTOR = types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")

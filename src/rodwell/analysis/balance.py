@@ -9,10 +9,10 @@ import numpy as np
 from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import fields_at
 from rodwell.analysis.measures import shape
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import estimated_error
-from rodwell.physics.frames import frames
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.physics.on_wall.frames import frames
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

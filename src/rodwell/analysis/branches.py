@@ -15,11 +15,12 @@ from rodwell.analysis.special import LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, 
 from rodwell.analysis.symmetry import Reflection, images
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.faces import Shown, drawn, face
-from rodwell.numerics.continuation import Trace
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.location import LocationError, Span, locate
-from rodwell.physics.parameters import FORCE
+from rodwell.numerics.continuation.location import LocationError, Span, locate
+from rodwell.numerics.continuation.walk import Trace
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

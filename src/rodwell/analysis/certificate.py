@@ -1,7 +1,7 @@
 """The certificate of a solution: the paper's own equations, evaluated on it term by term.
 
 The engine finds y(s); everything else is rebuilt from it. Here the rebuilt fields are put into the paper's fifteen
-differential equations, its algebraic relations and its end conditions (:mod:`rodwell.physics.paper`), none of
+differential equations, its algebraic relations and its end conditions (:mod:`rodwell.physics.on_wall.equations`), none of
 which the engine uses, with derivatives taken numerically from the fields themselves. Each residual is divided by the
 largest term of its equation along the rod. A true solution leaves what the mesh leaves; a mistake in engine,
 reconstruction or equations leaves something of the order of one.
@@ -17,8 +17,8 @@ import numpy as np
 from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import element_fields, gauss_calculus
 from rodwell.analysis.measures import shape
-from rodwell.physics import paper
-from rodwell.physics.paper import NAMES, NUMBERS, Fifteen, Load
+from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
 
 if TYPE_CHECKING:

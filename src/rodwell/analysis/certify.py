@@ -18,8 +18,7 @@ from rodwell.analysis.enclosures import Enclosure, bits, checked_digits, exact
 from rodwell.analysis.inertia import Rod
 from rodwell.analysis.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
-from rodwell.physics import exact_horizontal as horizontal
-from rodwell.physics import exact_vertical as vertical
+from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.problem import Problem, ends_text
 
 Ball = Any

@@ -12,9 +12,9 @@ from rodwell.analysis.families import parameters, spline_ends
 from rodwell.analysis.meshes import linear_space, wkb_load
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
-from rodwell.numerics import eigen
-from rodwell.numerics.spaces import Prolongation, SplineSpace
-from rodwell.physics.linear import second_variation
+from rodwell.numerics.equilibria import eigen
+from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
+from rodwell.physics.on_wall.linear import second_variation
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol

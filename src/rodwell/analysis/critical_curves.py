@@ -12,7 +12,7 @@ from rodwell.analysis.critical import EULER, MOST_MODES, Mode, critical_loads
 from rodwell.analysis.curves import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.errors import checked_whole
-from rodwell.numerics.location import bracketed_root
+from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.curve_points import Guess, Solved
-from rodwell.numerics.spaces import Prolongation
+from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.quantities.arrays import FloatArray
 
 BECOMES_STRAIGHT = "the buckled rod becomes straight"

@@ -13,9 +13,10 @@ from rodwell.analysis.critical import EULER
 from rodwell.analysis.curves import CurvePoint
 from rodwell.analysis.measures import pressure_maxima
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.spaces import Prolongation
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.quantities.arrays import FloatArray
 
 MOST_REFINEMENTS = 3

@@ -19,8 +19,8 @@ from rodwell.analysis.curve_checks import BECOMES_STRAIGHT, bracket, carried, le
 from rodwell.analysis.curve_points import NEAR, CurveLostError, Guess, Seed, Solved, Spot, Travel, Zero
 from rodwell.analysis.curves import SWITCH, TURN, CurvePoint, Mark, Progress
 from rodwell.errors import InputError
-from rodwell.numerics.ladder import CLAIMED_GAIN
-from rodwell.numerics.location import bracketed_root
+from rodwell.numerics.continuation.location import bracketed_root
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 
 FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.004, 0.02, 1e-7
 """Steps, as parts of the range in x and of the load, with amplitudes by their weight."""

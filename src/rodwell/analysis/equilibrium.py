@@ -9,9 +9,10 @@ import numpy as np
 
 from rodwell.analysis.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.analysis.measures import Measured, pressure_maxima
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Ladder, Point, estimated_error
-from rodwell.physics.parameters import FORCE
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

@@ -7,8 +7,8 @@ import numpy as np
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import largest_of
-from rodwell.numerics.location import bracketed_root
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.continuation.location import bracketed_root
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
 FADED = 1e-3

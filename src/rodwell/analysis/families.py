@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.ends import Ends
-from rodwell.numerics.families import Family
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics.model import RodOnCylinder
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.splines.held import Ends
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -39,7 +39,7 @@ def spline_ends(problem: Problem) -> Ends:
 
 
 def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
-    """Parameters of ``problem`` as one of :data:`PATHS` varies: see :class:`rodwell.numerics.families.Family`."""
+    """Parameters of ``problem`` as one of :data:`PATHS` varies: see :class:`rodwell.numerics.equilibria.family.Family`."""
     out = np.zeros((4, COUNT))
     out[0] = parameters(problem, force)
     if parameter == "weight":

@@ -8,10 +8,10 @@ from functools import lru_cache
 import numpy as np
 
 from rodwell.analysis.measures import shape
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.spaces import SplineSpace
-from rodwell.physics import braid
-from rodwell.physics.strand import contact_pressure
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall import braid
+from rodwell.physics.on_wall.strand import contact_pressure
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

@@ -22,7 +22,7 @@ from rodwell.analysis.special import (
 from rodwell.analysis.starts import at_branch_point, at_critical, at_state
 from rodwell.analysis.tracing import Progress, traced
 from rodwell.errors import InputError, NotConvergedError, checked_whole
-from rodwell.numerics.continuation import Stepping
+from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.errors import InputError, checked_number, checked_whole
-from rodwell.physics.frames import frames
+from rodwell.physics.on_wall.frames import frames
 from rodwell.quantities.arrays import FloatArray
 
 DISPLAY_RADIUS = 0.2

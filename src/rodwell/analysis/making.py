@@ -22,9 +22,9 @@ from rodwell.analysis.special import (
     SpecialPoint,
     index_at_start,
 )
-from rodwell.numerics.continuation import Trace
-from rodwell.numerics.events import INDEX, TURN, Found
-from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.continuation.events import INDEX, TURN, Found
+from rodwell.numerics.continuation.walk import Trace
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.problem.problem import Problem
 
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics.assembly import SHARED, at_points
-from rodwell.numerics.bsplines import combine
-from rodwell.numerics.extrema import contact_maxima
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Ladder
-from rodwell.numerics.lanes import on_lanes
-from rodwell.physics.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.maxima import contact_maxima
+from rodwell.numerics.equilibria.two_meshes import Ladder
+from rodwell.numerics.splines.assembly import SHARED, at_points
+from rodwell.numerics.splines.basis import combine
+from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
 from rodwell.quantities.arrays import FloatArray
 
 NEAR_THE_TOP = 0.05

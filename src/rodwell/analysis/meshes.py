@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.accuracy import DEGREE, ELEMENTS_PER_RADIAN, LINEAR_ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH
-from rodwell.numerics.spaces import SplineSpace, graded_mesh
+from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

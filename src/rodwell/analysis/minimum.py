@@ -11,8 +11,8 @@ from rodwell.analysis.measures import measured_ladder
 from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family, Outcome, State
-from rodwell.numerics.minimise import minimise
+from rodwell.numerics.equilibria.family import Family, Outcome, State
+from rodwell.numerics.equilibria.minimise import minimise
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
-from rodwell.physics.exact_horizontal import Switching, pair_loads, switching, switchings
+from rodwell.physics.exact.horizontal import Switching, pair_loads, switching, switchings
 from rodwell.problem.problem import LIMITS, Problem
 
 MOST_PAIRS = 50
@@ -66,7 +66,7 @@ def _word(parity: int) -> str:
 def mode_pairs(weight: float, clearance: float = 0.01, *, pairs: int = 1) -> list[ModePair]:
     """The first pairs of modes of a horizontal rod with both ends clamped: which comes first, and when they switch.
 
-    Closed forms, see :mod:`rodwell.physics.exact_horizontal`: the pair i switches where √(i² + √(γ/Δ)/π²) is a whole
+    Closed forms, see :mod:`rodwell.physics.exact.horizontal`: the pair i switches where √(i² + √(γ/Δ)/π²) is a whole
     number; up to the first such weight its even mode comes first, then its odd mode, and so on in turn.
 
     Parameters

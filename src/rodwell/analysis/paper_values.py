@@ -20,7 +20,7 @@ from rodwell.analysis.enclosures import Enclosure, bits, checked_digits, enclosu
 from rodwell.analysis.inertia import Rod, inertia
 from rodwell.analysis.roots import Counter, critical_values
 from rodwell.errors import NotConvergedError
-from rodwell.physics import exact_vertical as vertical
+from rodwell.physics.exact import vertical
 from rodwell.problem.problem import Problem
 
 Ball = Any

@@ -7,9 +7,9 @@ import numpy as np
 from rodwell.analysis.measures import shape
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.starts import at_state
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import estimated_error
-from rodwell.physics.strand import towards_lift_off
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.physics.on_wall.strand import towards_lift_off
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along

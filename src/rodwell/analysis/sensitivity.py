@@ -22,8 +22,8 @@ from rodwell.analysis.pressure import pressure_rates
 from rodwell.analysis.slopes import load_slope, weight_rates
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import InputError, checked_whole
-from rodwell.numerics.ladder import ROUND_OFF
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.equilibria.error import ROUND_OFF
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol

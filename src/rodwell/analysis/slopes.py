@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

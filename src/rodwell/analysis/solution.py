@@ -11,7 +11,7 @@ from rodwell.analysis.equilibrium import Equilibrium
 from rodwell.analysis.fields import GRID
 from rodwell.analysis.wall import WallLoads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
-from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.problem.problem import Problem
 
 if TYPE_CHECKING:

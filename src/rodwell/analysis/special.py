@@ -7,9 +7,9 @@ from typing import Any
 
 from rodwell.analysis.critical import Mode
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.continuation import Trace
-from rodwell.numerics.events import INDEX, TURN
-from rodwell.numerics.families import Outcome
+from rodwell.numerics.continuation.events import INDEX, TURN
+from rodwell.numerics.continuation.walk import Trace
+from rodwell.numerics.equilibria.family import Outcome
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
 EQUAL_ENERGY = "equal_energy"

@@ -14,11 +14,11 @@ from rodwell.analysis.meshes import first_space
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.special import SpecialPoint
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.corrector import symmetrise
-from rodwell.numerics.events import INDEX, NEARLY, Found, events_between
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.continuation.events import INDEX, NEARLY, Found, events_between
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.newton import symmetrise
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

@@ -18,8 +18,8 @@ from rodwell.analysis.special import BRANCH_POINT, LIFT_OFF, SpecialPoint
 from rodwell.analysis.starts import kept_parity
 from rodwell.analysis.torsion import torsion
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 

@@ -10,9 +10,9 @@ import numpy as np
 from rodwell.analysis.measures import STEEPEST, Measured
 from rodwell.analysis.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_RANGE, REJOINS, STRAIGHT
 from rodwell.analysis.starts import Start, rejoined
-from rodwell.numerics.continuation import Stepping, Trace, trace
-from rodwell.numerics.events import INDEX, TURN, Event, Found
-from rodwell.numerics.ladder import Ladder, Point
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, Found
+from rodwell.numerics.continuation.walk import Stepping, Trace, trace
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
 LARGEST_BRAID_ANGLE = 89.5

@@ -1,7 +1,7 @@
 """A second opinion: the paper's fifteen-dimensional boundary-value problem by another method and another program.
 
 SciPy's ``solve_bvp`` (collocation with cubic polynomials on an adaptive mesh, residual control) solves (22)–(27),
-(32)–(36), (41)–(44) with (B1)–(B15) as stated in :mod:`rodwell.physics.paper`. It shares neither energy nor spline nor
+(32)–(36), (41)–(44) with (B1)–(B15) as stated in :mod:`rodwell.physics.on_wall.equations`. It shares neither energy nor spline nor
 Newton's method with the engine, and it does not start from the engine's answer but from the state at another load,
 sampled coarsely: what agrees afterwards was found twice.
 """
@@ -20,8 +20,8 @@ from rodwell.analysis.fields import GRID
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.tracing import Progress
 from rodwell.errors import InputError, NotConvergedError, checked_number
-from rodwell.physics import paper
-from rodwell.physics.paper import NAMES, Fifteen, Load
+from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
 
 RTOL = 1e-8

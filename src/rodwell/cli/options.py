@@ -122,7 +122,7 @@ def progress_bar(show: bool, first: str) -> Iterator[Progress]:
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
     from rodwell.compiling.second_process import on_disk  # noqa: PLC0415
-    from rodwell.numerics.corrector import correct  # noqa: PLC0415
+    from rodwell.numerics.equilibria.newton import correct  # noqa: PLC0415
 
     note = "" if on_disk(correct) else " (first run: compiling once, some seconds)"
     columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())

@@ -1,7 +1,7 @@
 """How kernels are compiled.
 
 ``numerics`` knows no rod and ``physics`` knows no solver: compiled numerics works on a *model*, a named tuple whose
-class gives the formulas (:mod:`rodwell.numerics.assembly`) and selects them at compile time.
+class gives the formulas (:mod:`rodwell.numerics.splines.assembly`) and selects them at compile time.
 """
 
 from __future__ import annotations

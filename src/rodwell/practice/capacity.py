@@ -8,8 +8,8 @@ import numpy as np
 
 from rodwell.analysis.fields import fields_at, largest_of
 from rodwell.analysis.solution import Solution
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import estimated_error
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.equilibria.family import Family, State
 from rodwell.practice.cylinder import Cylinder
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales

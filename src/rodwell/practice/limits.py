@@ -11,8 +11,8 @@ from rodwell.analysis.branches import Branch
 from rodwell.analysis.fields import ZOOMS
 from rodwell.analysis.special import CRITICAL, LIFT_OFF, SpecialPoint
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.location import bracketed_root
+from rodwell.numerics.continuation.location import bracketed_root
+from rodwell.numerics.equilibria.family import Family, State
 from rodwell.practice.capacity import von_mises
 from rodwell.practice.case import Case
 from rodwell.practice.loaded import LoadedRod, OnMesh, on_mesh

@@ -11,9 +11,9 @@ from rodwell.analysis.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
 from rodwell.analysis.straight import straight_fields
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import estimated_error
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 

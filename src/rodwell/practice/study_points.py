@@ -11,7 +11,7 @@ from rodwell.analysis.critical import CriticalLoads, critical_loads
 from rodwell.analysis.fields import ZOOMS
 from rodwell.analysis.follow import follow
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.ladder import estimated_error
+from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.practice.case import Case
 from rodwell.practice.limits import uses
 from rodwell.practice.loaded import LoadedRod

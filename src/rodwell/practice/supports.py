@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.balance import end_loads
-from rodwell.numerics.ladder import estimated_error
+from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.practice.loaded import Fields, LoadedRod, OnMesh
 from rodwell.practice.schema import Supports
 from rodwell.quantities.scales import Scales

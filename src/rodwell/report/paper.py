@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rodwell.compiling import second_process
 from rodwell.errors import checked_whole
-from rodwell.numerics.corrector import correct
+from rodwell.numerics.equilibria.newton import correct
 from rodwell.quantities.tolerance import RTOL
 from rodwell.report.texts import number
 from rodwell.store.folder import whole_folder

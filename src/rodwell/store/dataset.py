@@ -15,7 +15,7 @@ from rodwell.analysis.fields import GRID
 from rodwell.analysis.measures import Measured
 from rodwell.analysis.solution import Solution
 from rodwell.errors import InputError, checked_number
-from rodwell.physics.frames import AXES, FRAMES, frames
+from rodwell.physics.on_wall.frames import AXES, FRAMES, frames
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
 from rodwell.quantities.table import Variable

@@ -139,7 +139,7 @@ def chord_slope(mode: int) -> float:
 
     The curves bend: at small γ the slope is ½ for every mode (:func:`tangent_slope`).
     """
-    from rodwell.physics.exact_columns import weightless_loads  # noqa: PLC0415
+    from rodwell.physics.exact.columns import weightless_loads  # noqa: PLC0415
 
     return -weightless_loads(mode)[mode - 1] / self_weights(mode)[mode - 1]
 

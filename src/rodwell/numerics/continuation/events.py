@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.numerics.crossings import Crossing, index_crossings
-from rodwell.numerics.families import State
-from rodwell.numerics.ladder import CLAIMED_GAIN, Ladder, Point
-from rodwell.numerics.location import LocationError, Place, Span, locate
+from rodwell.numerics.continuation.crossings import Crossing, index_crossings
+from rodwell.numerics.continuation.location import LocationError, Place, Span, locate
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.quantities.arrays import FloatArray
 
 INDEX, TURN = "index", "turn"

@@ -7,8 +7,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.numerics import assembly, banded, bsplines
-from rodwell.numerics.ends import Ends
+from rodwell.numerics.splines import assembly, banded
+from rodwell.numerics.splines import basis as bsplines
+from rodwell.numerics.splines.held import Ends
 from rodwell.quantities.arrays import FloatArray
 
 SAMPLES_PER_ELEMENT = 3

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics import banded, corrector
-from rodwell.numerics.families import Family, Outcome
+from rodwell.numerics.equilibria import newton as corrector
+from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.splines import banded
 from rodwell.quantities.arrays import FloatArray
 
 SMALLEST_LENGTH = 1e-12

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
-from rodwell.numerics.products import subtract
+from rodwell.numerics.splines.products import subtract
 
 PIVOT_FLOOR = 1e-30
 """Smallest pivot, relative to the largest diagonal entry, before it is replaced."""

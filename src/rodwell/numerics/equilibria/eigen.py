@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rodwell.numerics.banded import factorise, multiply, solve
+from rodwell.numerics.splines.banded import factorise, multiply, solve
 from rodwell.quantities.arrays import FloatArray
 
 Gram = Callable[[FloatArray], tuple[FloatArray, FloatArray]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from rodwell.physics.exact_horizontal import horizontal_loads, sine_loads
+from rodwell.physics.exact.horizontal import horizontal_loads, sine_loads
 
 
 def weightless_loads(count: int, ends: tuple[str, str] = ("clamped", "clamped")) -> list[float]:

@@ -8,7 +8,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from rodwell.numerics.location import PLACE_TOLERANCE, LocationError, Place, Span, bracketed_root, near_root
+from rodwell.numerics.continuation.location import (
+    PLACE_TOLERANCE,
+    LocationError,
+    Place,
+    Span,
+    bracketed_root,
+    near_root,
+)
 
 
 @dataclass(frozen=True)

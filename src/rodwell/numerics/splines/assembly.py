@@ -7,7 +7,7 @@ A *model* is a named tuple with one entry for each field. Its class gives the en
 where ``u[3 f + d]`` is derivative d of field f; the derivatives by u are ``gradient`` (3 nf) and ``hessian``
 (3 nf, 3 nf), and ``rate`` and ``mixed`` (3 nf) are those of energy and gradient along ``rates``, a direction in the
 space of the ``parameters``. Where contact is looked at, ``contact(s, u, parameters)`` is the contact pressure from the
-fields and three derivatives. Both are compiled into the kernels: see :mod:`rodwell.numerics.lanes`.
+fields and three derivatives. Both are compiled into the kernels: see :mod:`rodwell.numerics.splines.lanes`.
 
 Coefficients are ordered basis function by basis function, fields inside: unknown ``i nf + f``; the half-bandwidth is
 ``(p + 1) nf − 1``.
@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.bsplines import combine
-from rodwell.numerics.lanes import on_lanes
-from rodwell.numerics.products import congruence, dots
+from rodwell.numerics.splines.basis import combine
+from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.numerics.splines.products import congruence, dots
 
 
 def _weighted(model: Any) -> Callable[..., Sequence[Any]]:
@@ -43,7 +43,7 @@ PLACE, WEIGHT, SHARED = 0, 1, 2
 
 _density_terms = on_lanes(_weighted)
 """Energy density and its derivatives at the points of an element, times their weights; the order of the rows is that of
-:mod:`rodwell.numerics.products`."""
+:mod:`rodwell.numerics.splines.products`."""
 
 
 @kernel

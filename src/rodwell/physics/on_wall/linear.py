@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.physics._density import rod_density
+from rodwell.physics.on_wall._density import rod_density
 from rodwell.quantities.arrays import FloatArray
 
 

@@ -5,8 +5,8 @@ Plain functions in double precision. Certified enclosures of the same numbers: :
 
 from __future__ import annotations
 
-from rodwell.physics.exact_columns import infinite_load, weightless_loads
-from rodwell.physics.exact_helix import (
+from rodwell.physics.exact.columns import infinite_load, weightless_loads
+from rodwell.physics.exact.helix import (
     STEEPEST,
     Helix,
     coil_energy,
@@ -14,7 +14,7 @@ from rodwell.physics.exact_helix import (
     least_equal_energy_load,
     weightless_helix,
 )
-from rodwell.physics.exact_horizontal import (
+from rodwell.physics.exact.horizontal import (
     Switching,
     buckling_equation,
     even_factor,
@@ -32,7 +32,7 @@ from rodwell.physics.exact_horizontal import (
     wavenumbers,
     weights_on_top,
 )
-from rodwell.physics.exact_vertical import (
+from rodwell.physics.exact.vertical import (
     as_float,
     chord_slope,
     critical_length,

@@ -1,12 +1,12 @@
-"""The rod on a cylinder as a model that numerics can solve: see :mod:`rodwell.numerics.assembly`."""
+"""The rod on a cylinder as a model that numerics can solve: see :mod:`rodwell.numerics.splines.assembly`."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from rodwell.physics._density import rod_density
-from rodwell.physics.parameters import RAMP
-from rodwell.physics.strand import towards_lift_off
+from rodwell.physics.on_wall._density import rod_density
+from rodwell.physics.on_wall.parameters import RAMP
+from rodwell.physics.on_wall.strand import towards_lift_off
 
 
 class RodOnCylinder(NamedTuple):

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.bsplines import basis_derivatives, find_span
-from rodwell.numerics.lanes import on_lanes
-from rodwell.numerics.products import dots
+from rodwell.numerics.splines.basis import basis_derivatives, find_span
+from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.numerics.splines.products import dots
 
 MOST_MAXIMA, MOST_STEPS = 64, 12
 SETTLED = 1e-4

@@ -13,12 +13,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rodwell.numerics.events import Event, Found, events_between
-from rodwell.numerics.families import Outcome, State
-from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.location import LocationError
-from rodwell.numerics.prediction import Course
-from rodwell.numerics.watch import Watch, hidden_change
+from rodwell.numerics.continuation.events import Event, Found, events_between
+from rodwell.numerics.continuation.location import LocationError
+from rodwell.numerics.continuation.prediction import Course
+from rodwell.numerics.continuation.softest import Watch, hidden_change
+from rodwell.numerics.equilibria.family import Outcome, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
 from rodwell.quantities.arrays import FloatArray
 
 STRAYED = 0.2

@@ -15,7 +15,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from rodwell.numerics.lanes import CONTRACT, DOUBLE, index, load, spread, store, vector
+from rodwell.numerics.splines.lanes import CONTRACT, DOUBLE, index, load, spread, store, vector
 
 WIDTH = 4
 """Sums that are completed together, and rows of a product that are summed at a time."""

@@ -12,14 +12,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.ends import Ends
-from rodwell.numerics.families import Family, Outcome, State
-from rodwell.numerics.spaces import Prolongation, SplineSpace
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN, ROUND_OFF, estimated_error
+from rodwell.numerics.equilibria.family import Family, Outcome, State
+from rodwell.numerics.splines.held import Ends
+from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
 Measure = Callable[[Family, State], FloatArray]
@@ -27,24 +27,9 @@ Measure = Callable[[Family, State], FloatArray]
 round-off in the coefficients leaves in them, which grow with finer meshes."""
 
 
-CLAIMED_GAIN = 8.0
-"""By how much halving the elements is taken to reduce an error. The slowest number reported, the contact
-pressure at degree 9, gains 2⁷; where the gain is not seen (round-off), the point counts as not converged."""
-
-
 LOOSE = 1e-2
 """Newton step, over the root of the tolerance, with which the coarse solve of a point may end: what is left is about
 its square, and counts as error, since the finer solve does not share it."""
-
-
-ROUND_OFF = 2e-12
-"""Error that round-off leaves in a number even where both meshes agree, relative to its scale."""
-
-
-@formula
-def estimated_error(fine: Any, coarse: Any) -> Any:
-    """Error estimate of numbers known on both meshes, arrays or single ones."""
-    return np.abs(fine - coarse) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine)
 
 
 @formula

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, SIDE, TWIST
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 
 
 def axial_resultant(s: Any, parameters: Any) -> Any:

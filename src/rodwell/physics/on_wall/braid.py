@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.physics.frames import material_curvatures
-from rodwell.physics.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_WEIGHT, TWIST
-from rodwell.physics.strand import axial_resultant, contact_pressure, curvatures, strand_force
+from rodwell.physics.on_wall.frames import material_curvatures
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_WEIGHT, TWIST
+from rodwell.physics.on_wall.strand import axial_resultant, contact_pressure, curvatures, strand_force
 
 FloatArray = NDArray[np.float64]
 

@@ -17,9 +17,10 @@ from typing import Any
 import numpy as np
 
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics import assembly, banded, corrector
-from rodwell.numerics.ends import Ends, spread
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.equilibria import newton as corrector
+from rodwell.numerics.splines import assembly, banded
+from rodwell.numerics.splines.held import Ends, spread
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
 

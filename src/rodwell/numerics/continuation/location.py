@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rodwell.numerics.families import Family, State
+from rodwell.numerics.equilibria.family import Family, State
 from rodwell.quantities.arrays import FloatArray
 
 PLACE_TOLERANCE = 1e-12

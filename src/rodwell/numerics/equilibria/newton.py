@@ -13,7 +13,7 @@ H w = row, then, for what is left, from H b = m. See W. Govaerts, *Numerical Met
 Equilibria* (2000), section 3.6. The tangent follows from b, the stability index from the pivots of H: one
 factorisation gives all three.
 Only the unknowns ``first … last−1`` vary; the others are held by the end conditions or tied to their neighbour
-(:mod:`rodwell.numerics.ends`). A ``parity`` of ±1 keeps
+(:mod:`rodwell.numerics.splines.held`). A ``parity`` of ±1 keeps
 increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
 which a nearly singular H would blow up near a symmetry-breaking bifurcation. Where there is no symmetry, a
 ``frozen`` direction does the same.
@@ -24,9 +24,9 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
-from rodwell.numerics.assembly import assemble
-from rodwell.numerics.banded import factorise, multiply, solve
-from rodwell.numerics.ends import gather, restrict, spread
+from rodwell.numerics.splines.assembly import assemble
+from rodwell.numerics.splines.banded import factorise, multiply, solve
+from rodwell.numerics.splines.held import gather, restrict, spread
 
 DEGREE = np.pi / 180.0
 STAGNANT = 100.0
@@ -123,7 +123,7 @@ def correct(
     step, and locating a change of the index takes them at the solution itself.
 
     Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
-    ``scale_lam``: see :mod:`rodwell.numerics.families`) and towards growing ``row·c + row_λ λ``, and its covector
+    ``scale_lam``: see :mod:`rodwell.numerics.equilibria.family`) and towards growing ``row·c + row_λ λ``, and its covector
     ``new_row`` (n,).
 
     Returns

@@ -13,13 +13,13 @@ import numpy as np
 
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics.banded import factorise, multiply, solve
-from rodwell.numerics.corrector import dot, symmetrise
-from rodwell.numerics.ends import gather, spread
-from rodwell.numerics.families import Family, State
-from rodwell.numerics.ladder import Ladder, Point
-from rodwell.numerics.location import LocationError, Span
-from rodwell.numerics.spaces import SplineSpace
+from rodwell.numerics.continuation.location import LocationError, Span
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.newton import dot, symmetrise
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.splines.banded import factorise, multiply, solve
+from rodwell.numerics.splines.held import gather, spread
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
 FIRST_ITERATIONS, ITERATIONS = 8, 1

@@ -1,0 +1,1 @@
+"""From one equilibrium to the next, and what happens between them."""

@@ -1,0 +1,1 @@
+"""Splines: spaces, what ends hold, products in registers, assembly, banded matrices."""
