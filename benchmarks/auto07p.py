@@ -34,7 +34,7 @@ from auto07p_runs import OPTIONS, Rod, State, optimised
 from timing import best
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 
 HERE = Path(__file__).parent
 REPEATS = 3

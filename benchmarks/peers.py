@@ -20,7 +20,7 @@ from scipy.linalg.lapack import dgbsv
 from timing import least
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.numerics.equilibria.family import Family, State
 
 HERE = Path(__file__).parent

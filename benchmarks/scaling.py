@@ -24,9 +24,9 @@ import numpy as np
 from timing import best
 
 import rodwell
-from rodwell.analysis.accuracy import DEGREE, POINTS_OF_BRANCH
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.families import family
+from rodwell.analysis.discrete.choices import DEGREE, POINTS_OF_BRANCH
+from rodwell.analysis.discrete.family import family
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.numerics.splines import banded
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.exact.horizontal import horizontal_loads

@@ -26,8 +26,8 @@ from scipy.linalg.lapack import dgbsv
 from timing import best
 
 import rodwell
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.follow import follow
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.straight.critical import critical_loads
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "drill-string.toml"

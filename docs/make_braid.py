@@ -12,7 +12,7 @@ from make_howto import DPI, number, table
 from matplotlib.patches import Arc, Circle
 
 import rodwell
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
 from rodwell.physics.on_wall.frames import frames
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN, new_axes
 

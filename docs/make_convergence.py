@@ -16,12 +16,12 @@ from make_howto import DPI, table
 
 import rodwell
 from rodwell import Problem
-from rodwell.analysis import critical
-from rodwell.analysis.accuracy import DEGREE
-from rodwell.analysis.families import family as equilibria
-from rodwell.analysis.families import spline_ends
-from rodwell.analysis.measures import Measured, measure, measured_ladder
-from rodwell.analysis.meshes import first_space
+from rodwell.analysis.discrete.choices import DEGREE
+from rodwell.analysis.discrete.family import family as equilibria
+from rodwell.analysis.discrete.family import spline_ends
+from rodwell.analysis.discrete.measures import Measured, measure, measured_ladder
+from rodwell.analysis.discrete.meshes import first_space
+from rodwell.analysis.straight import critical
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.two_meshes import Point
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace

@@ -17,8 +17,8 @@ import matplotlib.image
 import numpy as np
 
 import rodwell
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.special import SpecialPoint
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments, plot_shapes

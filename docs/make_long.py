@@ -12,7 +12,7 @@ import numpy as np
 from make_howto import DPI, table
 
 import rodwell
-from rodwell.analysis.extent import buckled_to
+from rodwell.analysis.state.extent import buckled_to
 from rodwell.plots.style import GREY, MODES, RC, new_axes
 
 COMMANDS = {"long-string": "run examples/long-string.toml --out results/long-string"}

@@ -9,7 +9,7 @@ import numpy as np
 from make_howto import table
 
 import rodwell
-from rodwell.practice.long_rod import HALF_WAVES, String, critical_compression, lift_off_compression
+from rodwell.analysis.loads.long_rod import HALF_WAVES, String, critical_compression, lift_off_compression
 
 COMMANDS = {
     "study": "run examples/study.toml",

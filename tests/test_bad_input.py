@@ -12,10 +12,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.follow import follow
-from rodwell.analysis.minimum import equilibrium
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.minimum import equilibrium
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError
 from rodwell.practice.answer import answer
 from rodwell.practice.case import SECTIONS, Case, CaseError

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 import rodwell
-from rodwell.analysis import ahead
+from rodwell.analysis.discrete import first_run as ahead
 from rodwell.compiling import second_process
 
 
@@ -57,7 +57,7 @@ def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
     monkeypatch.setattr(second_process, "begin", begun.append)
     monkeypatch.setattr(second_process, "on_disk", lambda _kernel: False)
     ahead.begin()
-    assert begun == ["rodwell.analysis.ahead"]
+    assert begun == ["rodwell.analysis.discrete.first_run"]
     monkeypatch.setattr(second_process, "on_disk", lambda _kernel: True)
     ahead.begin()
     assert len(begun) == 1

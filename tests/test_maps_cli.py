@@ -57,7 +57,7 @@ def test_diagram_in_words_and_its_netcdf(place: Path) -> None:
 
 def test_diagram_continued_in_the_inclination(place: Path) -> None:
     from rodwell import Problem, follow
-    from rodwell.analysis.measures import Measured
+    from rodwell.analysis.discrete.measures import Measured
 
     options = ("--modes", "1", "--until", "-140", "--then", "alpha", "--to", "75", "--json")
     done = run("diagram", "--weight", "15", "--alpha", "90", *options)

@@ -1,5 +1,5 @@
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 
 problem = rodwell.Problem(weight=15, alpha=90, turns=1)  # both ends clamped, Δ/L = 0.01
 branch = rodwell.coil(problem)

@@ -1,5 +1,5 @@
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 
 # γ = mg L³/B; degrees from the vertical; Δ/L; T₁ in B/L; both ends clamped
 problem = rodwell.Problem(weight=15, alpha=60, clearance=0.01, twist=0.5)

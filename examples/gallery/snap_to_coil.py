@@ -6,7 +6,7 @@ unloading it comes back later than it went.
 """
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.plots.bifurcation import plot_bifurcation
 
 

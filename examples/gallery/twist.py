@@ -7,7 +7,7 @@ to the dot, where the rod lifts off again; on its mirror image it is T₁ < 0.
 import numpy as np
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.plots.style import MODES, WARN, new_axes
 
 

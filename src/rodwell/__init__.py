@@ -21,73 +21,73 @@ from rodwell._version import __version__
 from rodwell.faces import Face, fill
 
 _HOME = {
-    "Branch": "rodwell.analysis.branches",
-    "Certificate": "rodwell.analysis.certificate",
+    "Branch": "rodwell.analysis.branch.branch",
+    "Certificate": "rodwell.analysis.state.certificate",
     "Case": "rodwell.practice.case",
-    "CertifiedLoads": "rodwell.analysis.certify",
+    "CertifiedLoads": "rodwell.analysis.proof.certify",
     "Answer": "rodwell.practice.answer",
     "Assessment": "rodwell.practice.assessment",
     "Audit": "rodwell.practice.audit",
     "answer": "rodwell.practice.answer",
     "audit": "rodwell.practice.audit",
-    "CriticalLoads": "rodwell.analysis.critical",
-    "Curve": "rodwell.analysis.curves",
-    "Diagram": "rodwell.analysis.diagram",
+    "CriticalLoads": "rodwell.analysis.straight.critical",
+    "Curve": "rodwell.analysis.curves.curve",
+    "Diagram": "rodwell.analysis.branch.diagram",
     "InputError": "rodwell.errors",
-    "Mode": "rodwell.analysis.critical",
+    "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
     "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.practice.screening",
-    "Solution": "rodwell.analysis.solution",
-    "Sensitivity": "rodwell.analysis.sensitivity",
-    "SpecialPoint": "rodwell.analysis.special",
+    "Solution": "rodwell.analysis.branch.solution",
+    "Sensitivity": "rodwell.analysis.loads.sensitivity",
+    "SpecialPoint": "rodwell.analysis.branch.special",
     "Study": "rodwell.practice.study",
     "Survey": "rodwell.practice.survey",
-    "Torsion": "rodwell.analysis.torsion",
-    "branch_off": "rodwell.analysis.follow",
-    "certify": "rodwell.analysis.certify",
-    "coil": "rodwell.analysis.coiled",
-    "critical_curves": "rodwell.analysis.critical_curves",
-    "critical_loads": "rodwell.analysis.critical",
-    "diagram": "rodwell.analysis.diagram",
-    "equilibrium": "rodwell.analysis.minimum",
+    "Torsion": "rodwell.analysis.loads.torsion",
+    "branch_off": "rodwell.analysis.branch.follow",
+    "certify": "rodwell.analysis.proof.certify",
+    "coil": "rodwell.analysis.branch.coiled",
+    "critical_curves": "rodwell.analysis.curves.critical",
+    "critical_loads": "rodwell.analysis.straight.critical",
+    "diagram": "rodwell.analysis.branch.diagram",
+    "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.export",
-    "follow": "rodwell.analysis.follow",
-    "lift_off_curve": "rodwell.analysis.state_curves",
+    "follow": "rodwell.analysis.branch.follow",
+    "lift_off_curve": "rodwell.analysis.curves.states",
     "screen": "rodwell.practice.screening",
-    "sensitivities": "rodwell.analysis.sensitivity",
-    "mode_pairs": "rodwell.analysis.modes",
-    "paper_values": "rodwell.analysis.paper_values",
-    "secondary_curve": "rodwell.analysis.state_curves",
-    "switching_table": "rodwell.analysis.modes",
+    "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "mode_pairs": "rodwell.analysis.straight.modes",
+    "paper_values": "rodwell.analysis.proof.paper_values",
+    "secondary_curve": "rodwell.analysis.curves.states",
+    "switching_table": "rodwell.analysis.straight.modes",
     "study": "rodwell.practice.study",
-    "torsion": "rodwell.analysis.torsion",
-    "twist_curve": "rodwell.analysis.state_curves",
-    "verify": "rodwell.analysis.verify",
+    "torsion": "rodwell.analysis.loads.torsion",
+    "twist_curve": "rodwell.analysis.curves.states",
+    "verify": "rodwell.analysis.branch.verify",
 }
 
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
 
 if TYPE_CHECKING:
-    from rodwell.analysis.branches import Branch
-    from rodwell.analysis.certificate import Certificate
-    from rodwell.analysis.certify import CertifiedLoads, certify
-    from rodwell.analysis.coiled import coil
-    from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
-    from rodwell.analysis.critical_curves import critical_curves
-    from rodwell.analysis.curves import Curve
-    from rodwell.analysis.diagram import Diagram, diagram
-    from rodwell.analysis.follow import branch_off, follow
-    from rodwell.analysis.minimum import equilibrium
-    from rodwell.analysis.modes import mode_pairs, switching_table
-    from rodwell.analysis.paper_values import paper_values
-    from rodwell.analysis.sensitivity import Sensitivity, sensitivities
-    from rodwell.analysis.solution import Solution
-    from rodwell.analysis.special import SpecialPoint
-    from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve
-    from rodwell.analysis.torsion import Torsion, torsion
-    from rodwell.analysis.verify import verify
+    from rodwell.analysis.branch.branch import Branch
+    from rodwell.analysis.branch.coiled import coil
+    from rodwell.analysis.branch.diagram import Diagram, diagram
+    from rodwell.analysis.branch.follow import branch_off, follow
+    from rodwell.analysis.branch.minimum import equilibrium
+    from rodwell.analysis.branch.solution import Solution
+    from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.analysis.branch.verify import verify
+    from rodwell.analysis.curves.critical import critical_curves
+    from rodwell.analysis.curves.curve import Curve
+    from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
+    from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
+    from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.proof.certify import CertifiedLoads, certify
+    from rodwell.analysis.proof.paper_values import paper_values
+    from rodwell.analysis.state.certificate import Certificate
+    from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
+    from rodwell.analysis.straight.modes import mode_pairs, switching_table
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.practice.answer import Answer, answer
     from rodwell.practice.assessment import Assessment

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rodwell import Branch, InputError, Problem, Solution, critical_loads, equilibrium, follow
-from rodwell.analysis.measures import Measured, measure
+from rodwell.analysis.discrete.measures import Measured, measure
 from rodwell.numerics.equilibria.family import Outcome
 from rodwell.numerics.splines.spaces import SplineSpace
 
@@ -182,7 +182,7 @@ def test_a_tolerance_out_of_reach_is_reported() -> None:
 
     problem = Problem(15.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("rodwell.analysis.starts.MOST_ELEMENTS_OF_BRANCH", 60)
+        patch.setattr("rodwell.analysis.branch.starts.MOST_ELEMENTS_OF_BRANCH", 60)
         branch = follow(problem, 1, until=-300.0)
     assert branch.reached_end
     assert not branch.converged

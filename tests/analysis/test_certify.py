@@ -15,13 +15,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rodwell import InputError, NotConvergedError, Problem, certify, critical_loads, paper_values
-from rodwell.analysis import inertia as counting
-from rodwell.analysis.certify import ClosedForm, check_sign_change
-from rodwell.analysis.enclosures import Enclosure
-from rodwell.analysis.inertia import Rod, UndecidedError, inertia
-from rodwell.analysis.modes import mode_pairs, switching_table
-from rodwell.analysis.paper_values import self_weights
-from rodwell.analysis.roots import Counter, _enclosed, critical_values
+from rodwell.analysis.proof import inertia as counting
+from rodwell.analysis.proof.certify import ClosedForm, check_sign_change
+from rodwell.analysis.proof.enclosures import Enclosure
+from rodwell.analysis.proof.inertia import Rod, UndecidedError, inertia
+from rodwell.analysis.proof.paper_values import self_weights
+from rodwell.analysis.proof.roots import Counter, _enclosed, critical_values
+from rodwell.analysis.straight.modes import mode_pairs, switching_table
 from rodwell.physics import exact
 from rodwell.problem.ends import ENDS
 

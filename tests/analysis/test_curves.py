@@ -17,7 +17,7 @@ from rodwell import (
     secondary_curve,
     twist_curve,
 )
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 
 PI = np.pi
 
@@ -68,7 +68,7 @@ def test_slopes_are_those_of_the_loads(over: str) -> None:
     limits = {"weight": (20.0, 20.2), "alpha": (60.0, 60.2), "clearance": (0.01, 0.0101)}[over]
     problem = Problem(20.0, alpha=60.0)
     curves = critical_curves(problem, over, limits, modes=2)
-    from rodwell.analysis.critical_curves import _Table
+    from rodwell.analysis.curves.critical import _Table
 
     node = _Table(problem, over, 2, 1e-8, split=False).node(0.5 * sum(limits))
     for k, curve in enumerate(curves, start=1):

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from rodwell import Diagram, InputError, Problem, branch_off, coil, diagram, equilibrium, follow
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.symmetry import MIRROR, TURNED, TURNED_MIRROR, images, reflections
+from rodwell.analysis.branch.symmetry import MIRROR, TURNED, TURNED_MIRROR, images, reflections
+from rodwell.analysis.discrete.measures import Measured
 
 FIG3C = {
     "mode 1": "critical -111.2334402 0 0, lift_off -123.1730744 0 0, branch_point -362.629366 0 1",

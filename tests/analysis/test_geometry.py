@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
-from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.surfaces import Mesh, cylinder, material_lines, ring, straight_contact, tube
+from rodwell.analysis.space.geometry import Geometry
+from rodwell.analysis.space.surfaces import Mesh, cylinder, material_lines, ring, straight_contact, tube
 from rodwell.errors import InputError
 from rodwell.physics.on_wall.frames import frames
 

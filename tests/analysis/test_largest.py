@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rodwell.analysis.fields import largest_of
+from rodwell.analysis.state.fields import largest_of
 
 
 @pytest.mark.parametrize("waves", [1.0, 7.0, 40.0])

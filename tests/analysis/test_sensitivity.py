@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import rodwell
 from rodwell import InputError, Problem
-from rodwell.analysis.sensitivity import PARAMETERS, Sensitivity, of_lift_off
+from rodwell.analysis.loads.sensitivity import PARAMETERS, Sensitivity, of_lift_off
 from rodwell.cli.main import cli
 
 PROBLEMS = {

@@ -7,7 +7,7 @@ import pytest
 
 import rodwell
 from rodwell import Problem
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.physics.on_wall.frames import frames
 
 PROBLEMS = {

@@ -138,7 +138,7 @@ def _reweighted(state: rodwell.Solution) -> object:
     """The ladder of a state with another weight: its fields then belong to no equilibrium."""
     import dataclasses
 
-    from rodwell.analysis.families import path
+    from rodwell.analysis.discrete.family import path
     from rodwell.numerics.equilibria.two_meshes import Ladder
 
     family = dataclasses.replace(state.ladder.coarse, path=path(state.problem.but(weight=41.0), "force"))

@@ -7,8 +7,8 @@ import pytest
 
 import rodwell
 from rodwell import Problem
-from rodwell.analysis import certificate
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state import certificate
 from rodwell.physics.on_wall import braid
 from rodwell.physics.on_wall import equations as paper
 from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import rodwell
-from rodwell.analysis.extent import buckled_to
+from rodwell.analysis.state.extent import buckled_to
 from rodwell.cli.main import main
 from rodwell.practice.meaning import sentences
 from rodwell.report.texts import number

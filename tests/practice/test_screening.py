@@ -18,9 +18,8 @@ from scipy.special import ai_zeros
 
 import rodwell
 from rodwell import Case, InputError, Survey
-from rodwell.cli.main import cli
-from rodwell.practice.load_table import Precision, angle_at, loads_at, place
-from rodwell.practice.long_rod import (
+from rodwell.analysis.loads.by_inclination import Precision, angle_at, loads_at, place
+from rodwell.analysis.loads.long_rod import (
     HALF_WAVES,
     LocalLoad,
     String,
@@ -28,6 +27,7 @@ from rodwell.practice.long_rod import (
     length_effect,
     lift_off_compression,
 )
+from rodwell.cli.main import cli
 from rodwell.practice.screening_plain import screening_dict
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -13,7 +13,7 @@ import pytest
 
 import rodwell
 from rodwell import Answer, Case, InputError, Problem, answer
-from rodwell.analysis.straight import straight_fields
+from rodwell.analysis.straight.fields import straight_fields
 from rodwell.practice.along import along, along_table, along_tables, shown
 from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT
 from rodwell.practice.audit import audit

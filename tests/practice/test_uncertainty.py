@@ -11,7 +11,7 @@ import pytest
 
 import rodwell
 from rodwell import Case, InputError
-from rodwell.analysis.sensitivity import of_critical_load
+from rodwell.analysis.loads.sensitivity import of_critical_load
 from rodwell.practice.spread import spread_of_load
 
 STRING: dict[str, Any] = {

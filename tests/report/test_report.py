@@ -18,7 +18,7 @@ from pages import Page
 from pypdf import PdfReader
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.cli.main import main
 from rodwell.plots.bifurcation import telling
 from rodwell.practice.advice import statuses

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import rodwell
-from rodwell.practice.scene import drawn, scene
+from rodwell.analysis.space.scene import drawn, scene
 from rodwell.report.viewer import view, viewer, write_viewer
 
 NEEDED = {"src", "href", "data", "poster", "action"}

@@ -18,10 +18,10 @@ from click.testing import CliRunner
 from pypdf import PdfReader
 
 import rodwell
-from rodwell.analysis.surfaces import tube
+from rodwell.analysis.space.scene import linear_colours, palette, pressure_colours, rgb, scene
+from rodwell.analysis.space.surfaces import tube
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
-from rodwell.practice.scene import linear_colours, palette, pressure_colours, rgb, scene
 from rodwell.report.export import FORMATS
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "drill-string.toml"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rodwell
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 
 DATA = Path(__file__).parents[1] / "data" / "auto_branches.csv"
 with DATA.open(encoding="utf-8") as file:

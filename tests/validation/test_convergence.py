@@ -7,10 +7,10 @@ import pytest
 
 import rodwell
 from rodwell import Problem, critical_loads
-from rodwell.analysis.families import family as equilibria
-from rodwell.analysis.families import spline_ends
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.family import family as equilibria
+from rodwell.analysis.discrete.family import spline_ends
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.strand import contact_pressure
@@ -61,7 +61,7 @@ def test_order_in_h2_and_in_the_contact_pressure(degree: int, exact: tuple[np.nd
 @pytest.mark.parametrize("degree", [4, 5])
 def test_order_of_critical_loads(degree: int) -> None:
     """Eigenvalues converge like h^(2(p−1))."""
-    from rodwell.analysis import critical
+    from rodwell.analysis.straight import critical
 
     reference = critical_loads(PROBLEM, 1, rtol=1e-11)[0].force
     errors, meshes = [], np.array([32, 38, 44])

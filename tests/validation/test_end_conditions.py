@@ -16,7 +16,7 @@ import pytest
 import scipy.linalg
 
 from rodwell import Branch, Problem, critical_loads, follow
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.problem.ends import ENDS
 
 PI2 = math.pi**2

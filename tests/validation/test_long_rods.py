@@ -120,7 +120,7 @@ def test_certified_counts_find_no_mode_skipped(weight: float, alpha: float) -> N
     """Exactly k − ½ ± ½ critical loads lie above a load just before and just beyond the k-th, by Wittrick–Williams."""
     from flint import arb, ctx
 
-    from rodwell.analysis.inertia import Rod, inertia
+    from rodwell.analysis.proof.inertia import Rod, inertia
 
     problem = Problem(weight, alpha=alpha)
     modes = critical_loads(problem, 8)

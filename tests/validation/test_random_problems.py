@@ -18,9 +18,9 @@ import scipy.linalg
 from numpy.polynomial import legendre
 
 from rodwell import Branch, NotConvergedError, Problem, Solution, critical_loads, follow
-from rodwell.analysis.diagram import diagram
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.special import OUT_OF_RANGE
+from rodwell.analysis.branch.diagram import diagram
+from rodwell.analysis.branch.special import OUT_OF_RANGE
+from rodwell.analysis.discrete.measures import Measured
 
 SEED = 20_240_601
 PROBLEMS = 1000

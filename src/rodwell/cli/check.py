@@ -11,7 +11,7 @@ from rodwell.cli.listing import wrapped
 from rodwell.cli.options import force_at, json_option, print_json, progress_bar
 
 if TYPE_CHECKING:
-    from rodwell.analysis.verify import Verification
+    from rodwell.analysis.branch.verify import Verification
 
 
 @click.command(short_help="Solve a case once more with SciPy's solve_bvp, and compare.")
@@ -35,7 +35,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
     is 1 if the two do not agree.
     """
-    from rodwell.analysis.verify import verify as solve_again  # noqa: PLC0415
+    from rodwell.analysis.branch.verify import verify as solve_again  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.practice.case import Case  # noqa: PLC0415
     from rodwell.practice.check import branch_to_verify  # noqa: PLC0415

@@ -11,7 +11,7 @@ from rodwell.cli.options import json_option, make_problem, print_json, problem_o
 from rodwell.errors import InputError
 
 if TYPE_CHECKING:
-    from rodwell.analysis.modes import ModePair
+    from rodwell.analysis.straight.modes import ModePair
 
 UNIT = "B/L²"
 
@@ -34,7 +34,7 @@ def certify(modes: int | None, digits: int, as_json: bool, **given: Any) -> None
             raise InputError("weight", None, f"is needed with --{stray[0].replace('_', '-')}")
         _paper(digits, as_json)
         return
-    from rodwell.analysis.certify import certify as certified  # noqa: PLC0415
+    from rodwell.analysis.proof.certify import certify as certified  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
@@ -61,7 +61,7 @@ def _was_given(context: click.Context, name: str) -> bool:
 
 def _paper(digits: int, as_json: bool) -> None:
     """Print the paper's closed-form values."""
-    from rodwell.analysis.paper_values import paper_values  # noqa: PLC0415
+    from rodwell.analysis.proof.paper_values import paper_values  # noqa: PLC0415
 
     values = paper_values(digits)
     if as_json:
@@ -88,7 +88,7 @@ def modes(weight: float | None, clearance: float, pairs: int, table: int | None,
 
     Both ends clamped, rod at the bottom. Closed forms: no mesh.
     """
-    from rodwell.analysis.modes import mode_pairs, switching_table  # noqa: PLC0415
+    from rodwell.analysis.straight.modes import mode_pairs, switching_table  # noqa: PLC0415
 
     if weight is None and table is None:
         raise InputError("weight", None, "is needed, or --table")

@@ -10,7 +10,7 @@ import click
 from rodwell.cli.options import force_at, progress_bar, units_option
 
 if TYPE_CHECKING:
-    from rodwell.analysis.solution import Solution
+    from rodwell.analysis.branch.solution import Solution
     from rodwell.practice.case import Case
 
 LIFT_OFF = "lift-off"
@@ -93,7 +93,7 @@ def export(
 
 def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution:
     """The state asked for, on the branch of the mode."""
-    from rodwell.analysis.follow import follow  # noqa: PLC0415
+    from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
 
     branch = follow(case.problem, mode, until=force, mirror=mirror, rtol=case.rtol)

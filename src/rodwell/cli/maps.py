@@ -21,8 +21,8 @@ from rodwell.cli.options import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from rodwell.analysis.curves import Curve
-    from rodwell.analysis.diagram import Diagram
+    from rodwell.analysis.branch.diagram import Diagram
+    from rodwell.analysis.curves.curve import Curve
     from rodwell.problem.problem import Problem
 
 
@@ -64,7 +64,7 @@ def diagram(
         raise click.UsageError("--then and --to belong together.")
     problem = make_problem(given)
     check_writable(out)
-    from rodwell.analysis.diagram import diagram as compute  # noqa: PLC0415
+    from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
     from rodwell.report.write import write_diagram  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
@@ -181,8 +181,8 @@ def _compute(
     rtol: float,
     progress: Callable[[float], None],
 ) -> Sequence[Curve]:
-    from rodwell.analysis.critical_curves import critical_curves  # noqa: PLC0415
-    from rodwell.analysis.state_curves import lift_off_curve, secondary_curve, twist_curve  # noqa: PLC0415
+    from rodwell.analysis.curves.critical import critical_curves  # noqa: PLC0415
+    from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve  # noqa: PLC0415
 
     if kind == "critical":
         return critical_curves(problem, over, limits, modes=modes, rtol=rtol, progress=progress)
@@ -198,7 +198,7 @@ SHOWN = 12
 
 
 def _print_curves(curves: Sequence[Curve]) -> None:
-    from rodwell.analysis.curves import convention  # noqa: PLC0415
+    from rodwell.analysis.curves.curve import convention  # noqa: PLC0415
 
     first = curves[0]
     click.echo(f"{first.kind} over {first.over}: {convention(first.problem, first.quantity)}")

@@ -22,7 +22,7 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows. They do not
     depend on twist.
     """
-    from rodwell.analysis.critical import critical_loads  # noqa: PLC0415
+    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
@@ -59,7 +59,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
 
     End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.
     """
-    from rodwell.analysis.follow import follow  # noqa: PLC0415
+    from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
@@ -105,7 +105,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     Exact derivatives, and elasticities: the change of the end force at s = 1 in percent for one percent more of an
     input, the others constant.
     """
-    from rodwell.analysis.sensitivity import sensitivities  # noqa: PLC0415
+    from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     problem = make_problem(given)
@@ -147,7 +147,7 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
 
     The rod is prepared without twist (leave --twist at 0), then T₁ grows either way at constant end force.
     """
-    from rodwell.analysis.torsion import torsion  # noqa: PLC0415
+    from rodwell.analysis.loads.torsion import torsion  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     result = torsion(make_problem(given), mode, mirror=mirror, until=until, rtol=rtol)

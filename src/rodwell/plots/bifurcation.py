@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.symmetry import ODD, Reflection
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.symmetry import ODD, Reflection
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.quantities.scales import Scales

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from rodwell.analysis.curves import Curve
+from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.style import INK, MODES, WARN, new_axes
 
 AXES = {

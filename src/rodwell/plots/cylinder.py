@@ -8,8 +8,8 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.solution import Solution
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
 from rodwell.plots.style import GREY, MODES, SIZE, new_axes
 from rodwell.plots.units import axis

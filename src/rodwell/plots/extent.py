@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rodwell.analysis.critical import Mode
-from rodwell.analysis.extent import buckled_to, spline_of
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.state.extent import buckled_to, spline_of
+from rodwell.analysis.straight.critical import Mode
 from rodwell.quantities.arrays import FloatArray
 
 SHORT = 0.5

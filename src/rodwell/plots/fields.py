@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
 from rodwell.errors import InputError
 from rodwell.plots.style import GREY, MODES, new_axes
 from rodwell.plots.units import axis

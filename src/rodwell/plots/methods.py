@@ -9,11 +9,11 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.diagram import Diagram
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves

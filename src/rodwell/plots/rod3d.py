@@ -12,12 +12,12 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.surfaces import straight_contact
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.space.geometry import Geometry
+from rodwell.analysis.space.scene import NO_PULL, WALL, drawn, limits, palette, scene
+from rodwell.analysis.space.surfaces import straight_contact
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
-from rodwell.practice.scene import NO_PULL, WALL, drawn, limits, palette, scene
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus, plain

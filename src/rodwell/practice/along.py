@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.fields import GRID
+from rodwell.analysis.state.fields import GRID
 from rodwell.practice.answer import Answer
 from rodwell.practice.loaded import Fields, LoadedRod
 from rodwell.practice.stress import Loading, Stresses

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from rodwell.analysis.exploring import Progress
+from rodwell.analysis.branch.exploring import Progress
 from rodwell.faces import Shown, drawn, plain
 from rodwell.practice.assessment import Assessment
 from rodwell.practice.assessment_figures import assessment_figures
@@ -16,7 +16,7 @@ from rodwell.practice.figure import Figure, force_scale
 from rodwell.practice.figures import critical_figure, critical_length, real_force, state_figures, stress_figure
 
 if TYPE_CHECKING:
-    from rodwell.analysis.measures import Measured
+    from rodwell.analysis.discrete.measures import Measured
     from rodwell.faces import Axes
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.analysis.branches import Branch
+from rodwell.analysis.branch.branch import Branch
 from rodwell.practice.answer import Answer
 from rodwell.practice.assessment import Assessment, AtLoad
 from rodwell.practice.beside import Row

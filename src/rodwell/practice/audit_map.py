@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError
 from rodwell.practice.beside import rod_of
 from rodwell.practice.exact_loads import WHERE, critical

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.fields import fields_at, largest_of
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.state.fields import fields_at, largest_of
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.practice.cylinder import Cylinder

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import EULER
-from rodwell.analysis.follow import extended, follow
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import extended, follow
+from rodwell.analysis.straight.critical import EULER
 from rodwell.practice.case import Case
 
 BEYOND = 1.3
@@ -33,7 +33,7 @@ def branch_to_verify(case: Case, mode: int, forces: Sequence[float]) -> Branch:
 
 def _some_way(case: Case, mode: int) -> float:
     """Load a third of the critical load (or of Euler's) below it, for rods that nothing presses to the wall."""
-    from rodwell.analysis.critical import critical_loads  # noqa: PLC0415
+    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
 
     force = critical_loads(case.problem, mode, rtol=case.rtol)[mode - 1].force
     return force - max(abs(force), EULER) / 3.0

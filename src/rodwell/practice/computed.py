@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from rodwell.analysis import ahead
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.certificate import Certificate
-from rodwell.analysis.critical import CriticalLoads, Mode, critical_loads
-from rodwell.analysis.exploring import Progress
-from rodwell.analysis.follow import extended, follow
-from rodwell.analysis.sensitivity import Sensitivity, of_critical_load, of_lift_off
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.special import SpecialPoint
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.exploring import Progress
+from rodwell.analysis.branch.follow import extended, follow
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_lift_off
+from rodwell.analysis.state.certificate import Certificate
+from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.practice.case import Case
 from rodwell.practice.spread import Spread, spread_of_load

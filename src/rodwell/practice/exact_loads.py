@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.coiled import coil
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.follow import follow
-from rodwell.analysis.special import SpecialPoint
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.coiled import coil
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.formulas.record import Place
 from rodwell.problem.ends import HOLD_ANGLE

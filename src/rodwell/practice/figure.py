@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.analysis.critical import EULER
+from rodwell.analysis.straight.critical import EULER
 from rodwell.practice.case import Case
 from rodwell.quantities.names import SI_UNITS, UNITS
 from rodwell.quantities.text import supported

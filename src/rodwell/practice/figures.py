@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from rodwell.analysis.critical import EULER, Mode
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.wall import Peak
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.wall import Peak
+from rodwell.analysis.straight.critical import EULER, Mode
 from rodwell.practice.capacity import cylinder_stress
 from rodwell.practice.case import Case
 from rodwell.practice.cylinder import Cylinder

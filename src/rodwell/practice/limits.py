@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.fields import ZOOMS
-from rodwell.analysis.special import CRITICAL, LIFT_OFF, SpecialPoint
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF, SpecialPoint
+from rodwell.analysis.state.fields import ZOOMS
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.numerics.equilibria.family import Family, State

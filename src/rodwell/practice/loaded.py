@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.analysis.fields import ZOOMS, fields_at, largest_of
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.straight import straight_fields
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.fields import ZOOMS, fields_at, largest_of
+from rodwell.analysis.straight.fields import straight_fields
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.splines.spaces import SplineSpace

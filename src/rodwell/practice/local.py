@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from rodwell.analysis.loads.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 from rodwell.practice.case import Case
 from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 
 FEWEST_HALF_WAVES = 4.0
 """Strings shorter than this are all ends: no local limit is given for them."""

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from rodwell.analysis.critical import Mode
-from rodwell.analysis.extent import FADED, buckled_to
-from rodwell.analysis.special import CRITICAL, LIFT_OFF
+from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF
+from rodwell.analysis.state.extent import FADED, buckled_to
+from rodwell.analysis.straight.critical import Mode
 from rodwell.practice.answer import Answer
 from rodwell.practice.verdict import load_sentences, verdict, window_sentences
 from rodwell.practice.wording import force_text, place_text, places_text, size_text

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.loads.by_inclination import Loads, Precision, loads_at
+from rodwell.analysis.loads.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.practice.case import Case
 from rodwell.practice.formulas import FORMULAS
-from rodwell.practice.load_table import Loads, Precision, loads_at
-from rodwell.practice.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
 from rodwell.practice.survey import Survey
 from rodwell.quantities.arrays import FloatArray
 

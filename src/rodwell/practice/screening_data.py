@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rodwell.practice.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
+from rodwell.analysis.loads.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
 from rodwell.practice.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table

@@ -2,7 +2,7 @@
 
 To first order, with inputs independent of each other: each input is moved by its uncertainty either way, what becomes
 of γ, α, Δ/L and B/L² follows from the case, and the load from these by its exact derivatives
-(:mod:`rodwell.analysis.sensitivity`).
+(:mod:`rodwell.analysis.loads.sensitivity`).
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rodwell.analysis.sensitivity import Sensitivity
+from rodwell.analysis.loads.sensitivity import Sensitivity
 from rodwell.practice.uncertain import Moved, UncertainInput
 from rodwell.quantities.scales import Scales
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.practice.applied import AppliedLoad
 from rodwell.practice.assessment import STRAIGHT, UNKNOWN, Assessment, AtLoad
 from rodwell.practice.case import Case

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads, critical_loads
-from rodwell.analysis.fields import ZOOMS
-from rodwell.analysis.follow import follow
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.state.fields import ZOOMS
+from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.practice.case import Case

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.balance import end_loads
+from rodwell.analysis.state.balance import end_loads
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.practice.loaded import Fields, LoadedRod, OnMesh
 from rodwell.practice.schema import Supports

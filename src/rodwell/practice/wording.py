@@ -8,7 +8,7 @@ from rodwell.quantities.text import amount, certain
 from rodwell.quantities.units import System
 
 if TYPE_CHECKING:
-    from rodwell.analysis.special import SpecialPoint
+    from rodwell.analysis.branch.special import SpecialPoint
     from rodwell.practice.answer import Answer
 
 
@@ -44,7 +44,7 @@ def place_text(answer: Answer, s: float, error: float = 0.0) -> str:
 
 def places_text(answer: Answer, point: SpecialPoint) -> str:
     """The places of a special point; their errors from the places of the largest pressure on the coarser mesh."""
-    from rodwell.analysis.measures import pressure_maxima  # noqa: PLC0415
+    from rodwell.analysis.discrete.measures import pressure_maxima  # noqa: PLC0415
 
     maxima, _, _ = pressure_maxima(point.solution.ladder.coarse, point.solution.point.coarse)
     return " and ".join(place_text(answer, s, min(abs(float(t) - s) for t in maxima)) for s in point.s)

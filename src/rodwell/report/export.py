@@ -7,17 +7,17 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rodwell.analysis.surfaces import SIDES
+from rodwell.analysis.space.scene import drawn
+from rodwell.analysis.space.surfaces import SIDES
 from rodwell.errors import InputError, checked_whole
-from rodwell.practice.scene import drawn
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import to_si
 from rodwell.store.folder import whole_folder
 from rodwell.store.shapes import ENLARGED, WRITERS
 
 if TYPE_CHECKING:
-    from rodwell.analysis.geometry import Geometry
-    from rodwell.analysis.solution import Solution
+    from rodwell.analysis.branch.solution import Solution
+    from rodwell.analysis.space.geometry import Geometry
 
 Write = Callable[[Path, "Solution", "Geometry", "Scales | None", int], list[Path]]
 

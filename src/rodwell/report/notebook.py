@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import singledispatch
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.bifurcation import ORDINATES
 from rodwell.practice.advice import statuses
 from rodwell.practice.answer import Answer

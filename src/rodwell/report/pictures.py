@@ -10,8 +10,8 @@ import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.diagram import Diagram
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.along import plot_along
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rodwell.analysis.certificate import Certificate
+from rodwell.analysis.state.certificate import Certificate
 from rodwell.practice.answer import Answer
 from rodwell.practice.case import Case
 from rodwell.practice.figure import Figure

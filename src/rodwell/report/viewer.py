@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.surfaces import straight_contact
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.space.geometry import Geometry
+from rodwell.analysis.space.scene import STOPS, Part, drawn, limits, scene
+from rodwell.analysis.space.surfaces import straight_contact
 from rodwell.plots.units import axis
-from rodwell.practice.scene import STOPS, Part, drawn, limits, scene
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.diagram import Diagram
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.curves.curve import Curve
 from rodwell.practice.along import along_table, along_tables
 from rodwell.practice.answer import Answer
 from rodwell.practice.answer_tables import answer_tables

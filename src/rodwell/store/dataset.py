@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell._version import __version__
-from rodwell.analysis.balance import ENERGIES
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.fields import GRID
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.balance import ENERGIES
+from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, checked_number
 from rodwell.physics.on_wall.frames import AXES, FRAMES, frames
 from rodwell.problem.problem import Problem

@@ -10,10 +10,10 @@ from typing import Any
 import h5netcdf
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.diagram import Diagram
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.practice.answer import Answer
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales

@@ -1,7 +1,7 @@
 """The rod in space as files of other programs: glTF, STL, VTK and CSV.
 
 Lengths in metres and forces in newtons where the scales of a case are given, otherwise in units B = L = 1. Axes i, j, k
-of ``rodwell.analysis.geometry`` are x, y, z in STL, VTK and CSV. glTF has y up: there k is x, i is y and j is z.
+of ``rodwell.analysis.space.geometry`` are x, y, z in STL, VTK and CSV. glTF has y up: there k is x, i is y and j is z.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from rodwell._version import __version__
-from rodwell.analysis.geometry import Geometry
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.surfaces import SIDES, Mesh, cylinder, tube
-from rodwell.practice.scene import Part, linear_colours, scene
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.space.geometry import Geometry
+from rodwell.analysis.space.scene import Part, linear_colours, scene
+from rodwell.analysis.space.surfaces import SIDES, Mesh, cylinder, tube
 from rodwell.quantities.names import FIELDS, QUANTITIES, SI_UNITS, UNITS
 from rodwell.quantities.scales import Scales
 

@@ -1,6 +1,6 @@
 """Closed forms of critical loads, by cylinder: what the numerical solution is audited against.
 
-Plain functions in double precision. Certified enclosures of the same numbers: :mod:`rodwell.analysis.certify`.
+Plain functions in double precision. Certified enclosures of the same numbers: :mod:`rodwell.analysis.proof.certify`.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.measures import Measured
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.plots.paper.frame import (
     COMPRESSION,
     CURVATURE,

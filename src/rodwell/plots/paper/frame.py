@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
 from rodwell.plots.style import INK, MODES, RC
 from rodwell.quantities.arrays import FloatArray
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
 from rodwell.plots.paper.frame import ALONG, PLACES, WEIGHT, context, letter, new_figure
 from rodwell.plots.style import INK, MODES
 from rodwell.quantities.text import minus

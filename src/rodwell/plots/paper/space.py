@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.solution import Solution
 from rodwell.plots.paper.frame import context, new_figure
 from rodwell.plots.rod3d import draw_rod
 from rodwell.studies.paper.shapes import Shape

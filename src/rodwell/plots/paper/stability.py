@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from rodwell.analysis.curves import Curve
+from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.paper.bifurcations import bifurcation
 from rodwell.plots.paper.frame import (
     ALONG,

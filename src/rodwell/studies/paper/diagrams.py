@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.diagram import Diagram
-from rodwell.analysis.diagram import diagram as compute
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.branch.diagram import diagram as compute
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.errors import NotConvergedError
 from rodwell.problem.problem import Problem
 from rodwell.studies.paper.claims import FORMULA, Claim, Known, Value

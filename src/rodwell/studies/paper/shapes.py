@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.diagram import diagram
-from rodwell.analysis.measures import Measured
-from rodwell.analysis.solution import Solution
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.diagram import diagram
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
 from rodwell.errors import NotConvergedError
 from rodwell.studies.paper.claims import FORMULA, Claim, Value
 from rodwell.studies.paper.work import Work, rod

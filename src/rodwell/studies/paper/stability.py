@@ -8,12 +8,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from rodwell.analysis.critical import critical_loads
-from rodwell.analysis.critical_curves import critical_curves
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.solution import Solution
-from rodwell.analysis.special import SpecialPoint
-from rodwell.analysis.state_curves import lift_off_curve
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.curves.critical import critical_curves
+from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.curves.states import lift_off_curve
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.practice.formulas import FORMULAS
 from rodwell.problem.problem import Problem

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from rodwell.analysis.critical import critical_loads
+from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.studies.paper.claims import FORMULA, Claim, Known, Value
 from rodwell.studies.paper.work import CLEARANCE, Work, rod

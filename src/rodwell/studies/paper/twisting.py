@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from rodwell.analysis.curves import Curve
-from rodwell.analysis.state_curves import twist_curve
+from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.curves.states import twist_curve
 from rodwell.studies.paper.claims import Claim, Known, Value
 from rodwell.studies.paper.stability import sound
 from rodwell.studies.paper.work import Work, rod

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import Any, TypeVar
 
-from rodwell.analysis.branches import Branch
-from rodwell.analysis.critical import CriticalLoads, critical_loads
-from rodwell.analysis.follow import follow
-from rodwell.analysis.special import BRANCH_POINT, SpecialPoint
-from rodwell.analysis.torsion import Torsion, torsion
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import BRANCH_POINT, SpecialPoint
+from rodwell.analysis.loads.torsion import Torsion, torsion
+from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol

@@ -1,0 +1,1 @@
+"""What users hold, solutions, branches, diagrams, and how branches are followed."""

@@ -1,0 +1,273 @@
+"""Branches of equilibria: points, special points, states in between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rodwell.analysis.branch.solution import Solution, solution_of
+from rodwell.analysis.branch.special import LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, index_at_start
+from rodwell.analysis.branch.symmetry import Reflection, images
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.straight.critical import EULER, Mode
+from rodwell.errors import InputError, NotConvergedError, checked_number
+from rodwell.faces import Shown, drawn, face
+from rodwell.numerics.continuation.location import LocationError, Span, locate
+from rodwell.numerics.continuation.walk import Trace
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.physics.on_wall.parameters import FORCE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
+
+
+class Branch(Shown):
+    """A branch of equilibria in one parameter, points in order of travel.
+
+    Attributes
+    ----------
+    problem
+        The problem; where the branch is followed in one of its values, that of the first point.
+    parameter
+        What varies along it: "force", "weight", "alpha", "clearance" or "twist".
+    origin
+        Its name and where it comes from.
+    special_points
+        In order of travel.
+    trace
+        Points and ladders as continuation left them: for what goes on from here.
+    reached_end
+        Whether it was followed to where it was asked to end.
+    ended_because
+        Why it ended.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        origin: Origin,
+        trace: Trace,
+        special_points: tuple[SpecialPoint, ...],
+        reached: bool,
+        why: str,
+        parameter: str = "force",
+    ) -> None:
+        self.problem, self.origin, self.parameter = problem, origin, parameter
+        self.trace = trace
+        self.special_points = special_points
+        self._solutions: dict[int, Solution] = {}
+        self.reached_end, self.ended_because = reached, why
+
+    def __len__(self) -> int:
+        return len(self.trace.points)
+
+    def __getitem__(self, i: int) -> Solution:
+        i = range(len(self))[i]  # refuses what lies outside
+        if i not in self._solutions:  # kept: with it the certificate, once asked for
+            self._solutions[i] = self.solution(self.trace.points[i], self.trace.ladders[i])
+        return self._solutions[i]
+
+    def __iter__(self) -> Iterator[Solution]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        first, last = self.values[0], self.values[-1]
+        return f"<Branch {self.name}: {len(self)} points, {self.parameter} = {first:.6g} … {last:.6g}>"
+
+    @property
+    def name(self) -> str:
+        """Name of the branch."""
+        return self.origin.name
+
+    @property
+    def mode(self) -> Mode | None:
+        """The buckling mode by which it leaves the straight rod; None if it starts elsewhere."""
+        return self.origin.mode
+
+    @cached_property
+    def values(self) -> FloatArray:
+        """The parameter at each point, (n,)."""
+        return np.array([p.lam for p in self.trace.points])
+
+    @cached_property
+    def force(self) -> FloatArray:
+        """End force F at s = 1 in B/L², tension positive, (n,)."""
+        pairs = zip(self.trace.points, self.trace.ladders, strict=True)
+        return np.array([ladder.fine.parameters(p.lam)[FORCE] for p, ladder in pairs])
+
+    @cached_property
+    def stability_index(self) -> FloatArray:
+        """Stability index of each point, (n,): 0 is stable under dead loads, for a rod kept on the wall."""
+        index = np.array([p.fine.index for p in self.trace.points])
+        if self.origin.switched and len(index) > 1:
+            index[0] = index_at_start(self.trace)
+        return index
+
+    @property
+    def images(self) -> tuple[Reflection, ...]:
+        """Reflections of the problem that make other branches out of this one, the identity first."""
+        middle = self[len(self) // 2]
+        return images(middle.problem, middle.point.fine.symmetry)
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Lowest and highest value of the parameter on the branch, folds included."""
+        values = [*self.values, *(p.value for p in self.special_points)]
+        return float(min(values)), float(max(values))
+
+    @property
+    def last(self) -> tuple[Ladder, Point]:
+        """Ladder and state of the last point, from which the branch can be continued."""
+        return self.trace.ladders[-1], self.trace.points[-1]
+
+    def numbers(self, which: Measured) -> FloatArray:
+        """Measured numbers of all points, (n,)."""
+        return np.array([p.values[which] for p in self.trace.points])
+
+    def errors(self, which: Measured) -> FloatArray:
+        """Error estimates of :meth:`numbers`, (n,)."""
+        return np.array([p.error[which] for p in self.trace.points])
+
+    @cached_property
+    def certificates(self) -> FloatArray:
+        """What is left of the paper's equations at each point, (n,): see :attr:`Solution.certificate`."""
+        return np.array([solution.certificate.worst for solution in self])
+
+    @cached_property
+    def converged(self) -> bool:
+        """Whether every measured number of every point meets the tolerance, special points and their place included.
+
+        Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
+        """
+        rtol = self.trace.ladders[0].rtol
+        return all(solution.converged for solution in self) and all(
+            p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
+        )
+
+    @property
+    def _scale(self) -> float:
+        """Size against which errors of the parameter are judged, where it is near zero itself."""
+        if self.parameter == "force":
+            return EULER + self.problem.axial_weight
+        return float(np.ptp(self.values))
+
+    @property
+    def lift_off(self) -> SpecialPoint | None:
+        """The first point where the rod leaves the wall, or None if it was not reached.
+
+        Without lateral weight nothing but the buckled rod itself presses it to the wall: lift-off then
+        coincides with buckling, and this is the critical point.
+        """
+        if self.lift_off_at_buckling:
+            return self.special_points[0]
+        return next((p for p in self.special_points if p.kind == LIFT_OFF), None)
+
+    @property
+    def lift_off_at_buckling(self) -> bool:
+        """Whether lift-off coincides with buckling: no lateral weight (weightless rod or vertical cylinder)."""
+        return self.problem.lateral_weight == 0.0 and self.mode is not None
+
+    def at(self, value: float) -> Solution:
+        """Return the first state at a value of the parameter within the branch, converged like its points.
+
+        Raises
+        ------
+        InputError
+            If the branch does not pass that value.
+        NotConvergedError
+            If the state could not be computed.
+        """
+        value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
+        inside = np.nonzero((self.values[:-1] - value) * (self.values[1:] - value) <= 0.0)[0]
+        if inside.size == 0:
+            low, high = self.values.min(), self.values.max()
+            unit = " B/L²" if self.parameter == "force" else ""
+            raise InputError(
+                self.parameter, value, f"this branch covers {low:.6g} to {high:.6g}{unit}; follow it further"
+            )
+        i = int(inside[0])
+        for near in (i, i + 1):
+            if value == self.values[near]:
+                return self[near]
+        try:
+            return self._between(i, value)
+        except LocationError as problem:
+            raise NotConvergedError(f"no state at {self.parameter} = {value:g}: {problem}") from None
+
+    def zero_between(self, i: int, function: Callable[[Family, State], float]) -> tuple[Solution, float]:
+        """State between points i and i+1 at which a function of it changes sign, and the error of the parameter there.
+
+        Located along the branch on both meshes, like special points; ``function`` takes the equations and the state on
+        one mesh, and must have opposite signs at the two points.
+
+        Raises
+        ------
+        NotConvergedError
+            If no such state could be found.
+        """
+        try:
+            ladder, (coarse, fine) = self._spans(i)
+            ends = function(fine.family, fine.first), function(fine.family, fine.last)
+            place = locate(coarse, fine, lambda span, state: function(span.family, state), ends)
+        except LocationError as problem:
+            raise NotConvergedError(f"no zero between points {i} and {i + 1}: {problem}") from None
+        point = ladder.point(place.coarse, place.fine)
+        return self.solution(point, ladder), place.gap / CLAIMED_GAIN + ROUND_OFF * abs(point.lam)
+
+    def _spans(self, i: int) -> tuple[Ladder, tuple[Span, Span]]:
+        """The stretch of the branch between points i and i+1 on both meshes."""
+        ladder, last = self.trace.ladders[i + 1], self.trace.points[i + 1]
+        _, first = ladder.adopt(self.trace.ladders[i], self.trace.points[i])
+        if first is None:
+            raise LocationError("the point before it could not be solved on a finer mesh")
+        return ladder, (Span(ladder.coarse, first.coarse, last.coarse), Span(ladder.fine, first.fine, last.fine))
+
+    def _between(self, i: int, value: float) -> Solution:
+        """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
+        ladder, (coarse, fine) = self._spans(i)
+        near = ladder.point(coarse.at_lam(value), fine.at_lam(value))
+        return self.solution(near if near.at(value) else ladder.at(near, value) or near, ladder)
+
+    @cached_property
+    def dataset(self) -> xr.Dataset:
+        """All points as an xarray Dataset: see :func:`rodwell.store.dataset.branch_dataset`."""
+        data: xr.Dataset = face("dataset")(self)
+        return data
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
+        """Draw the bifurcation diagram of this branch and its images: end curvature against end compression.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on, which are returned; None: new ones of pyplot, which notebooks show by themselves.
+        ordinate
+            What is drawn against −F at s = 1; None: an end curvature that does not vanish.
+        scales
+            Units of the axes: ``scales`` of a case; None: B = L = 1.
+
+        Raises
+        ------
+        InputError
+            If the branch is one in another parameter than the force.
+        """
+        return drawn(self, ax, ordinate=ordinate, scales=scales)
+
+    def solution(self, point: Point, ladder: Ladder) -> Solution:
+        """Return the solution of a state of this branch, or of one between its points."""
+        return solution_of(self.problem, self.parameter, point, ladder)
+
+    def renamed(self, origin: Origin) -> Branch:
+        """Return the same branch under another name."""
+        ending = self.reached_end, self.ended_because
+        return Branch(self.problem, origin, self.trace, self.special_points, *ending, self.parameter)

@@ -1,0 +1,210 @@
+"""Bifurcation diagrams: primary branches, what leaves them, and how all of it hangs together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.coiled import coil
+from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
+from rodwell.analysis.branch.follow import LARGEST_STEP, checked_end
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.symmetry import Reflection
+from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete.choices import checked_step
+from rodwell.analysis.discrete.family import PATHS
+from rodwell.analysis.straight.critical import MOST_MODES, CriticalLoads, critical_loads
+from rodwell.errors import InputError, checked_whole
+from rodwell.faces import drawn
+from rodwell.problem.problem import Problem, ends_text
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rodwell.analysis.discrete.measures import Measured
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
+
+MODES = 4
+"""Default number of primary branches."""
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """The branches of a problem in the end force, with images by symmetry left out.
+
+    Attributes
+    ----------
+    problem
+        The problem.
+    critical
+        The critical loads of the primary branches.
+    branches
+        Primary branches in the order of modes, then secondary ones in the order in which they were found.
+    joints
+        Where branches hang together, besides the straight rod.
+    until
+        End force in B/L² at s = 1 to which branches were followed.
+    unexplored
+        Why branch points were left without their secondary branch; empty if none was.
+    """
+
+    problem: Problem
+    critical: CriticalLoads
+    branches: tuple[Branch, ...]
+    joints: tuple[Joint, ...]
+    until: float
+    unexplored: tuple[str, ...]
+
+    def __iter__(self) -> Iterator[Branch]:
+        return iter(self.branches)
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
+        """Draw all branches in the end force; return the axes. Arguments as in :meth:`rodwell.Branch.plot`."""
+        return drawn(self, ax, ordinate=ordinate, scales=scales)
+
+    def __getitem__(self, name: str) -> Branch:
+        found = next((branch for branch in self.branches if branch.name == name), None)
+        if found is None:
+            raise InputError("branch", name, "must be one of " + ", ".join(b.name for b in self.branches))
+        return found
+
+    def __repr__(self) -> str:
+        return f"<Diagram down to F = {self.until:.6g} B/L²: {', '.join(branch.name for branch in self.branches)}>"
+
+    @property
+    def primary(self) -> tuple[Branch, ...]:
+        """Branches that leave the straight rod, or the coil."""
+        return tuple(branch for branch in self.branches if branch.origin.parent is None)
+
+    @property
+    def secondary(self) -> tuple[Branch, ...]:
+        """Branches that leave other buckled states."""
+        return tuple(b for b in self.branches if b.origin.parent is not None and b.parameter == "force")
+
+    @property
+    def converged(self) -> bool:
+        """Whether every number of every branch meets the tolerance."""
+        return all(branch.converged for branch in self.branches)
+
+    def images(self, branch: Branch) -> tuple[Reflection, ...]:
+        """Reflections that make other branches of the diagram out of ``branch``, the identity first."""
+        return branch.images
+
+    @cached_property
+    def datasets(self) -> dict[str, xr.Dataset]:
+        """Each branch as an xarray Dataset, by name: see :func:`rodwell.store.dataset.branch_dataset`."""
+        return {branch.name: branch.dataset for branch in self.branches}
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the diagram as plain data, for JSON."""
+        return {
+            "convention": f"end force at s = 1 in B/L^2, tension positive; {ends_text(self.problem)}; "
+            "stability index under dead loads",
+            "until": self.until,
+            "converged": self.converged,
+            "branches": [self._branch_dict(branch) for branch in self.branches],
+            "joints": [vars(joint) for joint in self.joints],
+            "unexplored": list(self.unexplored),
+        }
+
+    def _branch_dict(self, branch: Branch) -> dict[str, Any]:
+        return {
+            "name": branch.name,
+            "mode": branch.mode.number if branch.mode else None,
+            "parent": branch.origin.parent,
+            "images": [image.name for image in self.images(branch)],
+            "points": len(branch),
+            "reached_end": branch.reached_end,
+            "ended_because": branch.ended_because,
+            "converged": branch.converged,
+            "special_points": [special_dict(point) for point in branch.special_points],
+        }
+
+
+def special_dict(point: SpecialPoint) -> dict[str, Any]:
+    """Return a special point as plain data."""
+    return point.as_dict() | {"parameter": point.parameter, "value": point.value}
+
+
+def diagram(
+    problem: Problem,
+    *,
+    modes: int = MODES,
+    until: float | None = None,
+    secondary: bool = True,
+    then: tuple[str, float] | None = None,
+    rtol: float = RTOL,
+    largest_step: float = LARGEST_STEP,
+    progress: Progress | None = None,
+) -> Diagram:
+    """Bifurcation diagram in the end force.
+
+    Primary branches leave the straight rod at its critical loads; with ``problem.turns`` ≠ 0 the branch of the coil
+    takes their place. At every branch point on them the branch that leaves there is followed too, until it meets a
+    symmetric branch again or reaches the end. Branches that are images of others by a reflection are not computed:
+    :meth:`Diagram.images` names them.
+
+    Parameters
+    ----------
+    problem
+        The rod.
+    modes
+        How many primary branches.
+    until
+        End force at s = 1 in B/L², tension positive, at which branches end; without it, somewhat beyond the last mode.
+    secondary
+        Whether to follow secondary branches.
+    then
+        A parameter ("weight", "alpha", "clearance" or "twist") and the value to which each branch is continued in it,
+        from its state at ``until`` and at that force; these branches come last, named "…, in weight".
+    rtol, largest_step
+        As for :func:`rodwell.follow`.
+    progress
+        Called with what is being done and how much is done.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    NotConvergedError
+        If the critical loads cannot be computed, or a primary branch cannot be started.
+    """
+    ahead.begin()
+    rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
+    largest_step = checked_step(largest_step)
+    tell = progress or (lambda _what, _done: None)
+    if then is not None and (then[0] not in PATHS or then[0] == "force"):
+        raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
+    if then is not None:
+        checked_end(problem, *then)
+    if problem.turns != 0:
+        start = coil(problem, until=until, rtol=rtol, largest_step=largest_step)
+        until = float(start.force[-1]) if until is None else until
+        work = Exploration(problem, CriticalLoads(()), until, rtol, largest_step)
+        work.branches.append(start)
+    else:
+        critical = critical_loads(problem, modes, rtol=rtol)
+        until = _end(critical, until)
+        work = Exploration(problem, critical, until, rtol, largest_step)
+        work.follow_primary(tell)
+    if secondary:
+        work.follow_secondary(tell)
+    if then is not None:
+        work.continue_in(*then)
+    tell("done", 1.0)
+    return Diagram(problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored))
+
+
+def _end(critical: CriticalLoads, until: float | None) -> float:
+    first, last = critical[0].force, critical[-1].force
+    if until is None:
+        return float(first - max(1.5 * (first - last), 2.0 * critical[0].wavenumber ** 2))
+    until = checked_force("until", until)
+    if until >= first:
+        raise InputError("until", until, f"must be below the first critical load, {first:.8g} B/L²")
+    return until

@@ -1,0 +1,156 @@
+"""Following all that hangs together: branches, what leaves them, and where they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import branch_off, follow
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
+from rodwell.analysis.branch.symmetry import images
+from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.problem.problem import Problem
+
+MOST_SECONDARY = 60
+"""Secondary branches followed at most; more end the diagram, with a message."""
+
+SAME_LOAD, SAME_SHAPE = 1e-6, 1e-4
+"""How close, relatively, two located branch points on different branches are if they are one."""
+
+Progress = Callable[[str, float], None]
+"""Called with what is being done and how much of the whole is done (0 to 1)."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A point that two branches share: where ``child`` leaves or meets ``branch``."""
+
+    branch: str
+    child: str
+    force: float
+
+
+class Exploration:
+    """A diagram in the making."""
+
+    def __init__(
+        self, problem: Problem, critical: CriticalLoads, until: float, rtol: float, largest_step: float
+    ) -> None:
+        self.problem, self.critical, self.until = problem, critical, until
+        self.rtol, self.largest_step = rtol, largest_step
+        self.branches: list[Branch] = []
+        self.joints: list[Joint] = []
+        self.unexplored: list[str] = []
+
+    def follow_primary(self, tell: Progress) -> None:
+        """Follow the branches of the modes met on the way, both arms unless one is the image of the other."""
+        followed = [mode for mode in self.critical if mode.force > self.until]
+        for i, mode in enumerate(followed):
+            tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
+            for mirror in (False, True) if len(images(self.problem, mode.parity)) == 1 else (False,):
+                self.branches.append(
+                    follow(
+                        self.problem, mode, until=self.until, mirror=mirror,
+                        rtol=self.rtol, largest_step=self.largest_step,
+                    )
+                )  # fmt: skip
+
+    def continue_in(self, parameter: str, until: float) -> None:
+        """Continue each branch that reached its end in another parameter."""
+        for branch in [b for b in self.branches if b.ended_because == END]:
+            name = f"{branch.name}, in {parameter}"
+            try:
+                further = follow(
+                    self.problem, start=branch[-1], parameter=parameter, until=until,
+                    rtol=self.rtol, largest_step=self.largest_step,
+                )  # fmt: skip
+            except (InputError, NotConvergedError) as problem:
+                self.unexplored.append(f"{name}: {problem}")
+                continue
+            self.branches.append(further.renamed(Origin(name, parent=branch.name)))
+
+    def follow_secondary(self, tell: Progress) -> None:
+        """Follow what leaves each branch point, those on secondary branches included."""
+        done, count = 0, 0
+        while done < len(self.branches):
+            parent = self.branches[done]
+            done += 1
+            for point in self._branch_points(parent):
+                if self._taken(parent, point) or self._meets_known(parent, point):
+                    continue
+                if count == MOST_SECONDARY:
+                    self.unexplored.append(f"the limit of {MOST_SECONDARY} secondary branches was reached")
+                    return
+                tell(f"secondary branch at F = {point.force:.5g}", 0.6 + 0.4 * done / (len(self.branches) + 1))
+                count += self._leave(parent, point)
+
+    @staticmethod
+    def _branch_points(parent: Branch) -> list[SpecialPoint]:
+        """Branch points inside ``parent``: where it does not begin or end."""
+        inner = parent.special_points[1:] if parent.origin.switched else parent.special_points
+        return [p for p in inner if p.kind == BRANCH_POINT and p.index_before != p.index_after]
+
+    def _taken(self, parent: Branch, point: SpecialPoint) -> bool:
+        """Whether the branch that meets ``parent`` at ``point`` is known."""
+        known = (joint.force for joint in self.joints if joint.branch == parent.name)
+        return any(abs(point.force - force) <= SAME_LOAD * abs(force) for force in known)
+
+    def _meets_known(self, parent: Branch, point: SpecialPoint) -> bool:
+        """Whether the branch that crosses ``parent`` at ``point`` is already there; noted if so."""
+        for other in self.branches:
+            if other is not parent and any(_same(p.solution, point.solution) for p in self._branch_points(other)):
+                self.joints.append(Joint(parent.name, other.name, point.force))
+                return True
+        return False
+
+    def _leave(self, parent: Branch, point: SpecialPoint) -> int:
+        """Follow the branch that leaves ``parent`` at ``point``, both ways unless one is the other's image."""
+        where = f"{parent.name} at F = {point.force:.8g}"
+        if abs(point.index_after - point.index_before) > 1:
+            self.unexplored.append(f"{where}: {abs(point.index_after - point.index_before)} eigenvalues vanish at once")
+            return 0
+        mirrored = point.solution.point.fine.symmetry == 0
+        for mirror in (False, True) if mirrored else (False,):
+            number = 1 + sum(b.origin.parent is not None for b in self.branches)
+            origin = Origin(f"secondary {number}", switched=True, parent=parent.name)
+            try:
+                branch = branch_off(
+                    point,
+                    until=self.until,
+                    mirror=mirror,
+                    rtol=self.rtol,
+                    largest_step=self.largest_step,
+                    origin=origin,
+                )
+            except NotConvergedError as problem:
+                self.unexplored.append(f"{where}: {problem}")
+                continue
+            self.branches.append(branch)
+            self.joints.append(Joint(parent.name, branch.name, point.force))
+            if branch.ended_because == REJOINS:
+                self._join(branch)
+        return 1
+
+    def _join(self, branch: Branch) -> None:
+        """Note on which branch, and where, a secondary branch ends."""
+        end = branch[-1]
+        for other in self.branches:
+            for point in other.special_points:
+                if other is not branch and point.kind == BRANCH_POINT and _same(point.solution, end):
+                    self.joints.append(Joint(other.name, branch.name, point.force))
+                    return
+
+
+def _same(a: Solution, b: Solution) -> bool:
+    """Whether two states are one, up to reflections."""
+    if abs(a.force - b.force) > SAME_LOAD * abs(b.force):
+        return False
+    s = np.linspace(0.0, 1.0, 65)
+    y, other = (x.point.fine.space.evaluate(x.point.fine.c, s, 1)[0] for x in (a, b))
+    gaps = [np.max(np.abs(image - other)) for image in (y, -y, y[::-1], -y[::-1])]
+    return bool(min(gaps) <= SAME_SHAPE * np.max(np.abs(other)))

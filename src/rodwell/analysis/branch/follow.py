@@ -1,0 +1,240 @@
+"""Following a branch of buckled states: from the straight rod, from a given state, or from a branch point."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.making import continued, made
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
+from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state
+from rodwell.analysis.branch.tracing import Progress, traced
+from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
+from rodwell.analysis.discrete.family import PATHS
+from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
+from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.numerics.continuation.walk import Stepping
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
+
+LARGEST_STEP = 0.06
+"""Default of the longest step: one unit is an amplitude of about 1 rad, or the whole range of the parameter."""
+
+FIRST_STEP = 0.05
+"""First step on a branch that leaves another: radians around the cylinder, about."""
+
+FIRST_STEP_ON = 0.02
+"""First step from a given state."""
+
+RIGID = 0.1
+"""Wavenumber, in rad/L, below which a mode hardly bends the rod: it is a rigid turn, resisted by weight alone."""
+
+REACH = 6.0
+"""Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
+
+
+def follow(
+    problem: Problem,
+    mode: int | Mode | None = None,
+    *,
+    until: float | None = None,
+    mirror: bool = False,
+    start: Solution | None = None,
+    parameter: str = "force",
+    rtol: float = RTOL,
+    largest_step: float = LARGEST_STEP,
+    progress: Progress | None = None,
+) -> Branch:
+    """Follow a branch of buckled states in the end force, from the straight rod, or in any parameter from a state.
+
+    Parameters
+    ----------
+    problem
+        The rod; what is not the parameter stays constant.
+    mode
+        Number of the buckling mode to start from, 1 (the default) for the first met, or a :class:`Mode` already
+        computed.
+    until
+        Value of the parameter at which to end: by default the end force at s = 1 in B/L², tension positive.
+        Without it, the branch ends at lift-off.
+    mirror
+        The other of the two arms that leave the straight rod: the paper draws ω₂(1) < 0, this is ω₂(1) > 0.
+    start
+        A state to start from instead (for example a coiled one, from :func:`equilibrium`); needs ``until``.
+    parameter
+        What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance" or "twist".
+    rtol
+        Relative tolerance of every measured number and special point.
+    largest_step
+        Longest step. One unit is an amplitude of about 1 rad around the cylinder, or the whole range of the
+        parameter.
+    progress
+        Called with the parameter of each new point.
+
+    Returns
+    -------
+    Branch
+        Its ``reached_end`` and ``ended_because`` say whether the end asked for was reached.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or does not go with the others.
+    NotConvergedError
+        If the branch cannot even be started.
+    """
+    rtol = checked_rtol(rtol)
+    largest_step = checked_step(largest_step)
+    ahead.begin()
+    if parameter not in PATHS:
+        raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
+    if start is not None:
+        if mode is not None or mirror:
+            raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
+        return _from_state(problem, start, parameter, until, rtol, largest_step, progress)
+    if parameter != "force":
+        raise InputError("parameter", parameter, "needs a state to start from: give start (for example branch[-1])")
+    return _from_straight(problem, 1 if mode is None else mode, until, mirror, rtol, largest_step, progress)
+
+
+def _from_straight(
+    problem: Problem,
+    mode: int | Mode,
+    until: float | None,
+    mirror: bool,
+    rtol: float,
+    largest_step: float,
+    progress: Progress | None,
+) -> Branch:
+    until = None if until is None else checked_force("until", until)
+    if until is None and problem.lateral_weight > 0.0 and not problem.pressed:
+        raise InputError("until", None, "must be given: the rod is not pressed to the wall, so there is no lift-off")
+    found = _mode(problem, mode, rtol)
+    if until is not None and until >= found.force:
+        raise InputError(
+            "until",
+            until,
+            f"must be below the critical load {found.force:.8g} B/L², where the branch starts towards compression",
+        )
+    if found.wavenumber < RIGID:
+        raise NotConvergedError(
+            f"mode {found.number} turns the rod as a whole (its wavenumber is {found.wavenumber:.2g} rad/L): it has no "
+            "buckled branch that could be followed; hold an end, or take the next mode"
+        )
+    start = at_critical(problem, found, until, mirror, rtol)
+    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
+    limit = found.force - REACH * found.wavenumber**2 if until is None else until
+    if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
+        stepping = replace(stepping, most_points=2)
+    result = traced(problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=progress)
+    if len(result.points) == 1:
+        raise NotConvergedError(
+            f"mode {found.number} could not be followed from its critical load {found.force:.6g} B/L²: {result.end}"
+        )
+    if until is None and problem.lateral_weight == 0.0:
+        result.end = LIFT_OFF
+    reached = result.end == (LIFT_OFF if until is None else END)
+    origin = Origin(f"mode {found.number}" + (", mirror arm" if mirror else ""), found, switched=True)
+    return made(problem, origin, result, reached, result.end)
+
+
+def _from_state(
+    problem: Problem,
+    start: Solution,
+    parameter: str,
+    until: float | None,
+    rtol: float,
+    largest_step: float,
+    progress: Progress | None,
+) -> Branch:
+    if until is None:
+        raise InputError("until", None, "must be given to follow a branch from a given state")
+    until = checked_end(problem, parameter, until)
+    if start.problem != problem:
+        raise InputError("start", start.problem, "belongs to another problem")
+    if until == start.value_of(parameter):
+        raise InputError("until", until, "must differ from the value at the start")
+    stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
+    begin = at_state(problem, start, parameter, until, rtol)
+    result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=progress)
+    origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
+    return made(problem, origin, result, result.end == END, result.end, parameter)
+
+
+def checked_end(problem: Problem, parameter: str, until: float) -> float:
+    """Return the end of a branch in a parameter, if the problem allows that value, or raise."""
+    if parameter == "force":
+        return checked_force("until", until)
+    if parameter == "clearance" and problem.turns != 0:
+        raise InputError("parameter", parameter, "a coiled rod cannot be followed in it: its end would have to move")
+    return float(getattr(problem.but(**{parameter: until}), parameter))
+
+
+def branch_off(
+    point: SpecialPoint,
+    *,
+    until: float,
+    mirror: bool = False,
+    rtol: float = RTOL,
+    largest_step: float = LARGEST_STEP,
+    progress: Progress | None = None,
+    origin: Origin | None = None,
+) -> Branch:
+    """Follow the branch that leaves another at a branch point, until it meets a symmetric branch again, or ``until``.
+
+    Parameters
+    ----------
+    point
+        A special point of kind "branch_point", from ``Branch.special_points``.
+    until
+        Value of the branch's parameter (the end force, usually) at which to end.
+    mirror
+        The other of the two directions. On a symmetric branch it gives the mirror image.
+    rtol, largest_step, progress
+        As for :func:`follow`.
+    origin
+        Name and parent, for diagrams.
+
+    Raises
+    ------
+    InputError
+        If the point is of another kind or an argument is out of range.
+    NotConvergedError
+        If the branch cannot be started.
+    """
+    if point.kind != BRANCH_POINT:
+        raise InputError("point", point.kind, "must be a special point of kind branch_point")
+    problem, parameter = point.solution.problem, point.parameter
+    until = checked_end(problem, parameter, until)
+    start, largest_step = at_branch_point(point, mirror, checked_rtol(rtol)), checked_step(largest_step)
+    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
+    result = traced(problem, start, until, stepping, parameter=parameter, switched=True, progress=progress)
+    if len(result.points) == 1:
+        raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
+    name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
+    return made(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
+
+
+def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
+    """Return a branch continued from its last point down to the end force ``until``.
+
+    Raises
+    ------
+    InputError
+        If ``until`` is out of range.
+    """
+    until = checked_force("until", until)
+    stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
+    result = traced(branch.problem, branch.last, until, stepping, switched=False, progress=progress)
+    return continued(branch, result, result.end == END, result.end)
+
+
+def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
+    """The mode to start from, computed unless it is given."""
+    if not isinstance(mode, Mode):
+        return critical_loads(problem, checked_whole("mode", mode, 1, MOST_MODES), rtol=rtol)[-1]
+    if mode.problem != problem:
+        raise InputError("mode", f"mode {mode.number} of {mode.problem}", "belongs to another problem")
+    return mode

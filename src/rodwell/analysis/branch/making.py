@@ -1,0 +1,109 @@
+"""Branches made of what continuation found: its points, and the special points between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.solution import Solution, solution_of
+from rodwell.analysis.branch.special import (
+    BRANCH_POINT,
+    CRITICAL,
+    END,
+    FOLD,
+    KINDS,
+    LIFT_OFF,
+    REJOINS,
+    ROUND_OFF,
+    STRAIGHT,
+    TOUCH_DOWN,
+    UNCERTAIN,
+    Origin,
+    SpecialPoint,
+    index_at_start,
+)
+from rodwell.numerics.continuation.events import INDEX, TURN, Found
+from rodwell.numerics.continuation.walk import Trace
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.problem.problem import Problem
+
+
+def made(problem: Problem, origin: Origin, trace: Trace, reached: bool, why: str, parameter: str = "force") -> Branch:
+    """Return the branch of a trace: special points are found in it, in order of travel.
+
+    ``reached`` says whether it was followed to where it was asked to end, ``why`` why it ended.
+    """
+    found = _Finding(problem, origin, trace, parameter).special_points()
+    return Branch(problem, origin, trace, found, reached, why, parameter)
+
+
+def continued(branch: Branch, trace: Trace, reached: bool, why: str) -> Branch:
+    """Return ``branch`` followed by ``trace``, which starts at its last point."""
+    old = branch.trace
+    merged = replace(
+        old,
+        points=old.points[:-1] + trace.points,
+        ladders=old.ladders[:-1] + trace.ladders,
+        found=[f for f in old.found if f.name != END]
+        + [replace(f, after=f.after + len(old.points) - 1) for f in trace.found],
+        end=trace.end,
+    )
+    return made(branch.problem, branch.origin, merged, reached, why, branch.parameter)
+
+
+@dataclass(frozen=True)
+class _Finding:
+    """What the special points of a branch are made of."""
+
+    problem: Problem
+    origin: Origin
+    trace: Trace
+    parameter: str
+
+    def special_points(self) -> tuple[SpecialPoint, ...]:
+        """All special points. The start is one where it is shared with another branch, and the end always is."""
+        trace = self.trace
+        out = [self._start()] if self.origin.switched else []
+        met = trace.found[-1:] if trace.end in (REJOINS, STRAIGHT) else []
+        for found in trace.found:
+            if found.name in KINDS:
+                out.append(self._special(found, met=any(found is m for m in met)))
+        if not out or out[-1].kind != END:
+            point, number = trace.points[-1], len(trace.points) - 1
+            last = self._solution(point, trace.ladders[-1])
+            index = trace.found[-1].index_after if met else last.stability_index
+            out.append(SpecialPoint(END, last.force, point.lam, 0.0, (), index, index, last, number, self.parameter))
+        return tuple(out)
+
+    def _solution(self, point: Point, ladder: Ladder) -> Solution:
+        return solution_of(self.problem, self.parameter, point, ladder)
+
+    def _start(self) -> SpecialPoint:
+        """The point where the branch leaves another one, or the straight rod."""
+        trace, mode = self.trace, self.origin.mode
+        point = trace.points[0]
+        first, before = self._solution(point, trace.ladders[0]), point.fine.index
+        kind, error = (BRANCH_POINT, float(point.lam_gap)) if mode is None else (CRITICAL, mode.error)
+        index, places = before, tuple[float, ...]()
+        if len(trace.points) > 1:
+            index = int(index_at_start(trace))
+            if self.problem.lateral_weight == 0.0 and mode is not None:  # it lifts off as it buckles
+                places = self._solution(trace.points[1], trace.ladders[1]).highest_pressure[2]
+        return SpecialPoint(kind, first.force, point.lam, error, places, before, index, first, 0, self.parameter)
+
+    def _special(self, found: Found, *, met: bool) -> SpecialPoint:
+        """What was found between two points; ``met``: the branch ends there, at another one."""
+        solution = self._solution(found.point, found.ladder)
+        kind = found.name
+        if kind == INDEX:
+            kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
+        elif kind == TURN:
+            kind = BRANCH_POINT if met else FOLD
+        elif kind == LIFT_OFF and not found.rising:
+            kind = TOUCH_DOWN
+        places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
+        error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
+        index = found.index_before, found.index_after
+        return SpecialPoint(
+            kind, solution.force, found.point.lam, error, places, *index, solution, found.after, self.parameter
+        )

@@ -1,0 +1,98 @@
+"""A single state at a given end force, found by minimising the energy: coiled rods, or buckled ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
+from rodwell.analysis.discrete.family import family as equilibria
+from rodwell.analysis.discrete.measures import measured_ladder
+from rodwell.analysis.discrete.meshes import first_space
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.equilibria.family import Family, Outcome, State
+from rodwell.numerics.equilibria.minimise import minimise
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
+
+LOPSIDED = 0.3
+"""How far, in radians around the cylinder, the search for an unsymmetric coil starts from the symmetric one."""
+
+
+STEEP = 0.45
+"""Slope of the even winding from which one with level ends, twice as steep at its middle, would turn across."""
+
+
+def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
+    """Stable state of a coiled rod (``problem.turns`` ≠ 0) at an end force, by minimising its energy.
+
+    The search starts from the even winding y = 2πnΔ (s − sin 2πs/2π) and goes downhill: the state found is a
+    minimum under dead loads among states on the wall. Without turns, that is the straight rod.
+
+    Parameters
+    ----------
+    problem
+        The rod; ``turns`` sets how often its end is carried around the cylinder.
+    force
+        End force F at s = 1 in B/L², tension positive.
+    rtol
+        Relative tolerance.
+
+    Raises
+    ------
+    InputError
+        If ``force`` is not finite, or a straight rod is asked for.
+    NotConvergedError
+        If no minimum was found, with the reason.
+    """
+    ahead.begin()
+    rtol = checked_rtol(rtol)
+    force = checked_force("force", force)
+    if problem.turns == 0:
+        raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
+    family, outcome, coarse = _odd_or_any(problem, force)
+    if coarse is None:
+        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
+    outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+    if point is None:
+        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
+    return Solution(problem, ladder.at(point, force) or point, ladder)
+
+
+def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State | None]:
+    """A minimum of the energy: odd about mid-length if the problem allows that and it is stable, else of any shape."""
+    space = first_space(problem, min(force, 0.0), max(force, 0.0))
+    wavenumber = 2.0 * np.pi * abs(problem.turns)
+    for parity in (-1, 0) if problem.symmetric else (0,):
+        scale = max(abs(force), wavenumber**2)
+        family = equilibria(problem, space, parity=parity, wavenumber=wavenumber, scale=scale)
+        start = _winding(problem, family)
+        if parity < 0:  # steps are kept odd: what is even in the start, if only by round-off, would stay
+            start = 0.5 * (start - start[::-1])
+        if parity == 0 and problem.symmetric:  # the odd one is no minimum: leave its symmetry
+            bump = problem.clearance * np.sin(np.pi * space.points) ** 2
+            start = start + LOPSIDED * space.project(bump, family.ends)
+        outcome, c = minimise(family, start, force)
+        if outcome is Outcome.CONVERGED:
+            outcome, state, _ = family.at(c, force)
+            if state is not None:
+                return family, outcome, state
+    return family, outcome, None
+
+
+def _winding(problem: Problem, family: Family) -> FloatArray:
+    """Coefficients of a winding that is level at both ends, less the even one, y = 2πnΔ s.
+
+    What the ends hold stands in the outermost coefficients: a linear function has the value of the ramp at the
+    Greville abscissae, so a level end is one whose first two values are those of the end less the ramp there.
+    """
+    space, held = family.space, family.ends
+    end = problem.rise
+    if problem.ends == ("pinned", "pinned") and abs(end) >= STEEP:
+        return np.zeros(space.size)  # the even winding itself
+    level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
+    kept = level - end * space.greville
+    gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]
+    return kept + space.project(gap, held)

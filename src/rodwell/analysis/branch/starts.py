@@ -1,0 +1,201 @@
+"""Where branches start: ladder and first point, from a critical load, a known state, or a branch point."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
+from rodwell.analysis.discrete.family import family
+from rodwell.analysis.discrete.measures import measured_ladder
+from rodwell.analysis.discrete.meshes import first_space
+from rodwell.analysis.straight.critical import Mode
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.continuation.events import INDEX, NEARLY, Found, events_between
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.newton import symmetrise
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+Start = tuple[Ladder, Point]
+
+INVERSE_ITERATIONS = 8
+
+
+def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool, rtol: float) -> Start:
+    """The straight rod at the critical load, with the mode as tangent."""
+    reach = until if until is not None else mode.force - mode.wavenumber**2
+    space = first_space(problem, min(reach, mode.force), max(reach, mode.force))
+    equilibria = family(
+        problem,
+        space,
+        parity=kept_parity(problem, mode.parity),
+        wavenumber=mode.wavenumber,
+        scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
+    )
+    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+
+    def straight(on: SplineSpace) -> FloatArray:
+        shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
+        projected = on.project(-shape if mirror else shape, equilibria.ends)
+        symmetrise(projected, equilibria.parity)  # what round-off leaves of the other parity would stay
+        return projected
+
+    states = []
+    for f in (ladder.coarse, ladder.fine):
+        zero = np.zeros(f.space.size)
+        # the index just above the critical load: as many modes as have been met before this one
+        trivial = f.state(zero, mode.force, zero, 1.0, mode.number - 1)
+        shape = straight(f.space)
+        rise = 0.0 if problem.twist == 0.0 else _share_of_tangent(f, trivial, shape) * trivial.tangent_lam
+        states.append(f.state(zero, mode.force, shape, rise, mode.number - 1))
+    return ladder, ladder.point(*states)
+
+
+def _wavenumber(problem: Problem, state: State) -> float:
+    """√(∫y''²/∫y'²) of a state; of a helix, that of its turns."""
+    return max(state.space.wavenumber(state.c + problem.rise * state.space.greville), 2.0 * np.pi * abs(problem.turns))
+
+
+def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:
+    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of the parameter.
+
+    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only.
+    """
+    if not problem.symmetric or parameter == "alpha":
+        return 0
+    twisted = problem.twist != 0.0 or parameter == "twist"
+    return 0 if twisted and parity > 0 else parity
+
+
+def at_state(problem: Problem, start: Solution, parameter: str, until: float, rtol: float) -> Start:
+    """A known state, heading for ``until``."""
+    here = start.value_of(parameter)
+    old = start.point
+    equilibria = family(
+        problem,
+        old.coarse.space,
+        parity=kept_parity(problem, old.fine.symmetry, parameter),
+        wavenumber=_wavenumber(problem, old.fine),
+        scale=abs(until - here),
+        parameter=parameter,
+        force=start.force,
+    )
+    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+    states = []
+    for level, c in ((ladder.coarse, old.coarse.c), (ladder.fine, old.fine.c)):
+        outcome, state, _ = level.sharp().at(c, here)
+        if state is None:
+            raise NotConvergedError(f"the state to start from could not be solved again: {outcome.value}")
+        states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
+    return ladder, ladder.point(*states)
+
+
+def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
+    """A branch point, with the direction that leads off the branch as tangent.
+
+    That is the null vector of the Hessian, normal to the branch: on a symmetric branch it breaks the symmetry.
+    """
+    solution = point.solution
+    old, parent = solution.ladder, solution.point
+    equilibria = replace(old.coarse, parity=0)
+    ladder = measured_ladder(equilibria, rtol, old.most_elements)
+    coarse = _null_vector(ladder.coarse, parent.coarse, np.random.default_rng(0).standard_normal(parent.coarse.c.size))
+    fine = _null_vector(ladder.fine, parent.fine, ladder.up(coarse))
+    if mirror:
+        coarse, fine = -coarse, -fine
+    states = []
+    for f, state, vector in ((ladder.coarse, parent.coarse, coarse), (ladder.fine, parent.fine, fine)):
+        turn = 0.0 if state.symmetry != 0 else _share_of_tangent(f, state, vector)
+        tangent, tangent_lam = vector + turn * state.tangent, turn * state.tangent_lam
+        states.append(
+            replace(f.state(state.c, state.lam, tangent, tangent_lam, point.index_before), energy=state.energy)
+        )
+    return ladder, ladder.point(*states)
+
+
+def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> float:
+    """How much of the branch's tangent t belongs to the direction v + τ t of the branch that crosses it.
+
+    The algebraic branching equation: with ψ = v and second derivatives of the gradient g along directions of the
+    plane of t and v, ψ·g[t, t] = 0, so τ = −ψ·g[v, v] / (2 ψ·g[t, v]), 0 at a pitchfork.
+    """
+    free = equilibria.free
+    size = STENCIL * equilibria.scale_c
+    v = vector / np.max(np.abs(vector)) * size
+    scale = STENCIL  # a state's tangent has length one: about 1 rad, or the scale of λ
+    t, t_lam = scale * state.tangent, scale * state.tangent_lam
+
+    def along(a: float, b: float) -> float:
+        gradient = equilibria.assemble(state.c + a * v + b * t, state.lam + b * t_lam)[1]
+        return float(v[free] @ gradient[free])
+
+    vv = along(1.0, 0.0) - 2.0 * along(0.0, 0.0) + along(-1.0, 0.0)
+    tv = 0.25 * (along(1.0, 1.0) - along(1.0, -1.0) - along(-1.0, 1.0) + along(-1.0, -1.0))
+    return 0.0 if tv == 0.0 else -vv / (2.0 * tv) * scale * np.max(np.abs(vector)) / size
+
+
+STENCIL = 1e-2
+"""Step of second differences, in radians around the cylinder."""
+
+
+def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatArray:
+    """Null vector of the Hessian of a branch point, free of the branch's own direction."""
+    equilibria.nearest_curvature(state, vector, INVERSE_ITERATIONS)
+    if state.symmetry != 0:  # the pitchfork breaks the symmetry of the branch
+        vector = 0.5 * (vector - state.symmetry * vector[::-1])
+    else:
+        vector = vector - float(state.row @ vector) * state.tangent
+    if vector[np.argmax(np.abs(vector))] < 0.0:
+        vector = -vector
+    return vector
+
+
+AROUND = (1e-4, 1e-3, 1e-2)
+"""How far along the symmetric branch its branch point is sought, either way from the turning point."""
+
+
+def rejoined(problem: Problem, turn: Found) -> Found | None:
+    """The branch point of a symmetric branch at which a branch without that symmetry turns back, if there is one.
+
+    The turning point itself is hard to locate: the Hessian is singular there. On the symmetric branch, with its
+    symmetry kept, the same point is a plain change of the stability index.
+    """
+    old, state = turn.ladder, turn.point.fine
+    if old.coarse.parity != 0 or not state.space.symmetric:
+        return None
+    parity = kept_parity(problem, state.symmetry_within(NEARLY))
+    if parity == 0:
+        return None
+    ladder = measured_ladder(replace(old.coarse, parity=parity), old.rtol, old.most_elements)
+    pairs = ((ladder.coarse, turn.point.coarse), (ladder.fine, turn.point.fine))
+    middle = [_symmetric_state(f.sharp(), x, parity) for f, x in pairs]
+    for part in AROUND if middle[0] is not None and middle[1] is not None else ():
+        points = []
+        for backwards in (True, False):
+            ends = [
+                f.sharp().step(x.reversed() if backwards else x, part)  # type: ignore[union-attr, arg-type]
+                for f, x in zip((ladder.coarse, ladder.fine), middle, strict=True)
+            ]
+            if ends[0] is not None and ends[1] is not None:
+                turned = [x.reversed() if backwards else x for x in ends if x is not None]
+                points.append(ladder.point(turned[0], turned[1]))
+        if len(points) < 2 or points[0].fine.index == points[1].fine.index:
+            continue
+        found = events_between(ladder, points[0], points[1], (), opening=False, leaves=False)
+        changes = [f for f in found if f.name == INDEX and not f.fold and f.certain]
+        if len(changes) == 1:
+            return changes[0]
+    return None
+
+
+def _symmetric_state(equilibria: Family, state: State, parity: int) -> State | None:
+    """The symmetric equilibrium of the same size as ``state``, which is nearly symmetric itself."""
+    c = state.symmetrised(parity)
+    row, row_lam, _, _ = equilibria.covector(c - c[0], 0.0)
+    return equilibria.correct(c, state.lam, row, row_lam, float(row @ c))[1]

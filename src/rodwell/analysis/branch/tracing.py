@@ -1,0 +1,119 @@
+"""Tracing a branch of buckled states: its events, and where and why it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from rodwell.analysis.branch.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_RANGE, REJOINS, STRAIGHT
+from rodwell.analysis.branch.starts import Start, rejoined
+from rodwell.analysis.discrete.measures import STEEPEST, Measured
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, Found
+from rodwell.numerics.continuation.walk import Stepping, Trace, trace
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
+
+LARGEST_BRAID_ANGLE = 89.5
+"""Degrees of |η| at which a branch ends: the theory holds below 90°."""
+
+SAME = 1e-7
+"""How close, relatively, to where a branch meets another a change of its index is that meeting."""
+
+FLAT = 1e-5
+"""Largest angle around the cylinder, in rad, of a rod that counts as straight where a branch turns back."""
+
+LEFT = "the parameter reached the end of its range, or came back past its start"
+
+Progress = Callable[[float], None]
+"""Called with the parameter of each new point."""
+
+_CONTACT = Event(LIFT_OFF, lambda _, values: values[Measured.P_MAX])
+_ENERGY = Event(EQUAL_ENERGY, lambda _, values: values[Measured.ENERGY])
+_ACROSS = Event(OUT_OF_RANGE, lambda _, values: values[STEEPEST] - np.sin(np.radians(LARGEST_BRAID_ANGLE)))
+
+
+def traced(
+    problem: Problem,
+    start: Start,
+    until: float,
+    stepping: Stepping,
+    *,
+    at_lift_off: bool = False,
+    parameter: str = "force",
+    switched: bool,
+    progress: Progress | None,
+) -> Trace:
+    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
+    ladder, point = start
+    stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
+    events = [_ACROSS, Event.at(END, until)]
+    if problem.lateral_weight > 0.0 or problem.turns != 0:
+        events.append(_CONTACT)
+    if problem.turns != 0:
+        events.append(_ENERGY)
+    if parameter != "force":
+        low, high, _ = LIMITS[parameter]
+        back = low if until > point.lam else high
+        if back == 0.0 and parameter == "clearance":
+            back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
+        events.append(Event.at(LEFT, back))
+
+    meetings: dict[float, Found | None] = {}
+
+    def meeting(found: Found) -> Found | None:
+        if found.point.lam not in meetings:
+            meetings[found.point.lam] = rejoined(problem, found)
+        return meetings[found.point.lam]
+
+    def stop(found: Found) -> str:
+        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * ladder.coarse.scale_c:
+            return STRAIGHT
+        if found.name == TURN and meeting(found) is not None:
+            return REJOINS
+        return found.name if found.name in stops else ""
+
+    report = None if progress is None else lambda p: progress(p.lam)
+    result = trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report)
+    if result.end == REJOINS:
+        return _ended_at(result, meeting(result.found[-1]))
+    return _end_exactly(result, until)
+
+
+def _ended_at(result: Trace, meeting: Found | None) -> Trace:
+    """Put the end of a branch on the branch point at which it meets another."""
+    if meeting is not None:
+        result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
+        last = result.found.pop()
+        # next to the meeting the softest eigenvalue vanishes like the square of the distance: its sign is noise
+        near = SAME * abs(meeting.point.lam)
+        result.found = [f for f in result.found if f.name != INDEX or abs(f.point.lam - meeting.point.lam) > near]
+        changes = [f for f in result.found if f.name == INDEX]
+        index = changes[-1].index_after if changes else result.points[min(1, len(result.points) - 1)].fine.index
+        result.found.append(
+            replace(
+                last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error,
+                index_before=index, index_after=index,
+            )
+        )  # fmt: skip
+    return result
+
+
+def _end_exactly(result: Trace, value: float) -> Trace:
+    """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
+    last: Point | None = None
+    if result.end == END and not result.points[-1].at(value):
+        last = result.ladders[-1].at(result.points[-1], value)
+    elif result.end == STRAIGHT:
+        last = _flattened(result.ladders[-1], result.points[-1])
+    if last is not None:
+        result.points[-1] = last
+        result.found[-1] = replace(result.found[-1], point=last)
+    return result
+
+
+def _flattened(ladder: Ladder, point: Point) -> Point:
+    """The straight rod where a branch reaches it."""
+    pairs = ((ladder.coarse, point.coarse), (ladder.fine, point.fine))
+    return ladder.point(*(f.state(np.zeros_like(x.c), x.lam, x.tangent, x.tangent_lam, x.index) for f, x in pairs))

@@ -1,0 +1,1 @@
+"""Where something happens, in two parameters."""

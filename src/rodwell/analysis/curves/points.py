@@ -1,0 +1,279 @@
+"""Points of a curve in the plane of a load and another parameter: what defines them, and how one is solved for."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.curves.curve import CurvePoint
+from rodwell.analysis.discrete.measures import pressure_maxima
+from rodwell.analysis.straight.critical import EULER
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.splines.spaces import Prolongation
+from rodwell.quantities.arrays import FloatArray
+
+MOST_REFINEMENTS = 3
+
+NEAR = 0.03
+"""Maxima of the contact pressure closer than this, or than this part of a half wave if they are short, are one."""
+
+Function = Callable[[Family, State], float]
+
+
+class Guess(NamedTuple):
+    """Coefficients close to a point of the curve on both meshes, and states near it along the load."""
+
+    coarse: FloatArray
+    fine: FloatArray
+    near: tuple[State | None, State | None] = (None, None)
+
+
+class CurveLostError(RuntimeError):
+    """A point of the curve could not be found."""
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A place in the plane: parameter and load."""
+
+    x: float
+    value: float
+
+
+@dataclass(frozen=True)
+class Travel:
+    """Direction in which the curve is travelled: coefficients on both meshes, load and parameter x, and unit of x."""
+
+    coarse: FloatArray
+    fine: FloatArray
+    value: float
+    x: float
+    unit: float
+
+
+@dataclass(frozen=True)
+class Seed:
+    """A known state on the curve."""
+
+    x: float
+    solution: Solution
+
+    @property
+    def ladder(self) -> Ladder:
+        """The meshes it stands on."""
+        return self.solution.ladder
+
+    @property
+    def guess(self) -> Guess:
+        """Coefficients on both meshes."""
+        return Guess(self.solution.point.coarse.c, self.solution.point.fine.c)
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A point of the curve: the curve passes within ``error`` in load and ``x_error`` in x of it.
+
+    ``places`` are those that lift off, of curves of touching states.
+    """
+
+    spot: Spot
+    error: float
+    x_error: float
+    solution: Solution
+    places: tuple[float, ...]
+
+    @property
+    def guess(self) -> Guess:
+        """Coefficients on both meshes, and the states."""
+        point = self.solution.point
+        return Guess(point.coarse.c, point.fine.c, (point.coarse, point.fine))
+
+    def as_point(self) -> CurvePoint:
+        """The point as users see it."""
+        allowed = self.solution.ladder.rtol * (abs(self.spot.value) + EULER)
+        known = self.error <= allowed and self.x_error <= self.solution.ladder.rtol * abs(self.spot.x)
+        return CurvePoint(
+            self.spot.x,
+            self.spot.value,
+            self.error,
+            self.places,
+            self.solution.accurate and known,
+            self.solution,
+            self.x_error,
+        )
+
+
+class Touching:
+    """The place that lifts off, followed along a curve: each maximum of the contact pressure is a function of its own.
+
+    ``place`` is None as long as the highest one is meant. Of a symmetric state it lies in the first half.
+    """
+
+    def __init__(self) -> None:
+        self.place: float | None = None
+        self.near = NEAR
+
+    def at(self, family: Family, state: State) -> float:
+        """Contact pressure at the maximum that is followed, with the sign that makes contact negative."""
+        places, values, _ = _maxima(family, state)
+        if self.place is None:
+            return float(values.max())
+        here = np.abs(places - self.place) < self.near
+        if not here.any():
+            raise CurveLostError("the place that lifts off is lost")
+        return float(values[here].max())
+
+    def moved(self, solution: Solution) -> float:
+        """Where the maximum that is followed lies at a state."""
+        places, values, _ = _maxima(*solution.levels[1])
+        if self.place is None:
+            return float(places[np.argmax(values)])
+        here = np.abs(places - self.place) < self.near
+        return float(places[here][np.argmax(values[here])])
+
+    def rival(self, solution: Solution, mesh: int = 1) -> tuple[float, float | None]:
+        """Highest contact pressure at any other maximum, and where; the lowest pressure where there is none."""
+        places, values, lowest = _maxima(*solution.levels[mesh])
+        other = np.abs(places - self.moved(solution)) >= self.near
+        if not other.any():
+            return lowest, None
+        best = int(np.argmax(np.where(other, values, -np.inf)))
+        return float(values[best]), float(places[best])
+
+
+def _maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
+    """Maxima of the contact pressure: places, of a symmetric state folded onto the first half, values, lowest value."""
+    places, values, lowest = pressure_maxima(family, state)
+    return (np.minimum(places, 1.0 - places) if state.symmetry != 0 else places), values, lowest
+
+
+class Zero(ABC):
+    """What defines a curve: the zero of a function of equilibria, and how to reach equilibria in the plane.
+
+    Parameters
+    ----------
+    over, load
+        Names of the two parameters of the plane: x, and the load ("force" or "twist").
+    """
+
+    touch: bool
+
+    def __init__(self, over: str, load: str) -> None:
+        self.over, self.load, self.touching = over, load, Touching()
+
+    @abstractmethod
+    def function(self, family: Family, state: State) -> float:
+        """What vanishes on the curve."""
+
+    @abstractmethod
+    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
+        """Return ``ladder`` with the equilibria along the load at the parameter of ``spot``."""
+
+    @abstractmethod
+    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
+        """Return a point as a solution of the problem at ``spot``."""
+
+    def value(self, solution: Solution) -> float:
+        """Load of a solution."""
+        return solution.force if self.load == "force" else solution.problem.twist
+
+    def solve(self, ladder: Ladder, guess: Guess, spot: Spot, travel: Travel | None = None) -> Solved:
+        """Return the zero at the parameter of ``spot``, from coefficients close to it.
+
+        With ``travel``: the zero on the hyperplane through the guess normal to that direction, in the space of states
+        and load. The parameter is then found too. So the curve can be followed where it turns back in the parameter.
+        """
+        for refinement in range(MOST_REFINEMENTS + 1):
+            line = self.ladder(ladder, spot)
+            if travel is None:
+                coarse = _zero_at(line.coarse, guess.coarse, spot.value, guess.near[0], self.function)
+                fine = _zero_at(line.fine, guess.fine, coarse.lam, guess.near[1], self.function)
+                places = spot.x, spot.x
+            else:
+                first, coarse = self._zero_across(ladder, guess, spot, travel, 0)
+                same = Guess(coarse.c, ladder.up(coarse.c))  # the same hyperplane, not another place along the curve
+                second, fine = self._zero_across(ladder, same, Spot(first, coarse.lam), travel, 1)
+                places, line = (first, second), self.ladder(ladder, Spot(second, fine.lam))
+            point = line.point(coarse, fine)
+            finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
+            if finer is None:
+                break
+            ladder = finer
+            up, up_fine = (Prolongation(a.space, b.space) for a, b in zip(_meshes(line), _meshes(finer), strict=True))
+            guess = Guess(up(coarse.c), up_fine(fine.c))
+            spot = Spot(places[1], float(fine.lam))
+            if travel is not None:
+                travel = replace(travel, coarse=up(travel.coarse), fine=up_fine(travel.fine))
+        there = Spot(places[1], float(fine.lam))
+        error = float(point.lam_gap + 2e-13 * abs(fine.lam))
+        solution = self.solution(line, point, there)
+        touching = solution.highest_pressure[2] if self.touch else ()
+        return Solved(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
+
+    def _zero_across(self, ladder: Ladder, guess: Guess, spot: Spot, travel: Travel, mesh: int) -> tuple[float, State]:
+        """Zero on the hyperplane normal to ``travel``, by the secant method in the parameter, on one of both meshes."""
+        c = (guess.coarse, guess.fine)[mesh]
+        family = _meshes(ladder)[mesh]
+        row, row_lam, _, _ = family.covector((travel.coarse, travel.fine)[mesh], travel.value)
+        target = float(row @ c) + row_lam * spot.value
+
+        def at(x: float, c: FloatArray, lam: float) -> tuple[State, float]:
+            family = _meshes(self.ladder(ladder, Spot(x, lam)))[mesh]
+            outcome, state, _ = family.correct(c, lam, row, row_lam, target)
+            if state is None:
+                raise CurveLostError(outcome.value)
+            return state, self.function(family, state)
+
+        x, step = spot.x, PROBE * travel.unit
+        state, value = at(x, c, spot.value)
+        for _ in range(MOST_SECANTS):
+            x += step
+            state, new = at(x, state.c, state.lam)
+            if abs(step) <= SETTLED * travel.unit:
+                return float(x), state
+            if new == value:
+                raise CurveLostError("the function does not change along the line")
+            farthest = FARTHEST * travel.unit
+            value, step = new, float(np.clip(-new * step / (new - value), -farthest, farthest))
+        raise CurveLostError("the secant method did not settle")
+
+
+def _meshes(ladder: Ladder) -> tuple[Family, Family]:
+    return ladder.coarse, ladder.fine
+
+
+def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, function: Function) -> State:
+    """Zero of a function of the equilibria of a family, by the secant method in arclength from ``(c, λ)``.
+
+    It begins on the hyperplane normal to the tangent of ``near``, so it works where the equilibria fold too; without
+    such a state, at λ.
+    """
+    if near is None or near.space is not family.space:
+        outcome, state, _ = family.at(c, lam)
+    else:
+        outcome, state, _ = family.correct(c, lam, near.row, near.row_lam, float(near.row @ c) + near.row_lam * lam)
+    if state is None:
+        raise CurveLostError(outcome.value)
+    value, step = function(family, state), PROBE
+    for _ in range(MOST_SECANTS):
+        new = family.step(state, step)
+        if new is None:
+            raise CurveLostError("a state near the curve could not be solved")
+        if abs(step) <= SETTLED:
+            return new
+        f = function(family, new)
+        if f == value:
+            raise CurveLostError("the function does not change along the line")
+        state, value, step = new, f, float(np.clip(-f * step / (f - value), -FARTHEST, FARTHEST))
+    raise CurveLostError("the secant method did not settle")
+
+
+PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-9, 0.1, 30
+"""First step, last step (the error left is about its square) and longest step of the secant method, in the metric."""

@@ -1,0 +1,1 @@
+"""Where rod meets solver: families of equilibria, first meshes, what is measured."""

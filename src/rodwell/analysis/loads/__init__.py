@@ -1,0 +1,1 @@
+"""What loads depend on; loads of long rods."""

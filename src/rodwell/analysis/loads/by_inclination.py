@@ -1,0 +1,169 @@
+"""Loads at many inclinations from few exact ones, with a checked error."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.loads.long_rod import LocalLoad
+from rodwell.quantities.arrays import FloatArray
+
+Solve = Callable[[float], LocalLoad]
+
+SAFETY = 4.0
+"""An interval is fine enough if the difference at its middle is this much below the tolerance."""
+
+FIRST_NODES = 9
+"""Inclinations of the first table; with up to twice as many different ones, each is solved for."""
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Loads at many inclinations: values in N (n,), error estimates (n,), and how many were solved exactly.
+
+    Where there is no value both are NaN, and ``reasons`` says why, by number. ``interpolated`` is the largest relative
+    difference between interpolated and exact loads at the middles of the intervals; 0 if nothing was interpolated.
+    """
+
+    values: FloatArray
+    errors: FloatArray
+    reasons: dict[int, str]
+    solved: int
+    interpolated: float
+
+
+@dataclass(frozen=True)
+class Precision:
+    """How exact a table is: relative error ``tolerance``, and how often an interval may be halved (``levels``)."""
+
+    tolerance: float
+    levels: int
+
+
+def loads_at(
+    alphas: Sequence[float], solve: Solve, precision: Precision, progress: Callable[[float], None] | None = None
+) -> Loads:
+    """Loads at inclinations in degrees (0 to 90): each solved for, or from a table where there are many.
+
+    The table is refined until the middle of every interval agrees with an exact load to a quarter of the tolerance, and
+    the middles become nodes themselves; the error reported is the tolerance. Where a load jumps (the place that lifts
+    off changes), halving ends; the error there is the size of the jump.
+    """
+    tell = progress or (lambda _done: None)
+    distinct = sorted(set(alphas))
+    inclined = [alpha for alpha in distinct if alpha > 0.0]
+    known, solved, worst = {}, len(distinct), 0.0
+    if len(inclined) <= 2 * FIRST_NODES:
+        for i, alpha in enumerate(distinct):
+            known[alpha] = solve(alpha)
+            tell((i + 1) / len(distinct))
+    else:
+        table = _Table(inclined[0], inclined[-1], solve, precision, tell)
+        known = {alpha: table.at(alpha) for alpha in inclined}
+        solved, worst = len(table.nodes), table.worst
+        if distinct[0] == 0.0:
+            known[0.0] = solve(0.0)
+            solved += 1
+    found = [known[alpha] for alpha in alphas]
+    values = np.array([math.nan if load.value is None else load.value for load in found])
+    errors = np.array([math.nan if load.value is None else load.error for load in found])
+    reasons = {i: load.reason for i, load in enumerate(found) if load.value is None}
+    return Loads(values, errors, reasons, solved, worst)
+
+
+def place(alpha: float) -> float:
+    """Where an inclination in degrees lies in the table, from −1 (vertical) to 1 (horizontal).
+
+    Loads are smooth in this: near the vertical they follow (sin α)^¼, the inverse of the half wave; near the horizontal
+    (cos α)^⅔, by which axial weight raises the load of a rod that is clamped where it is compressed most.
+    """
+    angle = math.radians(alpha)
+    return float(math.sin(angle) ** 0.25 - max(math.cos(angle), 0.0) ** (2.0 / 3.0))
+
+
+def angle_at(where: float) -> float:
+    """Inclination in degrees at a place of the table: inverse of :func:`place`, by bisection."""
+    low, high = 0.0, 90.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if place(middle) < where else (low, middle)
+    return 0.5 * (low + high)
+
+
+@dataclass(frozen=True)
+class _Interval:
+    """An interval that is not halved again: relative difference at its middle, or why it has no load."""
+
+    low: float
+    high: float
+    gap: float
+    reason: str = ""
+
+
+class _Table:
+    """Exact loads at places of the table, and shape-preserving cubics between them."""
+
+    def __init__(
+        self, low: float, high: float, solve: Solve, precision: Precision, tell: Callable[[float], None]
+    ) -> None:
+        self._solve, self._precision = solve, precision
+        self._done: list[_Interval] = []
+        first = [float(x) for x in np.linspace(place(low), place(high), FIRST_NODES)]
+        angles = {first[0]: low, first[-1]: high}
+        self.nodes: dict[float, LocalLoad] = {}
+        for i, where in enumerate(first):
+            self.nodes[where] = solve(angles.get(where, angle_at(where)))
+            tell(0.4 * i / FIRST_NODES)
+        todo = list(itertools.pairwise(first))
+        for level in range(precision.levels):
+            todo = self._refined(todo, last=level == precision.levels - 1)
+            tell(0.4 + 0.6 * (level + 1) / precision.levels)
+        self._curve = self._interpolant()
+        self.worst = max((part.gap for part in self._done if not part.reason), default=0.0)
+
+    def _interpolant(self) -> Callable[[float], float]:
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 - slow to import
+
+        known = sorted((where, load.value) for where, load in self.nodes.items() if load.value is not None)
+        if len(known) < 2:
+            return lambda _where: math.nan
+        curve = PchipInterpolator([x for x, _ in known], [y for _, y in known], extrapolate=False)
+        return lambda where: float(curve(where))
+
+    def _refined(self, intervals: list[tuple[float, float]], last: bool) -> list[tuple[float, float]]:
+        """Solve at the middle of intervals; return the halves of those where the cubic was too far off."""
+        curve, still = self._interpolant(), []
+        for low, high in intervals:
+            middle = 0.5 * (low + high)
+            self.nodes[middle] = self._solve(angle_at(middle))
+            three = [self.nodes[where] for where in (low, middle, high)]
+            values = [load.value for load in three if load.value is not None]
+            if len(values) < 3:
+                reason = next(load.reason for load in three if load.value is None)
+                self._done.append(_Interval(low, high, math.nan, reason))
+                continue
+            gap = abs(curve(middle) / values[1] - 1.0)
+            if gap <= self._precision.tolerance / SAFETY:
+                self._done.append(_Interval(low, high, gap))
+            elif last:
+                jump = max(abs(values[1] - values[0]), abs(values[2] - values[1])) / min(values)
+                self._done.append(_Interval(low, high, jump))
+            else:
+                still += [(low, middle), (middle, high)]
+        return still
+
+    def at(self, alpha: float) -> LocalLoad:
+        """The load at an inclination, with the difference seen in its interval as part of its error."""
+        where = place(alpha)
+        near = min(self.nodes, key=lambda node: abs(node - where))
+        if abs(near - where) < 1e-12:
+            return self.nodes[near]
+        part = next(part for part in self._done if part.low <= where <= part.high)
+        if part.reason:
+            return LocalLoad(None, reason=f"no exact load at an inclination near by: {part.reason}")
+        value = self._curve(where)
+        return LocalLoad(value, self.nodes[near].error + max(part.gap, self._precision.tolerance) * value)

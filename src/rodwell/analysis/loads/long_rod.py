@@ -1,0 +1,105 @@
+"""Exact loads of a long straight rod at an inclination: what decides locally, at a station of a well.
+
+The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With
+force at the lower end its loads tend to limits as it grows longer: upwards the axial weight takes the compression away.
+The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole, where the approach
+is slowest, n half waves between clamped ends add 2/n² of the load.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.straight.critical import critical_loads
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.problem.problem import Problem
+
+HALF_WAVES = 20
+"""Length for the critical load, within 1 % of the limit (0.5 % for clamped ends in a horizontal hole)."""
+
+LIFT_OFF_HALF_WAVES = 12
+"""Length for lift-off, which happens near the lower end: within about 1 % of twice the length."""
+
+LONGEST = 240.0
+"""Length at most, in (B/w)^⅓: near the vertical the half wave grows without limit."""
+
+RTOL_CRITICAL, RTOL_LIFT_OFF = 1e-6, 1e-4
+"""Relative tolerances of the two exact loads."""
+
+
+STEP = 0.15
+"""Longest step of the branch that is followed to lift-off, which is located exactly whatever the steps."""
+
+
+@dataclass(frozen=True)
+class String:
+    """The pipe and its clearance: B in N m², w in N/m (in its fluid), r in m; end conditions of the local rod."""
+
+    stiffness: float
+    weight: float
+    clearance: float
+    ends: tuple[str, str] = ("clamped", "clamped")
+
+    def length(self, alpha: float, half_waves: float = HALF_WAVES) -> float:
+        """Length of the local rod in m at an inclination in degrees."""
+        longest = LONGEST * (self.stiffness / self.weight) ** (1.0 / 3.0) * half_waves / HALF_WAVES
+        lateral = self.weight * math.sin(math.radians(alpha))
+        if lateral == 0.0:
+            return float(longest)
+        return float(min(half_waves * math.pi * (self.stiffness * self.clearance / lateral) ** 0.25, longest))
+
+    def problem(self, alpha: float, half_waves: float = HALF_WAVES) -> tuple[Problem, float]:
+        """The local rod at an inclination from 0 to 90 degrees, and its unit of force B/L² in N."""
+        length = self.length(alpha, half_waves)
+        weight = self.weight * length**3 / self.stiffness
+        return Problem(weight, alpha, self.clearance / length, ends=self.ends), self.stiffness / length**2
+
+
+@dataclass(frozen=True)
+class LocalLoad:
+    """A compression in N at the lower end of the local rod, positive, with its error estimate; or why there is none."""
+
+    value: float | None
+    error: float = 0.0
+    reason: str = ""
+
+
+def critical_compression(string: String, alpha: float, half_waves: float = HALF_WAVES) -> LocalLoad:
+    """First critical load: compression −N(0) = −F + γ cos α at the lower end, in N; error of this length's load."""
+    problem, unit = string.problem(alpha, half_waves)
+    try:
+        mode = critical_loads(problem, 1, rtol=RTOL_CRITICAL)[0]
+    except NotConvergedError as found:
+        return LocalLoad(None, reason=str(found))
+    return LocalLoad((problem.axial_weight - mode.force) * unit, mode.error * unit)
+
+
+def lift_off_compression(string: String, alpha: float, half_waves: float = LIFT_OFF_HALF_WAVES) -> LocalLoad:
+    """Lift-off of the first mode, compression at the lower end in N; in a vertical hole it coincides with buckling."""
+    problem, unit = string.problem(alpha, half_waves)
+    if problem.lateral_weight == 0.0:
+        return critical_compression(string, alpha)
+    try:
+        branch = follow(problem, 1, rtol=RTOL_LIFT_OFF, largest_step=STEP)
+    except (InputError, NotConvergedError) as found:
+        return LocalLoad(None, reason=str(found))
+    lift = branch.lift_off
+    if lift is None:
+        return LocalLoad(None, reason=f"lift-off was not found: {branch.ended_because}")
+    return LocalLoad((problem.axial_weight - lift.force) * unit, lift.error * unit)
+
+
+def length_effect(string: String, alpha: float, whole: LocalLoad | None = None) -> float:
+    """How far the critical load of this length is from that of an endless rod, relative: an estimate.
+
+    From the load at half the length, and that at the ``whole`` length if it is known. The gap falls with the square of
+    the length in a horizontal hole and faster in an inclined one; in a vertical hole with the length, or slower.
+    """
+    whole = critical_compression(string, alpha) if whole is None else whole
+    half = critical_compression(string, alpha, 0.5 * HALF_WAVES)
+    if half.value is None or whole.value is None or whole.value == 0.0:
+        return math.nan
+    at_longest = string.length(alpha) >= 0.999 * string.length(0.0)
+    return abs(half.value / whole.value - 1.0) / (1.0 if at_longest else 3.0)

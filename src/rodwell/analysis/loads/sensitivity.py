@@ -1,0 +1,158 @@
+"""How much critical and lift-off loads move when an input moves: exact derivatives, and elasticities.
+
+A critical load is an eigenvalue, so its derivative is the second variation's derivative, evaluated on the mode
+(Hellmann and Feynman): with a₀ = wₗ/Δ and a₁ = N(s) of (64),
+
+    dF/dq = − (∫ ∂a₀/∂q v² ds + ∫ ∂N/∂q v′² ds) / ∫ v′² ds .
+
+A lift-off load is where the contact pressure p at the touching place vanishes along equilibria:
+dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.loads.pressure import pressure_rates
+from rodwell.analysis.straight.critical import Mode, critical_loads
+from rodwell.analysis.straight.slopes import load_slope, weight_rates
+from rodwell.errors import InputError, checked_whole
+from rodwell.numerics.equilibria.error import ROUND_OFF
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_rtol
+
+PARAMETERS = ("weight", "alpha", "clearance")
+"""The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L."""
+
+Derivatives = dict[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of one load, f = F L²/B as a function of γ = mg L³/B, α and Δ/L.
+
+    Attributes
+    ----------
+    name
+        "critical load of mode 1", "lift-off load".
+    problem
+        Where they are taken.
+    force
+        The load: end force at s = 1 in B/L², tension positive.
+    derivatives
+        By name of the parameter (:data:`PARAMETERS`): ∂f/∂γ, ∂f/∂α per degree, ∂f/∂(Δ/L), each with its error estimate;
+        for the lift-off load of a twisted rod also ∂f/∂T₁. Critical loads do not depend on T₁.
+    note
+        What to know about them, or nothing.
+    """
+
+    name: str
+    problem: Problem
+    force: float
+    derivatives: Derivatives
+    note: str = ""
+
+    def elasticities(self) -> Derivatives:
+        """Change of the load F in percent for one percent more of each physical input, with error estimates.
+
+        ``weight_per_length`` mg, ``clearance`` Δ, ``stiffness`` B, ``length`` L, each with the others constant; and
+        ``alpha``, in percent for one degree more. From F = (B/L²) f(mg L³/B, α, Δ/L): e_B = 1 − e_mg,
+        e_L = 3 e_mg − e_Δ − 2.
+        """
+        weight, e_weight = self._relative("weight", self.problem.weight)
+        clearance, e_clearance = self._relative("clearance", self.problem.clearance)
+        return {
+            "weight_per_length": (weight, e_weight),
+            "clearance": (clearance, e_clearance),
+            "stiffness": (1.0 - weight, e_weight),
+            "length": (3.0 * weight - clearance - 2.0, 3.0 * e_weight + e_clearance),
+            "alpha": self._relative("alpha", 100.0),
+        }
+
+    def _relative(self, name: str, scale: float) -> tuple[float, float]:
+        value, error = self.derivatives[name]
+        return value * scale / self.force, abs(error * scale / self.force)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything about it, for JSON."""
+
+        def pairs(values: Derivatives) -> dict[str, dict[str, float]]:
+            return {name: {"value": value, "error": error} for name, (value, error) in values.items()}
+
+        return {
+            "name": self.name,
+            "force": self.force,
+            "derivatives": pairs(self.derivatives),
+            "elasticities": pairs(self.elasticities()) if self.force != 0.0 else None,
+            "note": self.note,
+        }
+
+
+def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tuple[Sensitivity, ...]:
+    """Derivatives of the critical load of a mode and, where the rod is pressed to the wall, of its lift-off load.
+
+    Parameters
+    ----------
+    problem
+        The rod; straight (``turns`` 0).
+    mode
+        Number of the mode, 1 for the first met.
+    rtol
+        Relative tolerance of the loads.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    NotConvergedError
+        If a load cannot be computed.
+    """
+    rtol = checked_rtol(rtol)
+    found = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
+    out = [of_critical_load(found)]
+    if problem.pressed:
+        lift = follow(problem, found, rtol=rtol).lift_off
+        if lift is not None:
+            out.append(of_lift_off(lift))
+    return tuple(out)
+
+
+def of_critical_load(mode: Mode) -> Sensitivity:
+    """Derivatives of a critical load, from its mode on both meshes."""
+    fine, coarse = (_by_mode(mode.problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
+    scales = {"weight": mode.problem.weight or 1.0, "alpha": 90.0, "clearance": mode.problem.clearance}
+    found = {}
+    for name, scale in scales.items():
+        round_off = ROUND_OFF * (abs(fine[name]) + abs(mode.force) / scale)
+        found[name] = (fine[name], abs(fine[name] - coarse[name]) + round_off)
+    return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, found)
+
+
+def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:
+    return {name: load_slope(space, coefficients, *weight_rates(problem, name)) for name in PARAMETERS}
+
+
+def of_lift_off(lift: SpecialPoint) -> Sensitivity:
+    """Derivatives of a lift-off load; from the side of smaller α where the rod lifts off at two places at once."""
+    if lift.kind != "lift_off":
+        raise InputError("point", lift.kind, "must be a lift-off")
+    solution = lift.solution
+    by_force, force_error = (np.array(part) for part in pressure_rates(solution, lift.s, "force"))
+    out, note = {}, ""
+    for name in PARAMETERS if solution.problem.twist == 0.0 else (*PARAMETERS, "twist"):
+        rates, errors = (np.array(part) for part in pressure_rates(solution, lift.s, name))
+        each = -rates / by_force
+        spread = np.abs(errors / by_force) + np.abs(each * force_error / by_force)
+        # compression grows: the place that touches at the larger F lifts off first, so α falling takes the smallest
+        which = int(np.argmin(each)) if name == "alpha" else int(np.argmax(spread))
+        out[name] = (float(each[which]), float(spread[which]))
+        if np.ptp(each) > 10.0 * np.max(spread):
+            note = "lifts off at several places at once: the derivative by α is that towards smaller α"
+    return Sensitivity("lift-off load", solution.problem, solution.force, out, note)

@@ -1,0 +1,1 @@
+"""Loads with proof, by ball arithmetic."""

@@ -1,0 +1,234 @@
+"""Critical loads with proof: enclosed to any number of digits, numbered, none skipped.
+
+What is proved, and how: see :mod:`rodwell.analysis.proof.inertia` for the counts and :mod:`rodwell.analysis.proof.roots` for the
+enclosures. In short, each load lies in an interval at whose ends the certified number of critical loads above differs
+by one. That proves that it exists, that no other load lies in the interval, and which number it has. It holds for every
+inclination and every pair of ends. Where a closed form exists, its change of sign over the same interval is proved too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from rodwell.analysis.proof.enclosures import Enclosure, bits, checked_digits, exact
+from rodwell.analysis.proof.inertia import Rod
+from rodwell.analysis.proof.roots import Counter, Critical, critical_values
+from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.physics.exact import horizontal, vertical
+from rodwell.problem.problem import Problem, ends_text
+
+Ball = Any
+"""A real number with a bound of its error: flint.arb."""
+
+DIGITS = 30
+SPARE = 2
+"""Digits proved beyond those asked for, so that the last one shown is right."""
+MOST_MODES = 50
+HEAVIEST_AIRY = 1e6
+"""γ up to which (86) and (88) are compared with, from 1: for larger |t| their series cancel as exp(⅔|t|^{3/2})."""
+
+
+@dataclass(frozen=True)
+class CertifiedLoad:
+    """A critical load of the straight rod, with proof.
+
+    Attributes
+    ----------
+    problem
+        The problem that it belongs to.
+    number
+        1 for the load met first as compression grows: exactly ``number − 1`` loads lie above the interval.
+    force
+        Enclosure of the critical end force F at s = 1 in B/L², tension positive.
+    multiplicity
+        How many loads the interval holds. 1, unless two agree to all digits asked for.
+    closed_form
+        Equation of the paper whose change of sign over the interval was proved as well, or an empty text.
+    """
+
+    problem: Problem
+    number: int
+    force: Enclosure
+    multiplicity: int
+    closed_form: str
+
+    @property
+    def digits(self) -> int:
+        """Proved digits of the force, relative to |F| or to 1 if that is larger."""
+        return self.force.digits
+
+
+class CertifiedLoads(tuple[CertifiedLoad, ...]):
+    """Certified loads in the order in which they are met as compression grows."""
+
+    __slots__ = ()
+
+    @property
+    def shown(self) -> int:
+        """Digits to show: those that every load has, all but the spare ones."""
+        return max(min(load.digits for load in self) - SPARE, 1)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for JSON: decimals are texts, so that no digit is lost."""
+        problem = self[0].problem
+        return {
+            "problem": {
+                "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
+                "ends": "-".join(problem.ends), "on_top": problem.on_top,
+            },
+            "loads": [
+                {
+                    "mode": load.number,
+                    "force": (text := load.force.text(self.shown))[0],
+                    "radius": text[1],
+                    "digits": load.digits,
+                    "loads_above": load.number - 1,
+                    "loads_in_interval": load.multiplicity,
+                    "closed_form": load.closed_form,
+                }
+                for load in self
+            ],
+            "unit": "B/L^2",
+            "convention": "end force at s = 1, tension positive; " + ends_text(problem),
+        }  # fmt: skip
+
+
+def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> CertifiedLoads:
+    """Critical end forces of the straight rod, proved: the first ``modes`` of them, none skipped.
+
+    Numbers of ``problem`` are taken as the decimals they are written as: clearance 0.01 is 1/100.
+
+    Parameters
+    ----------
+    problem
+        The rod; ``twist`` does not enter, ``turns`` must be 0.
+    modes
+        How many loads, 1 to 50; more where the last is one of several that agree to all digits.
+    digits
+        Decimal digits, 3 to 300: the half-width of an enclosure is at most 10^(−digits) |F|, or of 1 if |F| is smaller.
+
+    Returns
+    -------
+    CertifiedLoads
+        In the order in which they are met as compression grows. Loads that agree to all digits make one entry.
+
+    Raises
+    ------
+    InputError
+        If ``modes`` or ``digits`` is out of range, or ``problem.turns`` is not 0.
+    NotConvergedError
+        If a proof fails: the rod takes more than 3000 elements (300 with axial weight), or a sign cannot be decided.
+    """
+    modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
+    if problem.turns != 0:
+        raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    counter = Counter(lambda x: _rod(problem, x))
+    # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
+    against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
+    start = Fraction(-2.0 - problem.axial_weight - 1.001 * against)
+    step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * problem.axial_weight)
+    found = critical_values(counter, start, step, modes, digits + SPARE)
+    equation = closed_form(problem)
+    return CertifiedLoads(_load(problem, item, equation, digits) for item in found)
+
+
+def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits: int) -> CertifiedLoad:
+    """The certified load of a critical value x = −F."""
+    force = Enclosure(-item.enclosure.high, -item.enclosure.low)
+    name = ""
+    if equation is not None and item.multiplicity == 1:
+        name = equation.name
+        check_sign_change(equation, force, digits)
+    return CertifiedLoad(problem, item.number, force, item.multiplicity, name)
+
+
+def _rod(problem: Problem, x: Ball) -> Rod:
+    """The rod at the end force −x, at the present precision."""
+    weight, clearance, ends = weights(problem), ball(exact(problem.clearance)), problem.ends
+    if problem.lateral_weight == 0.0 and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
+        ends = {"guided": "clamped", "free": "pinned"}[ends[0]], ends[1]
+    foundation = weight[1] / clearance
+    return Rod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
+
+
+def ball(value: Fraction) -> Ball:
+    """A rational as a ball."""
+    from flint import arb, fmpq  # noqa: PLC0415
+
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def weights(problem: Problem) -> tuple[Ball, Ball]:
+    """Axial and lateral weight γ cos α and γ sin α, exactly zero where they vanish."""
+    from flint import arb, fmpq  # noqa: PLC0415
+
+    weight, angle = ball(exact(problem.weight)), exact(problem.alpha) / 180
+    turn = fmpq(angle.numerator, angle.denominator)
+    zero = arb(0)
+    axial = zero if angle == Fraction(1, 2) else weight * arb.cos_pi_fmpq(turn)
+    return axial, zero if angle == 0 else weight * arb.sin_pi_fmpq(turn)
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """A function of the end force, in balls, whose zeros are the critical loads, with the name of its equation."""
+
+    name: str
+    function: Callable[[Ball], Ball]
+
+
+def check_sign_change(equation: ClosedForm, place: Enclosure, digits: int) -> None:
+    """Prove that a closed form has opposite signs at the two ends of an enclosure, or raise a NotConvergedError."""
+    from flint import ctx  # noqa: PLC0415
+
+    for factor in (1, 2, 4, 8, 16):
+        with ctx.workprec(bits(digits) * factor):
+            product = equation.function(ball(place.low)) * equation.function(ball(place.high))
+            if product < 0:
+                return
+            if product > 0:
+                break
+    raise NotConvergedError(f"{equation.name} was not proved to change its sign at {float(place):.17g}")
+
+
+def closed_form(problem: Problem) -> ClosedForm | None:
+    """The closed form for the critical loads of ``problem``, None where none is compared with.
+
+    Horizontal: (77) or its counterpart on top with both ends clamped; with one end pinned or guided, the factor of odd
+    or even modes of a clamped rod of twice the length. Vertical: (86), and (88) with the upper end guided.
+    """
+    ends, upright, flat = problem.ends, problem.lateral_weight == 0.0, problem.axial_weight == 0.0
+    if problem.weight == 0.0:
+        return None
+    if flat and "clamped" in ends and "free" not in ends:
+        name = "on top, section 4.3" if problem.on_top else "(77)"
+        name = name if set(ends) == {"clamped"} else f"{name}, twice the length"
+        return ClosedForm(name, lambda force: _flat(force, problem))
+    if upright and 1.0 < problem.weight < HEAVIEST_AIRY:
+        if ends == ("clamped", "clamped"):
+            return ClosedForm("(86)", lambda force: vertical.scorer_determinant(force, weights(problem)[0]))
+        if ends == ("clamped", "guided"):
+            return ClosedForm("(88)", lambda force: vertical.sway_determinant(force, weights(problem)[0]))
+    return None
+
+
+def _flat(force: Ball, problem: Problem) -> Ball:
+    """Closed form of a horizontal rod with a clamped end at the end force."""
+    foundation = weights(problem)[1] / ball(exact(problem.clearance))
+    other = {*problem.ends, "clamped"} - {"clamped"}
+    if not other and not problem.on_top:
+        return horizontal.buckling_equation(*horizontal.wavenumbers(force, foundation))
+    if other:
+        force, foundation = 4 * force, 16 * foundation
+    c = foundation.sqrt()
+    if problem.on_top:
+        p = (((force * force + 4 * c * c).sqrt() - force) / 8).sqrt()  # of −F = 4P² − c²/(4P²)
+        even, odd = horizontal.even_factor_on_top(p, c), horizontal.odd_factor_on_top(p, c)
+    else:
+        q = ((-force - 2 * c) / 4).sqrt()
+        even, odd = horizontal.even_factor(q, c), horizontal.odd_factor(q, c)
+    return {"guided": even, "pinned": odd}[other.pop()] if other else even * odd

@@ -1,0 +1,141 @@
+"""Meshes of the rod and its cylinder: vertices and triangles, seen from outside in counter-clockwise order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rodwell.analysis.space.geometry import Geometry
+from rodwell.errors import checked_whole
+from rodwell.quantities.arrays import FloatArray
+
+IntArray = NDArray[np.int64]
+
+SIDES = 24
+"""Sides of the rod's cross-section; a multiple of four puts vertices on the wall and on all material lines."""
+
+RAISED = 1.05
+"""Radius of a material line against the rod's, so that it stays visible on a rod with flat sides."""
+
+LINE_WIDTH = 0.13
+"""Half the width of a material line in radians around the rod."""
+
+RING = (1.35, 0.22)
+"""Radii of a ring around the rod, and of its own cross-section, against the rod's radius."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles in space.
+
+    Attributes
+    ----------
+    vertices
+        (n, 3) along i, j, k, in L.
+    triangles
+        Numbers of their vertices (k, 3).
+    place
+        Number of the place along the rod that each vertex belongs to (n,): index into the arrays of the Geometry.
+    angle
+        Material-line coordinate of each vertex (n,): angle around the cross-section from d₀ towards v₁, in radians.
+    """
+
+    vertices: FloatArray
+    triangles: IntArray
+    place: IntArray
+    angle: FloatArray
+
+
+def tube(geometry: Geometry, sides: int = SIDES) -> Mesh:
+    """Surface of the rod with closed ends: watertight; columns of vertices are material lines.
+
+    Raises
+    ------
+    InputError
+        If ``sides`` is not a whole number from 3 to 720.
+    """
+    sides = checked_whole("sides", sides, 3, 720)
+    count, phi = geometry.s.size, 2.0 * np.pi * np.arange(sides) / sides
+    around = _around(geometry, phi, geometry.drawn_radius)
+    vertices = np.concatenate([around.reshape(-1, 3), geometry.centreline[[0, -1]]])
+    wall = _grid(count, sides, closed=True)
+    first, last = count * sides, count * sides + 1
+    k, following = np.arange(sides), np.roll(np.arange(sides), -1)
+    top = (count - 1) * sides
+    caps = np.concatenate(
+        [
+            np.stack([np.full(sides, first), following, k], axis=1),
+            np.stack([np.full(sides, last), top + k, top + following], axis=1),
+        ]
+    )
+    place = np.concatenate([np.repeat(np.arange(count), sides), [0, count - 1]])
+    angle = np.concatenate([np.tile(phi, count), [0.0, 0.0]])
+    return Mesh(vertices, np.concatenate([wall, caps]), place, angle)
+
+
+def material_lines(geometry: Geometry, count: int = 2, width: float = LINE_WIDTH) -> list[Mesh]:
+    """Ribbons on the rod's surface along material lines, evenly spaced around it from d₀."""
+    out = []
+    for middle in 2.0 * np.pi * np.arange(count) / count:
+        phi = middle + np.array([-width, 0.0, width])
+        vertices = _around(geometry, phi, RAISED * geometry.drawn_radius).reshape(-1, 3)
+        places = np.arange(geometry.s.size)
+        triangles = _grid(places.size, phi.size, closed=False)
+        out.append(Mesh(vertices, triangles, np.repeat(places, phi.size), np.tile(phi, places.size)))
+    return out
+
+
+def ring(geometry: Geometry, s: float, sides: int = 32, around: int = 10) -> Mesh:
+    """A ring around the rod at ``s``, to mark a place."""
+    nearest = int(np.argmin(np.abs(geometry.s - s)))
+    centre = np.array([np.interp(s, geometry.s, geometry.centreline[:, i]) for i in range(3)])
+    t1, d1, u1 = (getattr(geometry, name)[nearest] for name in ("t1", "d1", "u1"))
+    large, small = (geometry.drawn_radius * part for part in RING)
+    a, b = np.meshgrid(2.0 * np.pi * np.arange(sides) / sides, 2.0 * np.pi * np.arange(around) / around, indexing="ij")
+    out = (large + small * np.cos(b))[..., None] * (np.cos(a)[..., None] * d1 + np.sin(a)[..., None] * u1)
+    vertices = centre + out + small * np.sin(b)[..., None] * t1
+    index = np.arange(sides * around).reshape(sides, around)
+    i, j = np.roll(index, -1, axis=0), np.roll(index, -1, axis=1)
+    triangles = _split(index, i, np.roll(i, -1, axis=1), j)
+    return Mesh(vertices.reshape(-1, 3), triangles, np.full(sides * around, nearest), np.zeros(sides * around))
+
+
+def cylinder(geometry: Geometry, sides: int = 96) -> Mesh:
+    """The wall that the rod's surface touches, an open tube from the rod's first to its last cross-section."""
+    ends = geometry.centreline[[0, -1], 2]
+    phi = 2.0 * np.pi * np.arange(sides) / sides
+    circle = geometry.wall_radius * np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+    vertices = np.concatenate([np.column_stack([circle, np.full(sides, z)]) for z in ends])
+    places = np.repeat([0, geometry.s.size - 1], sides)
+    return Mesh(vertices, _grid(2, sides, closed=True), places, np.zeros(2 * sides))
+
+
+def straight_contact(geometry: Geometry) -> FloatArray:
+    """Ends of the line on the wall along which the straight rod touches it, (2, 3)."""
+    angle = geometry.fields["xi2"][0] - geometry.fields["y"][0] / geometry.clearance  # 0, or π for a rod on top
+    x, y = -geometry.wall_radius * np.cos(angle), geometry.wall_radius * np.sin(angle)
+    return np.array([[x, y, z] for z in geometry.centreline[[0, -1], 2]])
+
+
+def _around(geometry: Geometry, phi: FloatArray, radius: float) -> FloatArray:
+    """Points around every cross-section, (m, len(phi), 3)."""
+    d0, v1 = geometry.d0[:, None, :], geometry.v1[:, None, :]
+    out = np.cos(phi)[:, None] * d0 + np.sin(phi)[:, None] * v1
+    return np.asarray(geometry.centreline[:, None, :] + radius * out)
+
+
+def _grid(rows: int, columns: int, *, closed: bool) -> IntArray:
+    """Triangles between rows of vertices along an axis; columns go around it counter-clockwise."""
+    index = np.arange(rows * columns).reshape(rows, columns)
+    beside = np.roll(index, -1, axis=1)
+    if not closed:
+        index, beside = index[:, :-1], beside[:, :-1]
+    return _split(index[:-1], beside[:-1], beside[1:], index[1:])
+
+
+def _split(a: IntArray, b: IntArray, c: IntArray, d: IntArray) -> IntArray:
+    """Two triangles for each quadrilateral a, b, c, d."""
+    quads = np.stack([x.ravel() for x in (a, b, c, d)], axis=1)
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

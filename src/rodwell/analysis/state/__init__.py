@@ -1,0 +1,1 @@
+"""One equilibrium as a record, and what is computed of it."""

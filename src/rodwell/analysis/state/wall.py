@@ -1,0 +1,80 @@
+"""What the wall and the supports of the cylinder must bear in one state: largest values, places, torque."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.equilibrium import Equilibrium
+
+SELF_BALANCED = 1e-6
+"""A support torque below this part of the largest twisting moment counts as none."""
+
+MOMENTS = {
+    "T2": "twisting moment T₂ in the cylinder",
+    "mu": "bending moment μ in the cylinder about d₁ (towards the rod)",
+    "cylinder_M3": "bending moment λ cos η in the cylinder about u₂ (around the wall)",
+}
+"""The moments in the cylinder, (59), and what they are."""
+
+
+@dataclass(frozen=True)
+class Peak:
+    """Largest size of a field along the rod: ``value`` ≥ 0 with its error estimate ``error``, at ``s`` (0 to 1)."""
+
+    value: float
+    error: float
+    s: float
+
+
+@dataclass(frozen=True)
+class WallLoads:
+    """Loads on cylinder and supports in one state, units B = L = 1.
+
+    Attributes
+    ----------
+    contact
+        Largest contact force per length, the size of p.
+    total
+        Integral of the size of p over s, contact forces of all directions added, and its error estimate.
+    twisting, bending_mu, bending_lambda
+        Largest sizes of T₂, μ and λ cos η, (59), in the cylinder.
+    torque
+        T₂(0): the cylinder's support at s = 0 exerts −T₂(0) on it, about k; with its error estimate. At s = 1 the
+        cylinder is free of load, (B9).
+    """
+
+    contact: Peak
+    total: tuple[float, float]
+    twisting: Peak
+    bending_mu: Peak
+    bending_lambda: Peak
+    torque: tuple[float, float]
+
+    @property
+    def needs_torque(self) -> bool:
+        """Whether the support must provide a torque; it need not where T₂ is symmetric about mid-length (4.1.2)."""
+        return abs(self.torque[0]) > SELF_BALANCED * self.twisting.value
+
+    @property
+    def meaning(self) -> str:
+        """What the torque means for the supports, in words."""
+        if self.twisting.value == 0.0:
+            return "no lateral weight: nothing twists the cylinder"
+        if self.needs_torque:
+            return "the end supports must provide a torque: the twisting moment does not balance itself"
+        return "the end supports need not provide a torque: the twisting moment balances itself"
+
+
+def wall_loads(solution: Equilibrium) -> WallLoads:
+    """Return the loads on cylinder and supports in a state."""
+    peaks = {name: Peak(*solution.largest(name)) for name in ("contact_pressure", *MOMENTS)}
+    torque = solution.number(Measured.TORQUE_0)
+    return WallLoads(
+        contact=peaks["contact_pressure"],
+        total=solution.total_wall_force,
+        twisting=peaks["T2"],
+        bending_mu=peaks["mu"],
+        bending_lambda=peaks["cylinder_M3"],
+        torque=torque,
+    )

@@ -1,0 +1,1 @@
+"""The straight rod: its fields, critical loads, their derivatives, which mode is first."""

@@ -1,0 +1,235 @@
+"""Critical loads and buckling modes of the straight rod."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rodwell.analysis.discrete.choices import MOST_ELEMENTS
+from rodwell.analysis.discrete.family import parameters, spline_ends
+from rodwell.analysis.discrete.meshes import linear_space, wkb_load
+from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.faces import Shown, drawn
+from rodwell.numerics.equilibria import eigen
+from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
+from rodwell.physics.on_wall.linear import second_variation
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_rtol
+
+if TYPE_CHECKING:
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
+
+MOST_MODES = 200
+
+ROUND_OFF = 64.0 * np.finfo(float).eps
+"""Relative to the size of the terms that make up a load; certified enclosures show up to half of it."""
+
+EULER = 4.0 * np.pi**2
+"""First critical load of the weightless rod: the size against which loads near zero are judged."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A buckling mode of the straight rod.
+
+    Attributes
+    ----------
+    problem
+        The problem that it belongs to.
+    number
+        1 for the mode met first as compression grows.
+    force
+        Critical end force F at s = 1 in B/L², tension positive.
+    error
+        Estimate of its error, in B/L²: the difference between two nested meshes, plus round-off.
+    parity
+        1 if y(1−s) = y(s), −1 if y(1−s) = −y(s), 0 if the mode has no symmetry (inclined cylinder).
+    wavenumber
+        √(∫y''²/∫y'²), in rad/L.
+    coarse
+        Space and coefficients on the coarser of the two meshes, for error estimates of what is derived from the mode.
+    space, coefficients
+        The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch. At an end that can turn, where
+        y''(1) = 0: y'(1) < 0 if it is pinned, y(1) < 0 if it is free.
+    """
+
+    problem: Problem
+    number: int
+    force: float
+    error: float
+    parity: int
+    wavenumber: float
+    space: SplineSpace
+    coefficients: FloatArray
+    coarse: tuple[SplineSpace, FloatArray]
+
+    def shape(self, s: FloatArray) -> FloatArray:
+        """Mode y(s) at ``s`` (m,), scaled to a largest deflection of 1."""
+        y = self.space.evaluate(self.coefficients, np.asarray(s, dtype=float), 1)[0]
+        fine = self.space.evaluate(self.coefficients, np.linspace(0.0, 1.0, 2001), 1)[0]
+        return np.asarray(y / np.max(np.abs(fine)))
+
+
+class CriticalLoads(tuple[Mode, ...], Shown):
+    """Modes in the order in which they are met as compression grows."""
+
+    __slots__ = ()
+
+    @property
+    def forces(self) -> FloatArray:
+        """Critical end forces, (n,), falling (tension positive)."""
+        return np.array([mode.force for mode in self])
+
+    @property
+    def errors(self) -> FloatArray:
+        """Error estimates, (n,)."""
+        return np.array([mode.error for mode in self])
+
+    def plot(self, ax: Axes | None = None, *, scales: Scales | None = None, most: int = 4) -> Axes:
+        """Draw the first ``most`` modes y(s), each scaled to a largest deflection of 1; return the axes.
+
+        ``ax`` and ``scales`` as in :meth:`rodwell.Branch.plot`.
+        """
+        return drawn(self, ax, scales=scales, most=most)
+
+
+def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:
+    """Critical end forces of the straight rod and its buckling modes, from (64) and its ends, (65) if clamped.
+
+    Parameters
+    ----------
+    problem
+        The rod. ``twist`` does not enter (paper, section 4.2).
+    count
+        How many, 1 to 200.
+    rtol
+        Relative tolerance; the error is judged against abs(F) + γ cos α + 4π².
+
+    Returns
+    -------
+    CriticalLoads
+        Modes in the order in which they are met as compression grows: force falling, tension positive.
+
+    Raises
+    ------
+    InputError
+        If ``count`` or ``rtol`` is out of range, or ``problem.turns`` is not 0 (a coiled rod is not straight).
+    NotConvergedError
+        If the tolerance cannot be met.
+    """
+    rtol = checked_rtol(rtol)
+    count = checked_whole("modes", count, 1, MOST_MODES)
+    if problem.turns != 0:
+        raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    space = _starting_space(problem, count)
+    values, vectors = _solve(problem, space, count, None)
+    while True:
+        finer = space.refined()
+        up = Prolongation(space, finer)
+        start = np.array([up(v) for v in vectors])
+        better, shapes = _solve(problem, finer, count, (values, start))
+        size = np.abs(better[:count]) + problem.axial_weight + EULER
+        error = np.abs(better[:count] - values[:count]) + ROUND_OFF * size
+        if np.all(error <= rtol * size):
+            break
+        if 2 * finer.elements > MOST_ELEMENTS:
+            raise NotConvergedError(
+                f"critical loads are known to {np.max(error / size):.1e} only, rtol is {rtol:g}: "
+                "ask for fewer modes or a larger rtol"
+            )
+        space, values, vectors = finer, better, shapes
+    better, shapes = _with_symmetry(problem, finer, better[:count], shapes)
+    _, vectors = _with_symmetry(problem, space, values[:count], vectors)
+    return CriticalLoads(
+        _mode(problem, finer, i + 1, -better[i], error[i], shapes[i], (space, vectors[i])) for i in range(int(count))
+    )
+
+
+def _starting_space(problem: Problem, count: int) -> SplineSpace:
+    """Mesh for the first ``count`` modes, with unknowns enough for the block of vectors that looks for them."""
+    space = linear_space(problem, count)
+    while space.elements + space.degree < 3 * count + 8:
+        space = space.refined()
+    return space
+
+
+def _solve(
+    problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
+) -> tuple[FloatArray, FloatArray]:
+    """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
+    factors = second_variation(space.points, parameters(problem))
+    ends = spline_ends(problem)
+    stiffness, gram = ends.restrict(space.form(factors)), ends.restrict(space.slope_gram)
+
+    def full(block: FloatArray) -> FloatArray:
+        return np.array([ends.spread(free) for free in block])
+
+    def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return space.grams(factors, full(block))
+
+    # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
+    below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    guess = None if start is None else (start[0], start[1][:, ends.free(space.size)])
+    try:
+        near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
+        values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)
+    except eigen.EigenError as problem_found:
+        raise NotConvergedError(f"critical loads: {problem_found}") from None
+    return values, full(vectors)
+
+
+def _with_symmetry(
+    problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric; values likewise."""
+    if not problem.symmetric:
+        return values, vectors
+    out, values = vectors[: len(values)].copy(), values.copy()
+    factors = second_variation(space.points, parameters(problem)) * space.weights
+    i = 0
+    while i < len(values):
+        j = i + 1
+        while j < len(values) and values[j] - values[i] < 1e-6 * (abs(values[i]) + 1.0):
+            j += 1
+        if j == i + 1:  # even or odd by itself
+            i = j
+            continue
+        slopes = np.array([space.at_points(v)[1] for v in out[i:j]])
+        mirrored = np.array([space.at_points(v[::-1])[1] for v in out[i:j]])
+        reflection = (slopes * space.weights) @ mirrored.T
+        _, turn = np.linalg.eigh(0.5 * (reflection + reflection.T))
+        out[i:j] = turn.T @ out[i:j]
+        fields = [space.at_points(v) for v in out[i:j]]  # values of the vectors as they are now
+        quotients = np.array([np.sum(factors * f**2) / (space.weights @ f[1] ** 2) for f in fields])
+        order = np.argsort(quotients)
+        values[i:j], out[i:j] = quotients[order], out[i:j][order]
+        i = j
+    return values, out
+
+
+def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
+    """What tells the arms of a mode apart: y''(1), or, where that vanishes, −y'(1) if pinned, −y(1) if free."""
+    y, slope, bend = space.evaluate(vector, np.array([1.0]), 3)[:, 0]
+    return float({"pinned": -slope, "free": -y}.get(problem.ends[1], bend))
+
+
+def _mode(
+    problem: Problem,
+    space: SplineSpace,
+    number: int,
+    force: float,
+    error: float,
+    vector: FloatArray,
+    coarse: tuple[SplineSpace, FloatArray],
+) -> Mode:
+    parity = 0
+    if problem.symmetric:
+        parity = 1 if vector @ vector[::-1] > 0.0 else -1
+        vector = 0.5 * (vector + parity * vector[::-1])
+    if _sense(problem, space, vector) < 0.0:
+        vector = -vector
+    return Mode(problem, number, float(force), float(error), parity, space.wavenumber(vector), space, vector, coarse)
