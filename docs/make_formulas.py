@@ -10,12 +10,12 @@ import numpy as np
 from make_howto import DPI, number, table
 
 import rodwell
+from rodwell.answers.comparison.exact_loads import PLACES, critical, exact_loads
+from rodwell.formulas import FORMULAS, LEFT_OUT, inclined
 from rodwell.plots.audit import plot_dellinger, plot_error_map, plot_hanging
 from rodwell.plots.style import RC
-from rodwell.practice.audit import audit
-from rodwell.practice.audit_map import error_map, hanging_coefficients
-from rodwell.practice.exact_loads import PLACES, critical, exact_loads
-from rodwell.practice.formulas import FORMULAS, LEFT_OUT, inclined
+from rodwell.studies.audit.audit import audit
+from rodwell.studies.audit.error_map import error_map, hanging_coefficients
 
 COMMANDS = {"audit": "audit examples/inclined-pipe.toml --no-chart --out results/audit"}
 

@@ -26,10 +26,10 @@ import make_wells
 from click.testing import CliRunner
 
 import rodwell
+from rodwell.case import schema
+from rodwell.case.case import SECTIONS
+from rodwell.case.catalogue import package_catalogue
 from rodwell.cli.main import cli
-from rodwell.practice import schema
-from rodwell.practice.case import SECTIONS
-from rodwell.practice.catalogue import package_catalogue
 from rodwell.quantities import names as nomenclature
 from rodwell.quantities.text import readable
 from rodwell.quantities.units import KINDS, SI, System

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
+from rodwell.answers.result.answer import Answer, answer
+from rodwell.case.case import Case
 from rodwell.cli.main import main
 from rodwell.errors import InputError
-from rodwell.practice.answer import Answer, answer
-from rodwell.practice.case import Case
 from rodwell.store.folder import whole_folder
 
 GOOD = "[dimensionless]\nweight = 16.5\n\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
@@ -68,7 +68,7 @@ def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
         (folder / "bifurcation.png").write_bytes(b"new figure")
         return {}
 
-    monkeypatch.setattr("rodwell.practice.answer.answer", lambda *_: computed)
+    monkeypatch.setattr("rodwell.answers.result.answer.answer", lambda *_: computed)
     monkeypatch.setattr("rodwell.report.write.draw", draw)
     monkeypatch.setattr("rodwell.report.pdf.render", lambda *_: "<p>new report</p>")
 
@@ -80,7 +80,7 @@ def never_computed(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise AssertionError("computed in spite of bad input")
 
-    monkeypatch.setattr("rodwell.practice.answer.answer", fail)
+    monkeypatch.setattr("rodwell.answers.result.answer.answer", fail)
 
 
 def entries(folder: Path) -> list[str]:
@@ -247,7 +247,7 @@ def disk_full(*_: object, **__: object) -> None:
 
 
 STAGES = [
-    pytest.param("rodwell.practice.answer.answer", id="computing"),
+    pytest.param("rodwell.answers.result.answer.answer", id="computing"),
     pytest.param("rodwell.report.write.draw", id="drawing"),
     pytest.param("rodwell.report.pdf.render", id="rendering"),
     pytest.param("rodwell.report.write.write_answer", id="writing-data"),
@@ -365,7 +365,7 @@ main()
 """
 
 COMPUTING = """
-import rodwell.practice.answer as module
+import rodwell.answers.result.answer as module
 genuine = module.follow
 
 def endless(*arguments, **options):
@@ -378,7 +378,7 @@ module.follow = endless
 """
 
 COMPILED = """
-import rodwell.practice.answer as module
+import rodwell.answers.result.answer as module
 
 def interrupted(*arguments, **options):  # what a compiled call raises when the signal meets it
     print("ready", flush=True)

@@ -20,8 +20,8 @@ from rodwell import (
     equilibrium,
     follow,
 )
+from rodwell.case.case import CaseError
 from rodwell.cli.main import main
-from rodwell.practice.case import CaseError
 from rodwell.quantities.units import to_si
 
 PHYSICAL = {

@@ -16,9 +16,9 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.minimum import equilibrium
 from rodwell.analysis.straight.critical import critical_loads
+from rodwell.answers.result.answer import answer
+from rodwell.case.case import SECTIONS, Case, CaseError
 from rodwell.errors import InputError, NotConvergedError, RodwellError
-from rodwell.practice.answer import answer
-from rodwell.practice.case import SECTIONS, Case, CaseError
 from rodwell.problem.problem import Problem
 from rodwell.quantities.units import KINDS, to_si
 

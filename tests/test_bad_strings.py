@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rodwell.practice.case import Case, CaseError
+from rodwell.case.case import Case, CaseError
 
 BASE = """
 title = "well"

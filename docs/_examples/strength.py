@@ -1,5 +1,5 @@
 import rodwell
-from rodwell.practice.verdict import verdict
+from rodwell.answers.words.verdict import verdict
 
 case = rodwell.Case.from_dict(
     {

@@ -23,13 +23,13 @@ from rodwell.faces import Face, fill
 _HOME = {
     "Branch": "rodwell.analysis.branch.branch",
     "Certificate": "rodwell.analysis.state.certificate",
-    "Case": "rodwell.practice.case",
+    "Case": "rodwell.case.case",
     "CertifiedLoads": "rodwell.analysis.proof.certify",
-    "Answer": "rodwell.practice.answer",
-    "Assessment": "rodwell.practice.assessment",
-    "Audit": "rodwell.practice.audit",
-    "answer": "rodwell.practice.answer",
-    "audit": "rodwell.practice.audit",
+    "Answer": "rodwell.answers.result.answer",
+    "Assessment": "rodwell.answers.result.assessment",
+    "Audit": "rodwell.studies.audit.audit",
+    "answer": "rodwell.answers.result.answer",
+    "audit": "rodwell.studies.audit.audit",
     "CriticalLoads": "rodwell.analysis.straight.critical",
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
@@ -38,12 +38,12 @@ _HOME = {
     "NotConvergedError": "rodwell.errors",
     "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
-    "Screening": "rodwell.practice.screening",
+    "Screening": "rodwell.studies.well.screening",
     "Solution": "rodwell.analysis.branch.solution",
     "Sensitivity": "rodwell.analysis.loads.sensitivity",
     "SpecialPoint": "rodwell.analysis.branch.special",
-    "Study": "rodwell.practice.study",
-    "Survey": "rodwell.practice.survey",
+    "Study": "rodwell.studies.sweep.study",
+    "Survey": "rodwell.studies.well.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
     "branch_off": "rodwell.analysis.branch.follow",
     "certify": "rodwell.analysis.proof.certify",
@@ -55,13 +55,13 @@ _HOME = {
     "export": "rodwell.report.export",
     "follow": "rodwell.analysis.branch.follow",
     "lift_off_curve": "rodwell.analysis.curves.states",
-    "screen": "rodwell.practice.screening",
+    "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
     "switching_table": "rodwell.analysis.straight.modes",
-    "study": "rodwell.practice.study",
+    "study": "rodwell.studies.sweep.study",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
     "verify": "rodwell.analysis.branch.verify",
@@ -88,16 +88,16 @@ if TYPE_CHECKING:
     from rodwell.analysis.state.certificate import Certificate
     from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.straight.modes import mode_pairs, switching_table
+    from rodwell.answers.result.answer import Answer, answer
+    from rodwell.answers.result.assessment import Assessment
+    from rodwell.case.case import Case
     from rodwell.errors import InputError, NotConvergedError, RodwellError
-    from rodwell.practice.answer import Answer, answer
-    from rodwell.practice.assessment import Assessment
-    from rodwell.practice.audit import Audit, audit
-    from rodwell.practice.case import Case
-    from rodwell.practice.screening import Screening, screen
-    from rodwell.practice.study import Study, study
-    from rodwell.practice.survey import Survey
     from rodwell.problem.problem import Problem
     from rodwell.report.export import export
+    from rodwell.studies.audit.audit import Audit, audit
+    from rodwell.studies.sweep.study import Study, study
+    from rodwell.studies.well.screening import Screening, screen
+    from rodwell.studies.well.survey import Survey
 
 
 def _late(module: str, name: str) -> Face:

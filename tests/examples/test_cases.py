@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import rodwell
-from rodwell.practice.study import is_study
+from rodwell.studies.sweep.study import is_study
 
 CASES = sorted(path for path in (Path(__file__).resolve().parents[2] / "examples").glob("*.toml") if not is_study(path))
 

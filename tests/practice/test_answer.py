@@ -15,8 +15,8 @@ import xarray as xr
 
 import rodwell
 from rodwell.analysis.state.extent import buckled_to
+from rodwell.answers.words.meaning import sentences
 from rodwell.cli.main import main
-from rodwell.practice.meaning import sentences
 from rodwell.report.texts import number
 from rodwell.report.write import FILES
 

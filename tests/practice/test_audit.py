@@ -13,13 +13,13 @@ import pytest
 from click.testing import CliRunner
 
 import rodwell
+from rodwell.answers.comparison.beside import compare
+from rodwell.answers.comparison.exact_loads import PLACES, Load, critical, exact_loads
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
-from rodwell.practice.audit import audit
-from rodwell.practice.audit_map import chart_weights, error_map, hanging_coefficients
-from rodwell.practice.beside import compare
-from rodwell.practice.exact_loads import PLACES, Load, critical, exact_loads
-from rodwell.practice.formulas import FORMULAS, LEFT_OUT
+from rodwell.formulas import FORMULAS, LEFT_OUT
+from rodwell.studies.audit.audit import audit
+from rodwell.studies.audit.error_map import chart_weights, error_map, hanging_coefficients
 
 # exact load over Dawson–Paslay's at top, middle, bottom: clamped, Δ/L = 0.01
 RATIOS = {

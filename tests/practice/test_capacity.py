@@ -9,9 +9,9 @@ import pytest
 
 import rodwell
 from rodwell import Case, InputError, Problem
-from rodwell.practice.capacity import cylinder_stress
-from rodwell.practice.cylinder import Cylinder
+from rodwell.case.cylinder import Cylinder
 from rodwell.quantities.scales import Scales
+from rodwell.strength.cylinder import cylinder_stress
 
 
 def test_odd_modes_need_no_torque_even_ones_do() -> None:
@@ -51,7 +51,7 @@ def test_stress_is_that_of_a_tube_under_bending_and_torsion() -> None:
 
 def test_torsion_alone_counts_as_in_von_mises(monkeypatch: pytest.MonkeyPatch) -> None:
     """√3 τ, with τ = T R/J of a tube."""
-    from rodwell.practice import capacity
+    from rodwell.strength import cylinder as capacity
 
     def twisted(_problem, _family, _state, s):
         return {"mu": 0.0 * s, "cylinder_M3": 0.0 * s, "T2": np.full_like(s, 0.02)}

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from rodwell import Case
+from rodwell.case.catalogue import key_of, package_catalogue, read_catalogue
 from rodwell.cli.main import main
-from rodwell.practice.catalogue import key_of, package_catalogue, read_catalogue
 
 INCH, FOOT, LBF = 0.0254, 0.3048, 4.4482216152605
 CATALOGUE = package_catalogue()

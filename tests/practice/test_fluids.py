@@ -14,10 +14,10 @@ from scipy.optimize import brentq
 from scipy.special import jv
 
 from rodwell import Case, Problem, answer, critical_loads
-from rodwell.practice.audit import audit
-from rodwell.practice.beside import rod_of
-from rodwell.practice.figures import STANDING, critical_length
-from rodwell.practice.formulas import FORMULAS
+from rodwell.answers.comparison.beside import rod_of
+from rodwell.answers.result.figures import STANDING, critical_length
+from rodwell.formulas import FORMULAS
+from rodwell.studies.audit.audit import audit
 
 INCH, FOOT, LBF, PPG = 0.0254, 0.3048, 4.4482216152605, 0.45359237 / (231.0 * 0.0254**3)
 G = 9.80665

@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell import Case, InputError, critical_loads, follow
+from rodwell.answers.result.answer import Answer, answer
 from rodwell.cli.main import main
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.units import axis
-from rodwell.practice.answer import Answer, answer
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
 from rodwell.quantities.units import SYSTEMS, System, to_si

@@ -16,7 +16,7 @@ import rodwell
     ],
 )
 def test_reason_for_a_shape_without_symmetry(alpha: float, ends: str, why: str) -> None:
-    from rodwell.practice.meaning import sentences
+    from rodwell.answers.words.meaning import sentences
 
     data = {"dimensionless": {"weight": 2, "alpha": alpha, "ends": ends}, "analysis": {"modes": 1}}
     assert any(why in sentence for sentence in sentences(rodwell.answer(rodwell.Case.from_dict(data))))

@@ -28,7 +28,7 @@ from rodwell.analysis.loads.long_rod import (
     lift_off_compression,
 )
 from rodwell.cli.main import cli
-from rodwell.practice.screening_plain import screening_dict
+from rodwell.studies.well.plain import screening_dict
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PIPE = String(1.228e6, 241.0, 0.04445)  # 5 in, 19.5 lb/ft in 10 ppg, 8.5 in hole

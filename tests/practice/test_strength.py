@@ -14,16 +14,16 @@ import pytest
 import rodwell
 from rodwell import Answer, Case, InputError, Problem, answer
 from rodwell.analysis.straight.fields import straight_fields
-from rodwell.practice.along import along, along_table, along_tables, shown
-from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT
-from rodwell.practice.audit import audit
-from rodwell.practice.capacity import cylinder_stress
-from rodwell.practice.limits import CYLINDER, LIFTS_OFF, SUPPORT, UNSTABLE, YIELDS
-from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.meaning import sentences
-from rodwell.practice.strength import rod_section
-from rodwell.practice.supports import support_loads
-from rodwell.practice.verdict import verdict
+from rodwell.answers.data.along import along, along_table, along_tables, shown
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT
+from rodwell.answers.words.meaning import sentences
+from rodwell.answers.words.verdict import verdict
+from rodwell.strength.cylinder import cylinder_stress
+from rodwell.strength.limits import CYLINDER, LIFTS_OFF, SUPPORT, UNSTABLE, YIELDS
+from rodwell.strength.loaded import LoadedRod
+from rodwell.strength.section import rod_section
+from rodwell.strength.supports import support_loads
+from rodwell.studies.audit.audit import audit
 
 G = 9.80665
 PIPE = {
@@ -476,7 +476,7 @@ def test_bad_loads_without_dimensions() -> None:
 
 
 def test_a_list_of_loads_is_no_parameter_study(tmp_path: Path) -> None:
-    from rodwell.practice.study import is_study
+    from rodwell.studies.sweep.study import is_study
 
     text = '[rod]\nlength = "30 m"\n[load]\napplied = ["-20 kN", "-30 kN"]\n'
     for content, varies in ((text, False), (text.replace('"30 m"', '["30 m", "40 m"]'), True)):

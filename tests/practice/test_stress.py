@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rodwell.practice.formulas import FORMULAS
-from rodwell.practice.stress import Loading, Section, stresses
+from rodwell.formulas import FORMULAS
+from rodwell.strength.stress import Loading, Section, stresses
 
 THICK = Section(0.06, 0.03)
 

@@ -19,17 +19,17 @@ from pypdf import PdfReader
 
 import rodwell
 from rodwell import InputError, NotConvergedError
+from rodwell.answers.result.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
 from rodwell.cli.main import cli
 from rodwell.plots.study import plot_study
-from rodwell.practice import study_points
-from rodwell.practice.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
-from rodwell.practice.limits import LIFTS_OFF, YIELDS
-from rodwell.practice.study import Study, is_study
-from rodwell.practice.study_data import sentences, study_table
-from rodwell.practice.study_plain import study_dict
-from rodwell.practice.varied import MOST_POINTS, varied_inputs
 from rodwell.quantities.table import Table
 from rodwell.store.tables import write_csv, write_xlsx
+from rodwell.strength.limits import LIFTS_OFF, YIELDS
+from rodwell.studies.sweep import points as study_points
+from rodwell.studies.sweep.plain import study_dict
+from rodwell.studies.sweep.study import Study, is_study
+from rodwell.studies.sweep.tables import sentences, study_table
+from rodwell.studies.sweep.varied import MOST_POINTS, varied_inputs
 
 STRING: dict[str, Any] = {
     "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},

@@ -12,7 +12,7 @@ import pytest
 import rodwell
 from rodwell import Case, InputError
 from rodwell.analysis.loads.sensitivity import of_critical_load
-from rodwell.practice.spread import spread_of_load
+from rodwell.answers.result.spread import spread_of_load
 
 STRING: dict[str, Any] = {
     "rod": {
@@ -131,7 +131,7 @@ def test_nonsense_is_refused(key: str, text: str, message: str) -> None:
 
 
 def test_answer_and_report_carry_it(tmp_path) -> None:
-    from rodwell.practice.meaning import sentences
+    from rodwell.answers.words.meaning import sentences
     from rodwell.report.write import write_results
 
     result = rodwell.answer(case(rod__length="30 m ± 0.1 m"))

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
-from rodwell.practice.figure import Figure
-from rodwell.practice.meaning import sentences
-from rodwell.practice.wording import force_text, place_text, quantity
+from rodwell.answers.result.figure import Figure
+from rodwell.answers.words.meaning import sentences
+from rodwell.answers.words.wording import force_text, place_text, quantity
 from rodwell.quantities.text import amount, certain, percent
 from rodwell.quantities.units import System
 

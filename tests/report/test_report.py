@@ -19,9 +19,9 @@ from pypdf import PdfReader
 
 import rodwell
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.answers.words.advice import statuses
 from rodwell.cli.main import main
 from rodwell.plots.bifurcation import telling
-from rodwell.practice.advice import statuses
 from rodwell.report.write import write_results
 
 TITLE = 'A <script>alert("1")</script> & *bold* #pagebreak() $x$ pipe'

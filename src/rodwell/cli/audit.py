@@ -13,8 +13,8 @@ from rodwell.cli.listing import print_listing
 from rodwell.cli.options import print_json, progress_bar, units_option
 
 if TYPE_CHECKING:
-    from rodwell.practice.audit import Audit
-    from rodwell.practice.beside import Comparison, Other, Row
+    from rodwell.answers.comparison.beside import Comparison, Other, Row
+    from rodwell.studies.audit.audit import Audit
 
 NAMES = {
     "critical": "the first critical load",
@@ -52,7 +52,7 @@ def audit(
     percent, safe or unsafe, and whether the case is inside its validity. Compression is positive here. The exact loads
     are those of a straight hole without friction.
     """
-    from rodwell.practice.case import Case  # noqa: PLC0415
+    from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     read = Case.read(case).in_units(units)
@@ -63,9 +63,9 @@ def audit(
     if friction is not None:
         extra["mu"] = friction
 
-    from rodwell.practice.audit import audit as compute  # noqa: PLC0415
-    from rodwell.practice.audit_map import error_map  # noqa: PLC0415
     from rodwell.report.audit import write_audit  # noqa: PLC0415
+    from rodwell.studies.audit.audit import audit as compute  # noqa: PLC0415
+    from rodwell.studies.audit.error_map import error_map  # noqa: PLC0415
 
     with progress_bar(not as_json, "exact loads") as tell:
         result = compute(read, extra=extra)
@@ -84,8 +84,8 @@ def _print(audit: Audit) -> None:
     """Exact loads, formulas of loads, other formulas, what is left out."""
     from rich.console import Console  # noqa: PLC0415
 
-    from rodwell.practice.exact_loads import PLACES  # noqa: PLC0415
-    from rodwell.practice.formulas import LEFT_OUT  # noqa: PLC0415
+    from rodwell.answers.comparison.exact_loads import PLACES  # noqa: PLC0415
+    from rodwell.formulas import LEFT_OUT  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     console = Console(highlight=False)
@@ -120,7 +120,7 @@ def _safe(text: str) -> str:
 
 def _print_loads(console: Any, audit: Audit) -> None:
     """Formulas of loads under the exact load that each is held against: for an inclined hole errors at all places."""
-    from rodwell.practice.exact_loads import PLACES  # noqa: PLC0415
+    from rodwell.answers.comparison.exact_loads import PLACES  # noqa: PLC0415
 
     inclined = audit.problem.axial_weight > 0.0
     titles = {load.name: load.label for load in audit.loads}
@@ -206,7 +206,7 @@ def _print_others(console: Any, audit: Audit) -> None:
 
 
 def _other_value(audit: Audit, other: Other) -> str:
-    from rodwell.practice.formulas.record import NOMENCLATURE  # noqa: PLC0415
+    from rodwell.formulas.record import NOMENCLATURE  # noqa: PLC0415
 
     assert other.value is not None
     dimension = other.formula.dimension

@@ -10,7 +10,7 @@ import click
 from rodwell.cli.options import print_json
 
 if TYPE_CHECKING:
-    from rodwell.practice import schema
+    from rodwell.case import schema
     from rodwell.quantities.units import System
 
 KINDS = {"pipe": "rod.pipe", "material": "rod.material", "grade": "rod.grade"}
@@ -30,8 +30,8 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
 
     Only those whose name, kind or source holds all WORDS:  rodwell catalogue tubing 2-7/8
     """
+    from rodwell.case.catalogue import read_catalogue  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.catalogue import read_catalogue  # noqa: PLC0415
     from rodwell.quantities.units import System  # noqa: PLC0415
 
     try:
@@ -50,7 +50,7 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
 
 
 def _holds(entry: schema.Entry, words: tuple[str, ...]) -> bool:
-    from rodwell.practice.catalogue import key_of  # noqa: PLC0415
+    from rodwell.case.catalogue import key_of  # noqa: PLC0415
 
     text = " ".join((entry.name, getattr(entry, "kind", ""), entry.source))
     return all(word.lower() in text.lower() or key_of(word) in key_of(entry.name) for word in words)

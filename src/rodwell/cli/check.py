@@ -36,9 +36,9 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     is 1 if the two do not agree.
     """
     from rodwell.analysis.branch.verify import verify as solve_again  # noqa: PLC0415
+    from rodwell.answers.result.check import branch_to_verify  # noqa: PLC0415
+    from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.case import Case  # noqa: PLC0415
-    from rodwell.practice.check import branch_to_verify  # noqa: PLC0415
 
     read = Case.read(case)
     forces = [force_at(text, read) for text in at]

@@ -11,7 +11,7 @@ from rodwell.cli.options import force_at, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
-    from rodwell.practice.case import Case
+    from rodwell.case.case import Case
 
 LIFT_OFF = "lift-off"
 
@@ -55,8 +55,8 @@ def export(
     Lengths are in metres and forces in newtons where the case has dimensions, otherwise in units B = L = 1; --units is
     for what is printed and drawn.
     """
+    from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.practice.case import Case  # noqa: PLC0415
     from rodwell.report.export import checked_files, checked_rod_radius  # noqa: PLC0415
     from rodwell.report.export import export as write  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415

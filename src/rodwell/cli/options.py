@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from rodwell.practice.case import Case
+    from rodwell.case.case import Case
     from rodwell.problem.problem import Problem
 
 Progress = Callable[[str, float], None]

@@ -12,7 +12,7 @@ from rodwell.cli.listing import print_listing
 from rodwell.cli.options import progress_bar, units_option
 
 if TYPE_CHECKING:
-    from rodwell.practice.answer import Answer
+    from rodwell.answers.result.answer import Answer
 
 
 @click.command(short_help="Compute a case: report, figures, data; or a parameter study.")
@@ -31,9 +31,9 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
 
     If one or two of its inputs are lists or ranges ("30..90 deg in 13"), a parameter study is made.
     """
-    from rodwell.practice.case import Case  # noqa: PLC0415
-    from rodwell.practice.study import is_study  # noqa: PLC0415
+    from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
+    from rodwell.studies.sweep.study import is_study  # noqa: PLC0415
 
     folder = Path("results") / case.stem if out is None else out
     if with_pdf:
@@ -48,7 +48,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
         return
     read = Case.read(case).in_units(units)
     check_writable(folder)
-    from rodwell.practice.answer import answer  # noqa: PLC0415
+    from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.write import write_results  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
@@ -67,7 +67,7 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
 
-    from rodwell.practice.meaning import sentences  # noqa: PLC0415
+    from rodwell.answers.words.meaning import sentences  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
     from rodwell.report.pdf import PDF  # noqa: PLC0415
     from rodwell.report.texts import rows  # noqa: PLC0415

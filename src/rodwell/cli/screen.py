@@ -10,7 +10,7 @@ import click
 from rodwell.cli.options import print_json, progress_bar
 
 if TYPE_CHECKING:
-    from rodwell.practice.screening import Screening
+    from rodwell.studies.well.screening import Screening
 
 SHOWN = 12
 """Stations in the table on the terminal."""
@@ -43,9 +43,9 @@ def screen(
     wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
     Compression is positive, at the station. Length, inclination and loads of the case are not used.
     """
-    from rodwell.practice.case import Case  # noqa: PLC0415
-    from rodwell.practice.survey import Survey  # noqa: PLC0415
+    from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
+    from rodwell.studies.well.survey import Survey  # noqa: PLC0415
 
     read = Case.read(case)
     well = Survey.read(survey, depth_unit=depth_unit, angle_unit=angle_unit, force_unit=force_unit)
@@ -53,9 +53,9 @@ def screen(
     check_writable(folder)
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
 
-    from rodwell.practice.screening import screen as compute  # noqa: PLC0415
-    from rodwell.practice.screening_plain import screening_dict  # noqa: PLC0415
     from rodwell.report.survey import write_screening  # noqa: PLC0415
+    from rodwell.studies.well.plain import screening_dict  # noqa: PLC0415
+    from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(read, well, **forces, progress=tell)
@@ -86,7 +86,7 @@ def _print(screening: Screening) -> None:
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
 
-    from rodwell.practice.screening_data import assumptions, sentences  # noqa: PLC0415
+    from rodwell.studies.well.tables import assumptions, sentences  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(screening)
@@ -102,7 +102,7 @@ def _stations(screening: Screening) -> object:
     from rich.markup import escape  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.practice.screening_data import units  # noqa: PLC0415
+    from rodwell.studies.well.tables import units  # noqa: PLC0415
 
     depth, metre, force, newton = units(screening)
     table = Table(box=None, pad_edge=False, header_style="bold")

@@ -12,13 +12,13 @@ from rodwell.cli.options import print_json, progress_bar
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from rodwell.practice.study import Study
+    from rodwell.studies.sweep.study import Study
 
 
 def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
     """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
-    from rodwell.practice.study import study as compute  # noqa: PLC0415
     from rodwell.report.study import write_study  # noqa: PLC0415
+    from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
@@ -38,7 +38,7 @@ def _summary(study: Study) -> None:
     from rich.panel import Panel  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.practice.study_data import cells, head, sentences, worst_points  # noqa: PLC0415
+    from rodwell.studies.sweep.tables import cells, head, sentences, worst_points  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(study)
@@ -64,8 +64,8 @@ def _loads(console: Console, study: Study) -> None:
     from rich.markup import escape  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.practice.study_data import scales  # noqa: PLC0415
-    from rodwell.practice.study_loads_data import LEGEND, STATE, cells, fails, head, most_loads  # noqa: PLC0415
+    from rodwell.studies.sweep.load_columns import LEGEND, STATE, cells, fails, head, most_loads  # noqa: PLC0415
+    from rodwell.studies.sweep.tables import scales  # noqa: PLC0415
 
     if not most_loads(study):
         return

@@ -13,13 +13,13 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from rodwell.answers.data.along import Along
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
-from rodwell.practice.along import Along
-from rodwell.practice.local import LocalLimits
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus, plain
+from rodwell.strength.local import LocalLimits
 
 COLOURS = {"at buckling": MODES[0], "at lift-off": MODES[3]}
 APPLIED = (WARN, MODES[1], MODES[2], MODES[4])

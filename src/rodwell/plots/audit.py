@@ -10,12 +10,12 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from rodwell.formulas import FORMULAS
+from rodwell.formulas.record import Place
 from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
-from rodwell.practice.audit_map import PANELS, ErrorMap
-from rodwell.practice.formulas import FORMULAS
-from rodwell.practice.formulas.record import Place
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
+from rodwell.studies.audit.error_map import PANELS, ErrorMap
 
 LEVELS = (-75.0, -50.0, -25.0, -10.0, 0.0, 10.0, 25.0, 50.0, 100.0)
 COLOURS = ("#08427a", "#2f79b5", "#6fa9d2", "#aacde5", "#dcebf4", "#fde8d8", "#f8bf98", "#ec8b5e", "#cf4a32", "#8f1014")

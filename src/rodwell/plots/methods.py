@@ -14,6 +14,7 @@ from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
@@ -21,7 +22,6 @@ from rodwell.plots.fields import plot_field
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
-from rodwell.practice.answer import Answer
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:

@@ -11,13 +11,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from rodwell.answers.result.assessment import BUCKLED
 from rodwell.plots.style import INK, MODES, RC, WARN
-from rodwell.practice.assessment import BUCKLED
-from rodwell.practice.study import Study
-from rodwell.practice.study_data import scales
-from rodwell.practice.study_loads_data import fails, most_loads
-from rodwell.practice.study_points import LoadResult, Point
-from rodwell.practice.varied import Varied
+from rodwell.studies.sweep.load_columns import fails, most_loads
+from rodwell.studies.sweep.points import LoadResult, Point
+from rodwell.studies.sweep.study import Study
+from rodwell.studies.sweep.tables import scales
+from rodwell.studies.sweep.varied import Varied
 
 DASHES, DOTS = (0, (4, 2)), (0, (1, 1.5))
 

@@ -10,8 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN
-from rodwell.practice.screening import Screening
-from rodwell.practice.screening_data import units
+from rodwell.studies.well.screening import Screening
+from rodwell.studies.well.tables import units
 
 EXACT, LIFT_OFF = MODES[0], MODES[3]
 LINES = {

@@ -6,12 +6,12 @@ import csv
 from pathlib import Path
 
 from rodwell.plots.audit import plot_error_map
-from rodwell.practice.audit import Audit
-from rodwell.practice.audit_data import csv_rows
-from rodwell.practice.audit_map import ErrorMap
 from rodwell.report.pictures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
+from rodwell.studies.audit.audit import Audit
+from rodwell.studies.audit.error_map import ErrorMap
+from rodwell.studies.audit.tables import csv_rows
 
 
 def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, ...]:

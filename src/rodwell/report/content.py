@@ -10,7 +10,7 @@ import re
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
-from rodwell.practice.advice import Status
+from rodwell.answers.words.advice import Status
 
 
 @dataclass(frozen=True)

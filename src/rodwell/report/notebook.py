@@ -9,11 +9,11 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.words.advice import statuses
+from rodwell.answers.words.meaning import sentences
+from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES
-from rodwell.practice.advice import statuses
-from rodwell.practice.answer import Answer
-from rodwell.practice.case import Case
-from rodwell.practice.meaning import sentences
 from rodwell.problem.problem import Problem, ends_text
 from rodwell.quantities.names import QUANTITIES
 from rodwell.report.content import Grid

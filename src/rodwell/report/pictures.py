@@ -12,6 +12,8 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
+from rodwell.answers.data.along import along, shown
+from rodwell.answers.result.answer import Answer
 from rodwell.plots.along import plot_along
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
@@ -19,8 +21,6 @@ from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
-from rodwell.practice.along import along, shown
-from rodwell.practice.answer import Answer
 
 DPI = 140
 PNG: Any = {"pil_kwargs": {"compress_level": 2}}

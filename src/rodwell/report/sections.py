@@ -5,11 +5,11 @@ from __future__ import annotations
 import datetime
 
 from rodwell._version import __version__
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.figure import Figure
+from rodwell.answers.words.advice import next_steps, statuses
+from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.plots.bifurcation import ORDINATES, telling
-from rodwell.practice.advice import next_steps, statuses
-from rodwell.practice.answer import Answer
-from rodwell.practice.figure import Figure
-from rodwell.practice.meaning import assumptions, sentences
 from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
 from rodwell.report.strength import strength_sections
 from rodwell.report.texts import (

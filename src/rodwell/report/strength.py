@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from rodwell.practice.along import along, shown
-from rodwell.practice.answer import Answer
-from rodwell.practice.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
-from rodwell.practice.beside import Row
-from rodwell.practice.limits import LIFTS_OFF, Limit
-from rodwell.practice.loaded import LoadedRod
-from rodwell.practice.verdict import local_sentence
+from rodwell.answers.comparison.beside import Row
+from rodwell.answers.data.along import along, shown
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.verdict import local_sentence
 from rodwell.quantities.text import plain
 from rodwell.quantities.units import SI, System
 from rodwell.report.content import Block, Grid, Picture, Section, Words
+from rodwell.strength.limits import LIFTS_OFF, Limit
+from rodwell.strength.loaded import LoadedRod
 
 WORDS = {
     STRAIGHT: "straight, stable",

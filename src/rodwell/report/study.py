@@ -6,12 +6,20 @@ import datetime
 from pathlib import Path
 
 from rodwell._version import __version__
+from rodwell.answers.result.assessment import BUCKLED
+from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
 from rodwell.plots.study import plot_study
-from rodwell.practice import study_loads_data
-from rodwell.practice.advice import BAD, CAUTION, GOOD, Status
-from rodwell.practice.assessment import BUCKLED
-from rodwell.practice.study import Study
-from rodwell.practice.study_data import (
+from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.pdf import check_pdf, write_report
+from rodwell.report.pictures import save_figure
+from rodwell.report.texts import error_text
+from rodwell.store.folder import whole_folder
+from rodwell.store.tables import write_csv, write_xlsx
+from rodwell.store.text import write_json
+from rodwell.studies.sweep import load_columns
+from rodwell.studies.sweep.points import Point
+from rodwell.studies.sweep.study import Study
+from rodwell.studies.sweep.tables import (
     LOADS,
     NOTES,
     cells,
@@ -23,14 +31,6 @@ from rodwell.practice.study_data import (
     study_table,
     worst_points,
 )
-from rodwell.practice.study_points import Point
-from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
-from rodwell.report.pdf import check_pdf, write_report
-from rodwell.report.pictures import save_figure
-from rodwell.report.texts import error_text
-from rodwell.store.folder import whole_folder
-from rodwell.store.tables import write_csv, write_xlsx
-from rodwell.store.text import write_json
 
 
 def write_study(study: Study, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
@@ -106,7 +106,7 @@ def _front(study: Study) -> Front:
 def _drawn_too(study: Study) -> str:
     """What else the upper panel shows, for the caption."""
     ringed = "" if study.load_varies else "; the worst cases are ringed"
-    if not study_loads_data.most_loads(study):
+    if not load_columns.most_loads(study):
         return ringed
     return f"{ringed}; dotted, the loads that act, as compression at s = 1, marked where the rod is buckled or worse"
 
@@ -130,7 +130,7 @@ def _at_loads(study: Study) -> tuple[Status, ...]:
     loads = [one for point in study.points for one in point.loads]
     if not loads:
         return ()
-    bad = sum(study_loads_data.fails(one) for one in loads)
+    bad = sum(load_columns.fails(one) for one in loads)
     buckled = sum(one.what == BUCKLED for one in loads)
     if bad:
         why = "it leaves the wall, takes another shape, exceeds a strength, or is not known"
@@ -166,19 +166,19 @@ def _points(study: Study) -> Section:
 
 def _loads(study: Study) -> tuple[Section, ...]:
     """The loads that act, if there are any."""
-    if not study_loads_data.most_loads(study):
+    if not load_columns.most_loads(study):
         return ()
     scale, force, _, _ = scales(study)
     pairs = [
         (one, row)
         for point in study.points
-        for one, row in zip(point.loads, study_loads_data.cells(study, point, scale), strict=True)
+        for one, row in zip(point.loads, load_columns.cells(study, point, scale), strict=True)
     ]
-    columns = tuple(_breakable(title) for title in study_loads_data.head(study, force))
+    columns = tuple(_breakable(title) for title in load_columns.head(study, force))
     numeric = tuple(i for i, title in enumerate(columns) if title != "the rod is")
-    marked = tuple(i for i, (one, _) in enumerate(pairs) if study_loads_data.fails(one))
+    marked = tuple(i for i, (one, _) in enumerate(pairs) if load_columns.fails(one))
     grid = Grid(columns, tuple(tuple(row) for _, row in pairs), numeric=numeric, marked=marked)
-    notes = Words(" ".join((study_loads_data.LEGEND, *study_loads_data.NOTES)), "small")
+    notes = Words(" ".join((load_columns.LEGEND, *load_columns.NOTES)), "small")
     return (Section("At the loads that act", (grid, notes)),)
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.survey import plot_screening
-from rodwell.practice.screening import Screening
-from rodwell.practice.screening_data import screening_table
-from rodwell.practice.screening_plain import screening_dict
 from rodwell.report.pictures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
+from rodwell.studies.well.plain import screening_dict
+from rodwell.studies.well.screening import Screening
+from rodwell.studies.well.tables import screening_table
 
 
 def write_screening(screening: Screening, out: Path) -> tuple[str, ...]:

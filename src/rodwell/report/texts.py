@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from rodwell.analysis.state.certificate import Certificate
-from rodwell.practice.answer import Answer
-from rodwell.practice.case import Case
-from rodwell.practice.figure import Figure
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.figure import Figure
+from rodwell.case.case import Case
 from rodwell.quantities.text import supported
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}

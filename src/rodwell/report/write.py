@@ -7,9 +7,9 @@ from pathlib import Path
 
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
-from rodwell.practice.along import along_table, along_tables
-from rodwell.practice.answer import Answer
-from rodwell.practice.answer_tables import answer_tables
+from rodwell.answers.data.along import along_table, along_tables
+from rodwell.answers.data.tables import answer_tables
+from rodwell.answers.result.answer import Answer
 from rodwell.report.pdf import check_pdf, write_report
 from rodwell.report.pictures import draw, draw_curves, draw_diagram
 from rodwell.report.sections import case_report

@@ -14,7 +14,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.straight.critical import CriticalLoads
-from rodwell.practice.answer import Answer
+from rodwell.answers.result.answer import Answer
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Variable

@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import Any
 
-from rodwell.practice.answer import Answer
-from rodwell.practice.answer_plain import answer_dict
-from rodwell.practice.audit import Audit
-from rodwell.practice.audit_plain import audit_dict
-from rodwell.practice.study import Study
-from rodwell.practice.study_plain import study_dict
+from rodwell.answers.data.plain import answer_dict
+from rodwell.answers.result.answer import Answer
+from rodwell.studies.audit.audit import Audit
+from rodwell.studies.audit.plain import audit_dict
+from rodwell.studies.sweep.plain import study_dict
+from rodwell.studies.sweep.study import Study
 
 
 @singledispatch

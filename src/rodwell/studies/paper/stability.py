@@ -15,7 +15,7 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.curves.states import lift_off_curve
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import NotConvergedError
-from rodwell.practice.formulas import FORMULAS
+from rodwell.formulas import FORMULAS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.studies.paper.work import CLEARANCE, Work, rod

@@ -1,0 +1,1 @@
+"""Formulas of practice beside exact loads."""

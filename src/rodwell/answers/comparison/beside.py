@@ -1,0 +1,187 @@
+"""Formulas of practice beside exact loads: error, safe or unsafe, inside or outside their validity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rodwell.answers.comparison.exact_loads import PLACES, Load
+from rodwell.case.case import Case
+from rodwell.errors import InputError, checked_number
+from rodwell.formulas import FORMULAS, Formula, Rod
+from rodwell.formulas.helix import LARGEST_HELIX, small_angle_error
+from rodwell.formulas.record import Place
+from rodwell.problem.problem import Problem
+
+AGAINST = {"sinusoidal": ("critical",), "helical": ("lift_off", "critical")}
+"""Exact loads that a kind of formula is held against: the first that is known."""
+
+
+MEANT = {
+    "chen_lin_cheatham": "equal_energy",
+    "chen_lin_cheatham_finite": "equal_energy",
+    "mitchell_unloading": "touch_down",
+}
+"""Formulas that mean another exact load, used where it is known."""
+
+
+EXTRA = {
+    "mu": (0.0, 10.0, "a coefficient of friction from 0 to 10"),
+    "build": (-10.0, 10.0, "dα/ds in radians over the length of the rod, from -10 to 10"),
+    "turn": (-10.0, 10.0, "sin α dφ/ds in radians over the length of the rod, from -10 to 10"),
+    "sigma_y": (0.0, 1e30, "a yield stress, positive"),
+}
+"""Quantities that a problem does not hold and :func:`audit` takes: lowest, highest, what is allowed."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A formula's load beside an exact one at one place. Compression positive, in B/L².
+
+    ``percent`` is 100 (formula/exact − 1), None where the exact compression is not positive; ``percent_error`` its
+    uncertainty from that of the exact load. ``safe``: the formula's load is not above the exact one (and its error).
+    """
+
+    load: str
+    place: Place
+    exact: float
+    error: float
+    percent: float | None
+    percent_error: float | None
+    safe: bool
+
+
+@dataclass(frozen=True)
+class Row:
+    """A formula of a load: its value in B/L², compression positive, beside the exact loads at all three places.
+
+    ``against`` names the exact load that its kind asks for; ``reasons`` why the rod is outside the formula's validity
+    (none: inside); ``missing`` the quantities that were not given, without which there is no value.
+    """
+
+    formula: Formula
+    value: float | None
+    against: str
+    comparisons: tuple[Comparison, ...]
+    reasons: tuple[str, ...]
+    missing: tuple[str, ...]
+
+    @property
+    def valid(self) -> bool:
+        """Whether the rod is inside the formula's validity."""
+        return not self.reasons
+
+    @property
+    def main(self) -> Comparison | None:
+        """The comparison with the exact load that its kind asks for, where the formula's force is meant."""
+        return self.beside(self.against, self.formula.place)
+
+    def beside(self, load: str, place: Place | None) -> Comparison | None:
+        """Return the comparison with an exact load at a place."""
+        return next((c for c in self.comparisons if (c.load, c.place) == (load, place)), None)
+
+
+@dataclass(frozen=True)
+class Other:
+    """A formula that gives no critical load, at the compression of the first critical load at the bottom.
+
+    ``value`` is in units B = L = 1; ``relative_error`` what the small-angle formulas of the weightless helix lack.
+    """
+
+    formula: Formula
+    value: float | None
+    relative_error: float | None
+    reasons: tuple[str, ...]
+    missing: tuple[str, ...]
+
+
+def load_rows(
+    case: Case | Problem, loads: tuple[Load, ...], extra: Mapping[str, float] | None = None
+) -> tuple[Row, ...]:
+    """Hold every formula of a load against exact ones that are known: the first critical load first."""
+    rod = _known_rod(case, extra or {})
+    order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
+    return tuple(_row(formula, rod, loads) for formula in order)
+
+
+def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> Rod:
+    """The rod with all that the case and ``extra`` tell of it."""
+    known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra)
+    return rod_of(case.problem if isinstance(case, Case) else case, tuple(known.items()))
+
+
+def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> Rod:
+    """Return the rod of a problem in units B = L = 1, as formulas take it."""
+    return Rod(1.0, problem.weight, problem.alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more)
+
+
+def _extra(extra: Mapping[str, float]) -> dict[str, float]:
+    for name in extra:
+        if name not in EXTRA:
+            raise InputError("extra", name, f"is not a quantity that can be given; these can: {', '.join(EXTRA)}")
+    return {name: checked_number(name, value, *EXTRA[name]) for name, value in extra.items()}
+
+
+def _section(case: Case | Problem) -> dict[str, float]:
+    """Outer diameter, area, second moment of area and yield stress in units B = L = 1: what the case gives."""
+    if not isinstance(case, Case) or case.scales is None or case.rod is None:
+        return {}
+    rod, length, out = case.rod, case.scales.length, {}
+    if rod.outer_diameter is not None:
+        out = {"D": rod.outer_diameter / length, "A": rod.area / length**2, "I": rod.inertia / length**4}
+    if rod.yield_strength is not None:
+        out["sigma_y"] = rod.yield_strength / case.scales.factor("stress")
+    return out
+
+
+def _value(formula: Formula, rod: Rod, missing: tuple[str, ...]) -> float | None:
+    """Value, or None where the formula has none."""
+    if missing:
+        return None
+    try:
+        value = formula.of(rod)
+    except (ZeroDivisionError, InputError):
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _row(formula: Formula, rod: Rod, loads: tuple[Load, ...]) -> Row:
+    missing, reasons = formula.missing(rod), list(formula.violations(rod))
+    value = _value(formula, rod, missing)
+    bent = {"build", "turn"} & set(formula.takes) and any(dict(rod.more).get(name) for name in ("build", "turn"))
+    if bent:
+        reasons.append("the exact loads are those of a straight hole: not compared")
+    names = [load.name for load in loads]
+    wanted = (MEANT.get(formula.key, ""), *AGAINST[formula.kind])
+    against = next(name for name in wanted if name in names)
+    pairs = [] if value is None or bent else [compare(value, load, place) for load in loads for place in PLACES]
+    return Row(formula, value, against, tuple(pairs), tuple(reasons), missing)
+
+
+def compare(value: float, load: Load, place: Place) -> Comparison:
+    """Hold the compression ``value`` in B/L² against an exact load at a place."""
+    exact = load.at(place)
+    percent = error = None
+    if exact > load.error:
+        percent = 100.0 * (value / exact - 1.0)
+        error = 100.0 * abs(value) / exact * load.error / exact
+    return Comparison(load.name, place, exact, load.error, percent, error, value <= exact + load.error)
+
+
+def _other(formula: Formula, rod: Rod, load: Load, problem: Problem) -> Other:
+    """A formula of another kind, at the bottom's compression in the first critical load."""
+    force = load.at("bottom")
+    more: dict[str, float] = {"F": force} if force > 0.0 else {}
+    if rod.lateral > 0.0:
+        more["F_p"] = FORMULAS["dawson_paslay"].of(rod)
+    if problem.twist != 0.0:
+        more["T"] = problem.twist
+    if force > 0.0:
+        more["p"] = math.pi * math.sqrt(8.0 / force)
+    full = Rod(rod.B, rod.w, rod.alpha, rod.r, rod.L, rod.ends, rod.pressed, (*rod.more, *more.items()))
+    missing = formula.missing(full)
+    error = None
+    if not missing and formula.kind == "helix" and 0.0 < force * rod.r**2 < LARGEST_HELIX:
+        error = small_angle_error(formula.key, 1.0, rod.r, force)
+    return Other(formula, _value(formula, full, missing), error, tuple(formula.violations(full)), missing)

@@ -1,0 +1,153 @@
+"""Exact loads that formulas of practice are held against, as compression at three places of the rod."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.coiled import coil
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.straight.critical import critical_loads
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.formulas.record import Place
+from rodwell.problem.ends import HOLD_ANGLE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.tolerance import RTOL
+
+PLACES: tuple[Place, ...] = ("top", "middle", "bottom")
+"""s = 1, 1/2 and 0: compression grows downwards by the axial weight."""
+
+WHERE: dict[Place, float] = {"top": 1.0, "middle": 0.5, "bottom": 0.0}
+
+MOST_TURNS = 6
+"""Coils of more turns are not looked for."""
+
+STARTS = (0.75, 0.85, 0.95)
+"""Where coils are looked for, as parts of the load of Chen, Lin and Cheatham."""
+
+
+@dataclass(frozen=True)
+class Load:
+    """An exact load of a problem.
+
+    Attributes
+    ----------
+    name
+        "critical", "lift_off", "equal_energy" or "touch_down".
+    label
+        What it is.
+    force, error
+        End force F at s = 1 in B/L², **tension positive**, and its error estimate.
+    axial_weight
+        γ cos α, by which the two ends differ.
+    """
+
+    name: str
+    label: str
+    force: float
+    error: float
+    axial_weight: float
+
+    def at(self, place: Place) -> float:
+        """Compression −N(s) at a place in B/L², **compression positive**; N(s) = F + γ cos α (s − 1)."""
+        return -self.force + self.axial_weight * (1.0 - WHERE[place])
+
+
+def critical(problem: Problem, rtol: float = RTOL) -> Load:
+    """First critical load of the straight rod."""
+    mode = critical_loads(problem, 1, rtol=rtol)[0]
+    return Load("critical", "first critical load", mode.force, mode.error, problem.axial_weight)
+
+
+def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[Load, ...], tuple[str, ...]]:
+    """Return the exact loads of a problem, and what could not be had with the reason.
+
+    The first critical load; lift-off of the branch that starts there; for a horizontal rod whose ends hold the angle,
+    the least load at which a coil of whole turns has the energy of the straight rod, and that at which
+    this coil leaves the wall when it is unloaded.
+
+    Raises
+    ------
+    NotConvergedError
+        If the first critical load cannot be computed.
+    """
+    found, notes = [critical(problem, rtol)], []
+    if problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed:
+        notes.append("lift-off: no lateral weight presses the rod to the wall")
+    else:
+        _add(found, notes, "lift-off", lambda: [_lift_off(problem, rtol)])
+    holds = problem.ends[0] in HOLD_ANGLE and problem.ends[1] in HOLD_ANGLE
+    if problem.alpha != 90.0 or not holds or not problem.pressed:
+        notes.append("load of equal energy: only for a horizontal rod pressed to the wall whose ends hold the angle")
+    else:
+        _add(found, notes, "load of equal energy", lambda: _coil(problem, rtol))
+    return tuple(found), tuple(notes)
+
+
+def _add(found: list[Load], notes: list[str], what: str, compute: Callable[[], list[Load]]) -> None:
+    """Add loads, or the reason why they are not known."""
+    try:
+        found += compute()
+    except (InputError, NotConvergedError) as reason:
+        notes.append(f"{what}: {reason}")
+
+
+def _lift_off(problem: Problem, rtol: float) -> Load:
+    branch = follow(problem.but(twist=0.0), 1, rtol=rtol)
+    if branch.lift_off is None or not branch.converged:
+        raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
+    lift = branch.lift_off
+    return Load("lift_off", "lift-off of mode 1", lift.force, lift.error, problem.axial_weight)
+
+
+def _coil(problem: Problem, rtol: float) -> list[Load]:
+    """Least compression at which a coil of whole turns, in contact throughout, has the energy of the straight rod.
+
+    And that at which this coil leaves the wall as it is unloaded, if it was met. Few turns need the least: the rod
+    winds where it likes and lies at the bottom elsewhere. So turns are counted up until one more needs more.
+    """
+    best: tuple[SpecialPoint, int, Branch] | None = None
+    for turns in range(1, MOST_TURNS + 1):
+        branch = _wound(problem.but(turns=turns, twist=0.0), rtol)
+        point = None if branch is None else _first(branch, "equal_energy")
+        if branch is None or point is None or point.solution.highest_pressure[0] >= 0.0:
+            continue
+        if best is not None and point.force <= best[0].force:
+            break
+        best = point, turns, branch
+    if best is None:
+        raise NotConvergedError("no coil in contact throughout was found that has the energy of the straight rod")
+    point, turns, branch = best
+    name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.axial_weight
+    loads = [Load("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
+    touch = _first(branch, "touch_down")
+    if touch is not None:
+        loads.append(Load("touch_down", f"{name} leaves the wall, unloaded", touch.force, touch.error, axial))
+    return loads
+
+
+def _wound(problem: Problem, rtol: float) -> Branch | None:
+    """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found.
+
+    Odd about mid-length if there is one: an unsymmetric coil, which is found where the odd one is no minimum, needs
+    more compression.
+    """
+    lopsided = None
+    scale = (2.0 * math.pi * problem.turns) ** 2
+    chen = 2.0 * math.sqrt(2.0 * problem.lateral_weight / problem.clearance)
+    for start in STARTS:
+        try:
+            branch = coil(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale), rtol=rtol)
+        except (InputError, NotConvergedError):
+            continue
+        if branch[0].point.fine.symmetry != 0:
+            return branch
+        lopsided = lopsided or branch
+    return lopsided
+
+
+def _first(branch: Branch, kind: str) -> SpecialPoint | None:
+    return next((point for point in branch.special_points if point.kind == kind), None)

@@ -1,0 +1,193 @@
+"""An answer as plain data, for JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rodwell._version import __version__
+from rodwell.analysis.branch.branch import Branch
+from rodwell.answers.comparison.beside import Row
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.assessment import Assessment, AtLoad
+from rodwell.answers.result.spread import Spread
+from rodwell.answers.words.verdict import verdict
+from rodwell.problem.problem import ends_text
+from rodwell.quantities.names import SI_UNITS, UNITS
+from rodwell.strength.loaded import LoadedRod
+
+
+def assessment_dict(answer: Answer) -> dict[str, Any]:
+    """Verdict, loads that act, window with limits, states with stresses, local limits, formulas."""
+    a = answer.assessment
+    window = a.window
+    return {
+        "verdict": verdict(answer),
+        "window": {
+            "buckling": _force(a, *window.buckling),
+            "lift_off": None if window.lift_off is None else _force(a, *window.lift_off),
+            "width": None if window.width is None else _force(a, *window.width),
+            "percent_of_compression_at_bottom": window.percent,
+            "ends_by": None if window.end is None else window.end.kind,
+            "limits": [
+                {
+                    "kind": limit.kind,
+                    "name": limit.name,
+                    "force": None if limit.force is None else _force(a, limit.force, limit.error),
+                    "s": limit.s,
+                    "buckled": limit.buckled,
+                }
+                for limit in window.limits
+            ],
+        },
+        "states": [state_dict(a, state) for state in a.states],
+        "applied": [_applied(a, at) for at in a.applied],
+        "local": _local(a),
+        "formulas": [_formula(a, row) for row in a.formulas],
+    }
+
+
+def _quantity(a: Assessment, value: float, error: float, dimension: str) -> dict[str, Any]:
+    """Value and error in units B = L = 1, and in SI where the case has dimensions."""
+    out: dict[str, Any] = {"value": value, "error": error, "unit": UNITS[dimension]}
+    if a.case.scales is not None:
+        factor = a.case.scales.factor(dimension)
+        out["si"] = {"value": value * factor, "error": error * factor, "unit": SI_UNITS[dimension]}
+    return out
+
+
+def _force(a: Assessment, value: float, error: float) -> dict[str, Any]:
+    return _quantity(a, value, error, "force")
+
+
+def state_dict(a: Assessment, state: LoadedRod) -> dict[str, Any]:
+    """A state: forces at both ends, contact, shortening, stress, supports."""
+    contact = state.contact
+    out: dict[str, Any] = {
+        "name": state.name,
+        "shape": "straight" if state.straight else "buckled",
+        "force": _force(a, state.force, state.error),
+        "force_at_bottom": _force(a, state.at_bottom, state.error),
+        "largest_wall_force": _quantity(a, contact.value, contact.error, "force_per_length") | {"s": contact.s},
+        "total_wall_force": _force(a, *state.total_contact),
+        "end_shortening": _quantity(a, *state.shortening, "length"),
+    }
+    found = a.stress(state)
+    if found is not None:
+        out["rod_stress"] = {
+            "von_Mises_Pa": found.value, "error_Pa": found.error, "s": found.s, "fibre": found.fibre,
+            "axial_Pa": found.axial, "bending_Pa": found.bending, "torsion_Pa": found.torsion,
+            "safety_factor": None if found.safety is None else found.safety[0],
+            "safety_factor_error": None if found.safety is None else found.safety[1],
+        }  # fmt: skip
+    cylinder = a.cylinder(state)
+    if cylinder is not None:
+        out["cylinder_stress"] = {
+            "von_Mises_Pa": cylinder.value, "error_Pa": cylinder.error, "s": cylinder.s, "used": cylinder.utilisation,
+        }  # fmt: skip
+    out["supports"] = [
+        {"kind": one.kind, "on": one.on, "s": one.s, "value": one.value, "error": one.error,
+         "capacity": one.capacity, "used": one.utilisation}
+        for one in a.supports(state)
+    ]  # fmt: skip
+    over = a.over_local(state)
+    if over is not None:
+        out["over_local_limit_up_to_s"] = over.to
+    return out
+
+
+def _applied(a: Assessment, at: AtLoad) -> dict[str, Any]:
+    load = at.load
+    return {
+        "given": load.given,
+        "at": "bottom" if load.bottom else "top",
+        "kind": "real" if load.real else "effective",
+        "force": _force(a, load.force, 0.0),
+        "what": at.what,
+        "why": at.why,
+        "state": None if at.state is None else at.state.name,
+    }
+
+
+def _local(a: Assessment) -> dict[str, Any] | None:
+    local = a.local
+    if local is None:
+        return None
+    loads = {"critical": local.critical, "lift_off": local.lift_off}
+    out: dict[str, Any] = {"half_waves": local.half_waves, "applies": local.applies}
+    for name, load in loads.items():
+        out[name] = {"compression_N": load.value, "error_N": load.error, "reason": load.reason}
+    if local.applies:
+        out["relative_gap_to_an_endless_rod"] = local.length_effect
+    return out
+
+
+def _formula(a: Assessment, row: Row) -> dict[str, Any]:
+    main, f = row.main, row.formula
+    assert main is not None
+    assert row.value is not None
+    return {
+        "key": f.key, "name": f.name, "place": f.place, "compression": _force(a, row.value, 0.0),
+        "against": row.against, "exact": _force(a, main.exact, main.error), "percent": main.percent,
+        "safe": main.safe, "valid": row.valid, "outside_because": list(row.reasons),
+    }  # fmt: skip
+
+
+def answer_dict(answer: Answer) -> dict[str, Any]:
+    """Return the answer as plain data, for JSON."""
+    case, problem = answer.case, answer.case.problem
+    lift, assessment = answer.lift_off, assessment_dict(answer)
+    return {
+        "title": case.title,
+        "verdict": assessment.pop("verdict"),
+        "rodwell_version": __version__,
+        "conventions": "units B = L = 1 unless si, field or mm; end force at s = 1, tension positive"
+        + (", effective" if case.with_fluids else "")
+        + "; "
+        + ends_text(problem),
+        "problem": {
+            "weight": problem.weight,
+            "alpha": problem.alpha,
+            "clearance": problem.clearance,
+            "poisson": problem.poisson,
+            "twist": problem.twist,
+            "ends": list(problem.ends),
+        },
+        "critical_loads": [float(f) for f in answer.critical.forces],
+        "critical_errors": [float(e) for e in answer.critical.errors],
+        "lift_off": None
+        if lift is None
+        else {
+            "force": lift.force,
+            "error": lift.error,
+            "s": list(lift.s),
+            "coincides_with_buckling": answer.first.lift_off_at_buckling,
+        },
+        "conversions": [fact.as_dict() for fact in case.facts],
+        "yield_strength_Pa": case.yield_strength,
+        "figures": {name: figure.as_dict(case) for name, figure in answer.figures.items()},
+        "branches": [_branch_dict(branch) for branch in answer.branches],
+        "assessment": assessment,
+        "sensitivities": [
+            load.as_dict() | _spread(spread) for load, spread in zip(answer.sensitivities, answer.spreads, strict=True)
+        ],
+        "converged": answer.converged,
+        "certificate": answer.worst_certificate.as_dict(),
+        "rtol": case.rtol,
+    }
+
+
+def _spread(spread: Spread | None) -> dict[str, Any]:
+    """Uncertainty from the inputs, for JSON: in B/L², or in N for a case with dimensions."""
+    if spread is None:
+        return {"from_inputs": None}
+    return {"from_inputs": {"total": spread.total, "parts": spread.parts}}
+
+
+def _branch_dict(branch: Branch) -> dict[str, Any]:
+    return {
+        "mode": branch.mode.number if branch.mode else None,
+        "points": len(branch),
+        "reached_end": branch.reached_end,
+        "ended_because": branch.ended_because,
+        "special_points": [point.as_dict() for point in branch.special_points],
+    }

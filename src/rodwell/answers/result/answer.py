@@ -1,0 +1,88 @@
+"""The answer to a case: what was computed, what it means for strength, and its faces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from rodwell.analysis.branch.exploring import Progress
+from rodwell.answers.result.assessment import Assessment
+from rodwell.answers.result.assessment_figures import assessment_figures
+from rodwell.answers.result.computed import Computed, compute
+from rodwell.answers.result.figure import Figure, force_scale
+from rodwell.answers.result.figures import critical_figure, critical_length, real_force, state_figures, stress_figure
+from rodwell.case.case import Case
+from rodwell.faces import Shown, drawn, plain
+
+if TYPE_CHECKING:
+    from rodwell.analysis.discrete.measures import Measured
+    from rodwell.faces import Axes
+
+
+@dataclass(frozen=True)
+class Answer(Computed, Shown):
+    """The answer to a case: a record of what was computed, see :class:`Computed` for its fields, and what follows."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether every reported number meets the tolerance: branches, special points and key figures."""
+        rtol = self.case.rtol
+        return (
+            all(branch.converged for branch in self.branches)
+            and all(figure.error <= rtol * figure.scale for figure in self.figures.values())
+            and self.assessment.converged
+        )
+
+    @cached_property
+    def assessment(self) -> Assessment:
+        """Stress and safety, the safe window and its limits, the loads that act, formulas beside the exact loads."""
+        return Assessment(self)
+
+    @cached_property
+    def figures(self) -> dict[str, Figure]:
+        """The key figures by name."""
+        out = [critical_figure(mode) for mode in self.critical]
+        out += real_force(out[0], self.case) + critical_length(self.case.problem)
+        lift = self.lift_off
+        if lift is not None:
+            note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
+            if self.first.lift_off_at_buckling:
+                note = "coincides with buckling: no lateral weight presses the rod to the wall"
+            label = "Lift-off load, end force at s = 1"
+            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", force_scale(lift.force), note))
+            out += real_force(out[-1], self.case)
+        if self.at_lift_off is not None:
+            out += state_figures(self.at_lift_off)
+        out += assessment_figures(self.assessment)
+        if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
+            out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
+        return {figure.name: figure for figure in out}
+
+    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None) -> Axes:
+        """Draw the bifurcation diagram in the case's units: see :meth:`rodwell.Branch.plot`; return the axes."""
+        return drawn(self, ax, ordinate=ordinate)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the answer as plain data, for JSON."""
+        return plain(self)
+
+
+def answer(case: Case, progress: Progress | None = None) -> Answer:
+    """Compute a case: critical loads, the branch of each mode, lift-off of the first.
+
+    Parameters
+    ----------
+    case
+        The case.
+    progress
+        Called with what is being done and how much is done.
+
+    Raises
+    ------
+    NotConvergedError
+        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
+        to ``load.until``; the message says why and how far it got.
+    """
+    computed = compute(case, progress)
+    return Answer(computed.case, computed.critical, computed.branches, computed.until)

@@ -1,0 +1,225 @@
+"""What an answer means for strength: stress and safety in each state, the safe window, limits, formulas beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from rodwell.answers.comparison.beside import Row, load_rows
+from rodwell.answers.comparison.exact_loads import Load
+from rodwell.answers.result.computed import Computed
+from rodwell.case.applied import AppliedLoad
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.strength.cylinder import Stress, cylinder_stress
+from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
+from rodwell.strength.loaded import LoadedRod
+from rodwell.strength.local import Exceeded, LocalLimits, exceeded, local_limits
+from rodwell.strength.section import RodSection, RodStress, rod_section
+from rodwell.strength.supports import Support, support_loads
+
+STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN = "straight", "buckled", "other shape", "left the wall", "unknown"
+"""What has become of the rod at a load: straight and stable; buckled, on the wall and stable; mode 1 has lost its
+stability before; it has left the wall; the branch does not reach so far."""
+
+KNOWN = ("dawson_paslay", "he_kyllingstad", "chen_lin_cheatham", "wu_juvkam_wold", "mitchell_loading")
+"""Formulas shown beside the exact loads even where the rod is outside their validity."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """From buckling to lift-off: buckled, but on the wall. End forces F at s = 1 in B/L², tension positive.
+
+    Attributes
+    ----------
+    buckling, lift_off
+        Force and error estimate; ``lift_off`` None where none was found.
+    limits
+        What gives on the way, the least compressive first; the last is the end of the window.
+    bottom
+        Compression at the lower end s = 0 at buckling, against which widths are given in percent.
+    """
+
+    buckling: tuple[float, float]
+    lift_off: tuple[float, float] | None
+    limits: tuple[Limit, ...]
+    bottom: float
+
+    @property
+    def width(self) -> tuple[float, float] | None:
+        """How much compression can be added from buckling to the end of the window, and its error estimate.
+
+        The end is lift-off, or the loss of stability before it; None where neither was found.
+        """
+        end = self.end
+        if end is None or end.force is None:
+            return None
+        return self.buckling[0] - end.force, self.buckling[1] + end.error
+
+    @property
+    def percent(self) -> float | None:
+        """The width in percent of the compression at the lower end at buckling."""
+        return None if self.share is None else 100.0 * self.share[0]
+
+    @property
+    def share(self) -> tuple[float, float] | None:
+        """The width as a part of the compression at the lower end at buckling, and its error estimate."""
+        if self.width is None or self.bottom <= 0.0:
+            return None
+        part = self.width[0] / self.bottom
+        return part, (self.width[1] + abs(part) * self.buckling[1]) / self.bottom
+
+    @property
+    def end(self) -> Limit | None:
+        """Where the window ends: lift-off, or the loss of stability before it."""
+        return next((limit for limit in self.limits if limit.kind in (LIFTS_OFF, UNSTABLE)), None)
+
+    @property
+    def stable_until(self) -> Limit | None:
+        """Where the buckled shape loses its stability before lift-off, None if it does not."""
+        return next((limit for limit in self.limits if limit.kind == UNSTABLE), None)
+
+
+@dataclass(frozen=True)
+class AtLoad:
+    """The rod at a load that acts.
+
+    Attributes
+    ----------
+    load
+        The load.
+    what
+        One of STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN.
+    state
+        The straight or buckled state; None for the others.
+    why
+        For UNKNOWN, why.
+    """
+
+    load: AppliedLoad
+    what: str
+    state: LoadedRod | None = None
+    why: str = ""
+
+
+class Assessment:
+    """Strength, window, limits and formulas of an answer; everything is computed when it is first asked for."""
+
+    def __init__(self, computed: Computed) -> None:
+        self.computed, self.case = computed, computed.case
+        self.critical, self.branch = computed.critical[0], computed.first
+
+    @cached_property
+    def section(self) -> RodSection | None:
+        """The rod's section, None where stresses cannot be had."""
+        return rod_section(self.case)
+
+    @cached_property
+    def at_buckling(self) -> LoadedRod:
+        """The straight rod at its first critical load."""
+        return LoadedRod("at buckling", self.case.problem, self.critical.force, self.critical.error)
+
+    @cached_property
+    def at_lift_off(self) -> LoadedRod | None:
+        """The buckled rod at lift-off, None where lift-off coincides with buckling or was not found."""
+        lift, state = self.computed.lift_off, self.computed.at_lift_off
+        if lift is None or state is None:
+            return None
+        return LoadedRod("at lift-off", self.case.problem, lift.force, lift.error, state)
+
+    @cached_property
+    def applied(self) -> tuple[AtLoad, ...]:
+        """The rod at each load that acts, in the order of the case file."""
+        return tuple(self._at(load) for load in self.case.applied)
+
+    @cached_property
+    def states(self) -> tuple[LoadedRod, ...]:
+        """The states that are known: straight at buckling, at lift-off, at the applied loads."""
+        out = [self.at_buckling, self.at_lift_off, *(at.state for at in self.applied)]
+        return tuple(state for state in out if state is not None)
+
+    def _at(self, load: AppliedLoad) -> AtLoad:
+        problem, branch = self.case.problem, self.branch
+        name = "at the applied load"
+        if len(self.case.applied) > 1:
+            name += f" {1 + self.case.applied.index(load)}"
+        if load.force >= self.critical.force:
+            return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+        if branch.lift_off_at_buckling:
+            return AtLoad(load, LEFT)
+        end = self.window.end
+        if end is not None and end.force is not None and load.force <= end.force:
+            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE)
+        try:
+            solution = branch.at(load.force)
+        except (InputError, NotConvergedError) as found:
+            return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {found}")
+        return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
+
+    def stress(self, state: LoadedRod) -> RodStress | None:
+        """Largest von Mises stress in the rod in a state, None where the section is not known."""
+        if self.section is None:
+            return None
+        if state.name not in self._stresses:
+            self._stresses[state.name] = self.section.largest(state)
+        return self._stresses[state.name]
+
+    @cached_property
+    def _stresses(self) -> dict[str, RodStress]:
+        return {}
+
+    def cylinder(self, state: LoadedRod) -> Stress | None:
+        """Largest equivalent stress in the cylinder in a buckled state, None where its section is not given."""
+        case = self.case
+        if case.cylinder is None or case.scales is None or state.solution is None:
+            return None
+        return cylinder_stress(state.solution, case.cylinder, case.scales)
+
+    def supports(self, state: LoadedRod) -> tuple[Support, ...]:
+        """The most loaded supports in a state, where capacities are given."""
+        if self.case.supports is None or self.case.scales is None:
+            return ()
+        return support_loads(state, self.case.supports, self.case.scales)
+
+    @cached_property
+    def window(self) -> Window:
+        """From buckling to lift-off, and what gives on the way."""
+        lift, problem = self.computed.lift_off, self.case.problem
+        found = limits(self.case, self.branch, self.critical.force)
+        bottom = problem.axial_weight - self.critical.force
+        pair = None if lift is None else (lift.force, lift.error)
+        return Window((self.critical.force, self.critical.error), pair, found, bottom)
+
+    @cached_property
+    def local(self) -> LocalLimits | None:
+        """Local limits of the string, None where there are none."""
+        return local_limits(self.case)
+
+    def over_local(self, state: LoadedRod) -> Exceeded | None:
+        """Where the compression exceeds the local critical one in a state, None where there is none."""
+        if self.local is None or not self.local.applies or self.case.scales is None:
+            return None
+        assert self.local.critical.value is not None
+        return exceeded(state, self.local.critical.value, self.case.scales.factor("force"))
+
+    @cached_property
+    def formulas(self) -> tuple[Row, ...]:
+        """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
+        weight = self.case.problem.axial_weight
+        loads = [Load("critical", "first critical load", self.critical.force, self.critical.error, weight)]
+        lift = self.computed.lift_off
+        if lift is not None and not self.branch.lift_off_at_buckling:
+            loads.append(Load("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))
+        rows = load_rows(self.case, tuple(loads))
+        shown = [row for row in rows if row.value and row.main is not None and (row.valid or row.formula.key in KNOWN)]
+        return tuple(shown)
+
+    @property
+    def limiting(self) -> Limit | None:
+        """What gives first before the window ends, None if nothing does."""
+        return next((limit for limit in self.window.limits if limit.kind not in (LIFTS_OFF, UNSTABLE)), None)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the states at the applied loads meet the tolerance."""
+        states = [at.state.solution for at in self.applied if at.state is not None]
+        return all(solution is None or solution.converged for solution in states)

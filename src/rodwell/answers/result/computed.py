@@ -1,0 +1,161 @@
+"""What is computed for a case: critical loads, branches, and what follows from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.exploring import Progress
+from rodwell.analysis.branch.follow import extended, follow
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_lift_off
+from rodwell.analysis.state.certificate import Certificate
+from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
+from rodwell.answers.result.spread import Spread, spread_of_load
+from rodwell.case.case import Case
+from rodwell.errors import NotConvergedError
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What was computed for a case, as a record.
+
+    Attributes
+    ----------
+    case
+        The case.
+    critical
+        Critical loads and modes of the straight rod.
+    branches
+        Buckled branches of the modes met before ``until``; the first is that of mode 1.
+    until
+        End force in B/L² to which they were followed.
+    """
+
+    case: Case
+    critical: CriticalLoads
+    branches: tuple[Branch, ...]
+    until: float
+
+    @property
+    def first(self) -> Branch:
+        """The branch of the first mode."""
+        return self.branches[0]
+
+    @property
+    def lift_off(self) -> SpecialPoint | None:
+        """Lift-off of the first mode."""
+        return self.first.lift_off
+
+    @cached_property
+    def at_lift_off(self) -> Solution | None:
+        """The state of the first mode at lift-off, None where lift-off coincides with buckling."""
+        if self.lift_off is None or self.first.lift_off_at_buckling:
+            return None
+        return self.lift_off.solution
+
+    @property
+    def shown(self) -> Solution:
+        """The state that pictures show: the first mode at lift-off, or else at the end of its branch."""
+        return self.at_lift_off or self.first[-1]
+
+    @cached_property
+    def worst_certificate(self) -> Certificate:
+        """Certificate of the state that solves the paper's equations least well, over all points of all branches."""
+        states = [
+            state for branch in self.branches for state in (*branch, *(p.solution for p in branch.special_points))
+        ]
+        certificates = [state.certificate for state in states]
+        worst: Certificate = max(certificates, key=lambda certificate: certificate.worst)
+        return worst
+
+    @cached_property
+    def sensitivities(self) -> tuple[Sensitivity, ...]:
+        """How the first critical load and the lift-off load change with the inputs."""
+        out = [of_critical_load(self.critical[0])]
+        if self.at_lift_off is not None and self.lift_off is not None:
+            out.append(of_lift_off(self.lift_off))
+        return tuple(out)
+
+    @cached_property
+    def spreads(self) -> tuple[Spread | None, ...]:
+        """Uncertainty of each of these loads from those of the inputs, None where no input was given with "±"."""
+        return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
+
+
+def compute(case: Case, progress: Progress | None = None) -> Computed:
+    """Compute a case: critical loads, the branch of each mode, lift-off of the first.
+
+    Parameters
+    ----------
+    case
+        The case.
+    progress
+        Called with what is being done and how much is done.
+
+    Raises
+    ------
+    NotConvergedError
+        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
+        to ``load.until``; the message says why and how far it got.
+    """
+    tell = progress or (lambda _what, _done: None)
+    problem = case.problem
+    ahead.begin()
+    tell("critical loads", 0.0)
+    critical = critical_loads(problem, case.modes, rtol=case.rtol)
+    tell("lift-off", 0.1)
+    first, until = _first_branch(case, critical)
+    branches = [first]
+    followed = [mode for mode in critical if mode.force > until]
+    for number, mode in enumerate(followed[1:], start=1):
+        share = (0.9 / len(followed), 0.1 + 0.9 * number / len(followed))
+
+        def report(force: float, mode: Mode = mode, share: tuple[float, float] = share) -> None:
+            part = (mode.force - force) / (mode.force - until)
+            tell(f"mode {mode.number} at F = {force:.4g} B/L²", share[1] + share[0] * min(max(part, 0.0), 1.0))
+
+        branches.append(follow(problem, mode, until=until, rtol=case.rtol, progress=report))
+    tell("done", 1.0)
+    return Computed(case, critical, tuple(branches), until)
+
+
+def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, float]:
+    """Branch of the first mode, and the end force to follow branches to.
+
+    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes.
+    """
+    first = critical[0]
+    if case.until is not None and case.until < first.force:
+        branch = follow(case.problem, first, until=case.until, rtol=case.rtol)
+        _check_reached(case, branch, case.until)
+        return branch, case.until
+    to_lift_off = follow(case.problem, first, rtol=case.rtol)
+    until = _reach(critical, to_lift_off)
+    return (extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off), until
+
+
+def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
+    """End force past lift-off and all modes."""
+    first, lift = critical[0].force, to_lift_off.lift_off
+    beyond = [1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2]
+    if lift is not None:
+        beyond.append(1.3 * (first - lift.force))
+    return float(first - max(beyond))
+
+
+def _check_reached(case: Case, branch: Branch, until: float) -> None:
+    if branch.reached_end:
+        return
+    unit, factor = "B/L²", 1.0
+    if case.scales is not None:
+        size, unit = case.scales.system.unit("force")
+        factor = case.scales.factor("force") / size
+    raise NotConvergedError(
+        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
+        f"{branch.reach[0] * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
+        "give a load.until above that"
+    )

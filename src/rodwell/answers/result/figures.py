@@ -1,0 +1,142 @@
+"""Key figures of an answer: numbers with errors, and what they are."""
+
+from __future__ import annotations
+
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.wall import Peak
+from rodwell.analysis.straight.critical import EULER, Mode
+from rodwell.answers.result.figure import Figure, force_scale
+from rodwell.case.case import Case
+from rodwell.case.cylinder import Cylinder
+from rodwell.problem.problem import Problem
+from rodwell.quantities.names import QUANTITIES
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import percent
+from rodwell.strength.cylinder import cylinder_stress
+
+
+def critical_figure(mode: Mode) -> Figure:
+    """Critical load of a mode."""
+    symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
+    label = f"Critical load of mode {mode.number}, end force at s = 1"
+    scale = force_scale(mode.force) + mode.problem.axial_weight
+    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
+
+
+STANDING = {
+    ("clamped", "clamped"): 74.628569,
+    ("clamped", "guided"): 18.956266,
+    ("clamped", "free"): 7.837347,
+}
+"""γ at which a vertical rod buckles under its own weight, F = 0 at s = 1, by its ends; the last digit is rounded.
+
+Clamped at both ends: paper, section 4.2. Clamped and guided, and clamped and free (Greenhill 1881): 9/4 of the squares
+of the first zeros of the Bessel functions J of order 1/3 and −1/3.
+"""
+
+ROUNDED = 5e-7
+
+
+def critical_length(problem: Problem) -> list[Figure]:
+    """Length at which a vertical rod of this stiffness and weight just stands without end force, if it is known."""
+    number = STANDING.get(problem.ends)
+    if number is None or problem.axial_weight != problem.weight or problem.weight == 0.0:
+        return []
+    value = (number / problem.weight) ** (1.0 / 3.0)
+    note = f"L_cr = ({number:g} B/mg)^⅓: a longer rod buckles under its own weight, F = 0 at s = 1"
+    label = "Critical length under self-weight, vertical"
+    return [Figure("critical_length", label, value, value * ROUNDED / number / 3.0, "length", value, note)]
+
+
+def real_force(figure: Figure, case: Case) -> list[Figure]:
+    """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
+    if case.rod is None or case.scales is None:
+        return []
+    less = case.fluids.effective_minus_real(case.rod, 0.0) / case.scales.factor("force")
+    if less == 0.0:
+        return []
+    value = figure.value - less
+    label = f"{figure.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
+    scale = abs(figure.value) + abs(less) + EULER
+    return [Figure(f"{figure.name}_real", label, value, figure.error, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
+
+
+def stress_figure(state: Solution, cylinder: Cylinder, scales: Scales) -> Figure:
+    """Largest equivalent stress in the cylinder in one state, as a multiple of the unit of stress B/L⁴."""
+    stress = cylinder_stress(state, cylinder, scales)
+    unit = scales.factor("stress")
+    part = stress.utilisation * stress.error / stress.value
+    note = f"{percent(stress.utilisation, part)} of the yield strength, at s/L = {stress.s:.4g}"
+    label = "Largest equivalent (von Mises) stress in the cylinder"
+    value, error = stress.value / unit, stress.error / unit
+    return Figure("cylinder_stress", label, value, error, "stress", value, note)
+
+
+def state_figures(state: Solution) -> list[Figure]:
+    """Wall and support loads of one state."""
+    wall = state.wall
+    shortening, shortening_error = state.number(Measured.SHORTENING)
+
+    def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> Figure:
+        place = f"at s/L = {peak.s:.4g}"
+        return Figure(name, label, peak.value, peak.error, QUANTITIES[field].dimension, scale or peak.value, place)
+
+    in_rod = Peak(*state.largest("rod_M2"))
+    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", wall.twisting)
+    largest_bending = largest(
+        "largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod
+    )
+    wall_force = wall.total
+    return [
+        largest(
+            "largest_wall_force",
+            "contact_pressure",
+            "Largest contact force on the wall per length, outward",
+            wall.contact,
+        ),
+        Figure(
+            "total_wall_force",
+            "Total contact force on the wall, all directions added",
+            *wall_force,
+            "force",
+            wall_force[0],
+        ),
+        largest_torque,
+        Figure(
+            "support_torque",
+            "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
+            wall.torque[0] if wall.needs_torque else 0.0,
+            wall.torque[1],
+            "moment",
+            largest_torque.value,
+            "" if wall.needs_torque else "none: the twisting moment balances itself",
+        ),
+        # μ and λ are differences of moments of the size of the rod's: they are judged against that
+        largest(
+            "largest_mu", "mu", "Largest bending moment in the cylinder about d₁, |μ|", wall.bending_mu, in_rod.value
+        ),
+        largest(
+            "largest_lambda",
+            "cylinder_M3",
+            "Largest bending moment in the cylinder about u₂, |λ cos η|",
+            wall.bending_lambda,
+            in_rod.value,
+        ),
+        largest_bending,
+        Figure(
+            "end_shear",
+            f"Sideways force at the end s = 1 ({state.problem.ends[1]}), F₃(1)",
+            *state.end_reactions["shear"],
+            "force",
+            force_scale(state.force),
+        ),
+        Figure(
+            "end_moment",
+            f"Bending moment at the end s = 1 ({state.problem.ends[1]}), M₂(1)",
+            *state.end_reactions["moment"],
+            "moment",
+            largest_bending.value,
+        ),
+        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length", shortening),
+    ]

@@ -1,0 +1,208 @@
+"""What an answer means, in sentences: end, sign, unit and condition stated wherever a force stands."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF
+from rodwell.analysis.state.extent import FADED, buckled_to
+from rodwell.analysis.straight.critical import Mode
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
+from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
+from rodwell.problem.problem import ends_text
+from rodwell.quantities.text import percent
+
+__all__ = ["ASSUMPTIONS", "assumptions", "force_text", "place_text", "sentences"]
+
+ASSUMPTIONS = (
+    "end force and end torque are dead loads at s = 1",
+    "rod inextensible, unshearable, linearly elastic, straight when free",
+    "cylinder rigid and straight; contact without friction",
+    "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
+)
+
+EFFECTIVE = (
+    "forces are effective ones, N = N_real − pᵢ Aᵢ + pₒ Aₒ (tension positive), and the weight is the buoyed one: "
+    "fluids at rest"
+)
+"""What is assumed of mud and pressures."""
+
+LOWER_PART = 0.5
+"""A mode that reaches less far up the rod is said to be confined to its lower end."""
+
+SMALL_LOAD = 1.0
+"""A load below this, in B/L², is near zero: percentages of it say nothing."""
+
+ENDS_HOLD = {
+    "clamped": "clamped (y and y′ held)",
+    "pinned": "pinned (y held, free to turn)",
+    "guided": "guided (y′ held, free to slide around the wall)",
+    "free": "free (only the axial force)",
+}
+
+
+def assumptions(answer: Answer) -> tuple[str, ...]:
+    """What the numbers assume, the ends first."""
+    fluids = (EFFECTIVE,) if answer.case.with_fluids else ()
+    return (ends_text(answer.case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
+
+
+def sentences(answer: Answer) -> list[str]:
+    """What the numbers mean, most important first."""
+    out = [verdict(answer), *load_sentences(answer), _mode(answer)]
+    out += _applied(answer)
+    out += [_lift_off(answer), _stability(answer), *window_sentences(answer), _wall(answer), _inputs(answer)]
+    return [sentence for sentence in out if sentence]
+
+
+def _mode(answer: Answer) -> str:
+    first = answer.critical[0]
+    s = np.union1d(np.linspace(0.0, 1.0, 2001), first.space.greville)[1:-1]
+    y = first.shape(s)
+    farthest, y = buckled_to(first), y[np.abs(y) > FADED]
+    waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
+    error = shape_error(answer)
+    about = "" if error < FADED else "about "
+    why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
+    shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
+    plural = "" if waves == 1 else "s"
+    text = f"It buckles sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
+    if farthest < LOWER_PART:
+        place = place_text(answer, farthest, error / _falls(first, farthest))
+        text += f" Beyond {place} the rod stays straight (deflections below {FADED:g} of the largest)."
+    if len(answer.critical) > 1:
+        second, size = answer.critical[1], max(abs(first.force), 1e-300)
+        gap, error = abs(second.force - first.force) / size, (first.error + second.error) / size
+        if gap < 0.05:
+            text += f" The second mode follows within {percent(gap, error, 2)}: imperfections may favour either."
+    return text
+
+
+def shape_error(answer: Answer) -> float:
+    """Error of the first mode's shape, as part of its largest deflection.
+
+    A load's error is of second order in that of its mode: their ratio to the gap to the next load is the square.
+    """
+    first = answer.critical[0]
+    others = [abs(mode.force - first.force) for mode in answer.critical[1:]] or [abs(first.force)]
+    return math.sqrt(first.error / max(min(others), 1e-300))
+
+
+def _falls(mode: Mode, faded: float) -> float:
+    """How steeply the deflection falls where it is :data:`FADED` of the largest, in largest deflections per L."""
+    y, slope = mode.space.evaluate(mode.coefficients, np.array([faded]), 2)[:, 0]
+    return max(abs(float(slope / y)) * FADED, 1e-300)
+
+
+def _applied(answer: Answer) -> list[str]:
+    until = answer.case.until
+    if until is None:
+        return []
+    first = answer.critical[0].force
+    if until >= first:
+        return [
+            f"At the end force asked for, {force_text(answer, until)} at s = 1, the straight rod is stable; the "
+            "diagrams go beyond it to show what follows."
+        ]
+    return []
+
+
+def _lift_off(answer: Answer) -> str:
+    lift = answer.lift_off
+    if lift is None and not answer.first.reached_end:
+        lowest, highest = (force_text(answer, force) for force in answer.first.reach)
+        return (
+            f"No lift-off was found on the first mode, but its branch could be followed only over end forces from "
+            f"{lowest} to {highest} at s = 1: {answer.first.ended_because}."
+        )
+    if lift is None:
+        down_to = force_text(answer, answer.until)
+        return f"The first mode does not lift off the wall down to the end force {down_to} at s = 1."
+    if answer.first.lift_off_at_buckling:
+        return (
+            "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "
+            "as soon as it buckles."
+        )
+    force = force_text(answer, lift.force, lift.error)
+    return (
+        f"The buckled rod stays on the wall until the end force at s = 1 is {force}; there it lifts off at "
+        f"{places_text(answer, lift)}."
+    )
+
+
+def _stability(answer: Answer) -> str:
+    """Where the buckled shape is stable, from the special points up to lift-off in the order of travel."""
+    branch = answer.first
+    points = list(branch.special_points)
+    to_lift_off = answer.at_lift_off is not None
+    if to_lift_off:
+        points = points[: 1 + next(i for i, p in enumerate(points) if p.kind == LIFT_OFF)]
+    what = "up to lift-off" if to_lift_off else "over the range shown"
+    if branch.lift_off_at_buckling:
+        what += ", if kept on the wall"
+    lost = next((p for p in points if p.index_after > 0), None)
+    if lost is None:
+        return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
+    if lost.kind == CRITICAL:
+        return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
+    where = force_text(answer, lost.force, lost.error)
+    return (
+        f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
+        "there the rod takes another shape."
+    )
+
+
+def _inputs(answer: Answer) -> str:
+    """What a change of the inputs does to the load that matters, and what their uncertainty does."""
+    load, spread = answer.sensitivities[-1], answer.spreads[-1]
+    if abs(load.force) < SMALL_LOAD:
+        return ""
+    e = load.elasticities()
+    names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
+    parts = ", ".join(f"{names[name]} {_signed(*e[name])}" for name in names)
+    text = f"One percent more of an input changes the {load.name} by: {parts}; one degree more from the vertical by "
+    text += f"{_signed(*e['alpha'])}."
+    if spread is not None:
+        scales = answer.case.scales
+        size = f"{spread.total:.2g} B/L²" if scales is None else scales.system.text(spread.total, "force", 3)
+        text += f" The uncertainties given make it uncertain by ±{size}, most of it from {spread.largest}."
+    return text
+
+
+def _signed(value: float, error: float) -> str:
+    """A change in percent with its sign: two decimals, or as many as the error allows."""
+    places = 2
+    while places > 0 and 0.5 * 10.0**-places < error:
+        places -= 1
+    text = f"{value:+.{places}f}" if 0.5 * 10.0**-places >= error else f"{value:+.1g} ± {error:.1g}"
+    return f"{text} %".replace("-", "−")
+
+
+def _wall(answer: Answer) -> str:
+    if answer.at_lift_off is None:
+        return ""
+    figures = answer.figures
+
+    def text(name: str, unit: str) -> str:
+        figure = figures[name]
+        return size_text(answer, figure.value, figure.error, figure.dimension, unit)
+
+    torque = figures["support_torque"]
+    support = (
+        "the cylinder's supports need no torque"
+        if torque.value == 0.0
+        else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')} (if the rod's weight is "
+        "taken up along the cylinder; else the fittings of the rod do)"
+    )
+    stress = ""
+    if "cylinder_stress" in figures:
+        figure = figures["cylinder_stress"]
+        stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {figure.note.split(',')[0]}."
+    return (
+        f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
+        f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "
+        f"{text('largest_torque', 'B/L')}, and {support}.{stress}"
+    )

@@ -1,0 +1,1 @@
+"""A case: what the user has, with units, checked and made dimensionless."""

@@ -1,0 +1,263 @@
+"""A case: what the user has, read from a TOML file or a dictionary, checked, and made dimensionless."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from rodwell.case import schema
+from rodwell.case.applied import AppliedLoad
+from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.case.cylinder import Cylinder, cylinder_of
+from rodwell.case.dimensionless import check_sections, dimensionless
+from rodwell.case.explain import SECTIONS, explain
+from rodwell.case.facts import Fact
+from rodwell.case.file import read_toml
+from rodwell.case.fluids import NO_FLUIDS, Fluids
+from rodwell.case.physical import physical
+from rodwell.case.pipe import PhysicalRod
+from rodwell.case.uncertain import Moved, UncertainInput, split
+from rodwell.errors import InputError
+from rodwell.faces import Shown
+from rodwell.problem.problem import Problem
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.tolerance import checked_rtol
+from rodwell.quantities.units import SYSTEMS, System
+
+__all__ = ["SECTIONS", "Case", "CaseError"]
+
+
+class CaseError(InputError):
+    """A case that cannot be used: all that is wrong with it, one problem a line."""
+
+    def __init__(self, source: str, problems: list[tuple[str, object, str]]) -> None:
+        self.problems = problems
+        super().__init__(*problems[0])
+        lines = [str(InputError(*problem)) for problem in problems]
+        self.args = (f"{source}: " + (lines[0] if len(lines) == 1 else "\n  " + "\n  ".join(lines)),)
+
+
+@dataclass(frozen=True)
+class Case(Shown):
+    """A rod in a hole, ready to be computed.
+
+    Attributes
+    ----------
+    title
+        For the report.
+    problem
+        The dimensionless problem.
+    scales
+        How it was made dimensionless; None for a case given without dimensions.
+    modes
+        Number of buckling modes to compute and follow.
+    until
+        Effective end force at s = 1 at which branches end, in B/L² (tension positive); None: chosen from the loads
+        found.
+    rtol
+        Relative tolerance of every reported number.
+    given
+        The inputs as they were written, section by section.
+    source
+        File name, or "case".
+    text
+        The file as it was read.
+    cylinder
+        Section and strength of the cylinder, if given.
+    uncertain
+        Inputs that were given with "±", and what becomes of the problem if they move.
+    rod
+        The rod in SI units: section, weight in air, strength; None for a case without dimensions.
+    fluids
+        Mud and pressures; forces of a case with them are effective ones.
+    facts
+        What followed from the inputs on the way to the problem: weight, forces, clearance, and sources.
+    applied
+        The loads that act, of ``load.applied``.
+    supports
+        What each support can bear, if given.
+    gravity
+        In m/s².
+    """
+
+    title: str
+    problem: Problem
+    scales: Scales | None
+    modes: int
+    until: float | None
+    rtol: float
+    given: Mapping[str, Any]
+    source: str = "case"
+    text: str = ""
+    cylinder: Cylinder | None = None
+    uncertain: tuple[UncertainInput, ...] = ()
+    rod: PhysicalRod | None = None
+    fluids: Fluids = NO_FLUIDS
+    facts: tuple[Fact, ...] = ()
+    applied: tuple[AppliedLoad, ...] = ()
+    supports: schema.Supports | None = None
+    gravity: float = 9.80665
+
+    @property
+    def yield_strength(self) -> float | None:
+        """Yield strength of the rod in Pa, None where it is not given."""
+        return None if self.rod is None else self.rod.yield_strength
+
+    @property
+    def with_fluids(self) -> bool:
+        """Whether mud or pressures make effective forces differ from real ones."""
+        return self.fluids != NO_FLUIDS
+
+    def in_units(self, name: str | None) -> Case:
+        """Return this case with results shown in "si", "field" or "mm" units; None leaves it as it is.
+
+        Raises
+        ------
+        InputError
+            For a name that is not known, or a case without dimensions.
+        """
+        if name is None:
+            return self
+        if name not in SYSTEMS:
+            raise InputError("units", name, f"must be one of {', '.join(SYSTEMS)}")
+        if self.scales is None:
+            raise InputError("units", name, "needs a case with dimensions: this one has [dimensionless], leave it out")
+        return replace(self, scales=replace(self.scales, system=System(name)))
+
+    @classmethod
+    def read(cls, path: str | Path) -> Case:
+        """Read a case file.
+
+        Raises
+        ------
+        CaseError
+            Naming the key, what is allowed and what to do, for everything that is wrong with the file.
+        InputError
+            If the file cannot be read.
+        """
+        file = Path(path)
+        data, text = read_toml(file)
+        return cls.from_dict(data, source=file.name, text=text, folder=file.parent)
+
+    @classmethod
+    def from_dict(
+        cls, data: Mapping[str, Any], *, source: str = "case", text: str = "", folder: str | Path = "."
+    ) -> Case:
+        """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`.
+
+        Catalogue files are sought from ``folder``.
+        """
+        if not isinstance(data, Mapping):
+            raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
+        try:
+            clean, moved = split(data)
+            case = cls._certain(clean, source, text, Path(folder))
+        except CaseError:
+            raise
+        except InputError as problem:
+            value = _as_written(data, problem.field, problem.value)
+            raise CaseError(source, [(problem.field, value, problem.problem)]) from None
+        inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
+        return replace(case, uncertain=inputs, given=_given(data))
+
+    @classmethod
+    def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:
+        """A case from data without uncertainties."""
+        try:
+            parsed = schema.CaseFile.model_validate(dict(data))
+        except ValidationError as problem:
+            raise CaseError(source, explain(problem)) from None
+        return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
+
+
+def _uncertain(
+    data: Mapping[str, Any], clean: Mapping[str, Any], section: str, key: str, pair: tuple[Any, Any], folder: Path
+) -> UncertainInput:
+    """What becomes of the case as one input moves by its uncertainty down and up."""
+    sides: list[Moved | None] = []
+    for value in pair:
+        try:
+            case = Case._certain({**clean, section: {**clean[section], key: value}}, "case", "", folder)
+            sides.append((case.problem, case.scales))
+        except InputError:
+            sides.append(None)
+    if sides == [None, None]:
+        raise CaseError("case", [(f"{section}.{key}", data[section][key], "moves out of what is allowed either way")])
+    return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
+
+
+def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
+    """What the user wrote for a key, rather than what became of it; None stays None."""
+    section, _, key = field.partition(".")
+    written = data.get(section)
+    return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
+
+
+def _given(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The sections as they were written."""
+    return {name: values for name, values in data.items() if name in SECTIONS}
+
+
+def _catalogue(parsed: schema.CaseFile, folder: Path) -> Catalogue:
+    return package_catalogue() if parsed.catalogue is None else read_catalogue(parsed.catalogue.files, folder)
+
+
+def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
+    with_dimensions = parsed.rod is not None or parsed.hole is not None
+    if with_dimensions and parsed.dimensionless is not None:
+        raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
+    if not with_dimensions and parsed.dimensionless is None:
+        raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
+    if not with_dimensions:
+        check_sections(parsed)
+    load = _load(parsed.load, with_dimensions, source)
+    case: Case
+    common = {
+        "title": parsed.title,
+        "modes": parsed.analysis.modes,
+        "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
+        "given": _given(data),
+        "source": source,
+        "text": text,
+    }
+    if isinstance(load, schema.Load):
+        found = physical(parsed, load, catalogue)
+        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
+                    rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
+                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
+    else:
+        problem, until, applied = dimensionless(parsed.dimensionless, load)
+        case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
+    if case.until is not None and not math.isfinite(case.until):
+        raise InputError("load.until", load.until, "must be finite")
+    if not all(math.isfinite(item.force) for item in case.applied):
+        raise InputError("load.applied", load.applied, "must be finite")
+    return case
+
+
+def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
+    return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)
+
+
+def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.Load | schema.DimensionlessLoad:
+    """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
+    model = schema.Load if with_dimensions else schema.DimensionlessLoad
+    try:
+        return model.model_validate(given)
+    except ValidationError as error:
+        explained = explain(error, within=("load",))
+        found = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
+        raise CaseError(source, found) from None
+
+
+def _named(field: str, compute: Any) -> Any:
+    """Run a check and give its error the name that the user wrote."""
+    try:
+        return compute()
+    except InputError as problem:
+        raise InputError(field, problem.value, problem.problem) from None

@@ -1,0 +1,52 @@
+"""From the numbers of a case file without dimensions to the problem: the counterpart of ``physical``."""
+
+from __future__ import annotations
+
+from rodwell.case import schema
+from rodwell.case.applied import AppliedLoad
+from rodwell.case.physical import check_force_words, check_reach
+from rodwell.errors import InputError
+from rodwell.problem.ends import checked_ends
+from rodwell.problem.problem import Problem
+
+
+def check_sections(parsed: schema.CaseFile) -> None:
+    """Refuse what a case without dimensions cannot use."""
+    reasons = {
+        "cylinder": "a dimensionless case has no stresses",
+        "supports": "a dimensionless case has no capacities",
+        "mud": "the weight of a dimensionless case is that in its fluids",
+        "pressure": "the forces of a dimensionless case are effective ones",
+        "catalogue": "a dimensionless case has no pipe",
+        "units": "results of a dimensionless case are in units of B and L",
+    }
+    for name, why in reasons.items():
+        if getattr(parsed, name) is not None:
+            raise InputError(name, None, f"needs [rod] and [hole]: {why}; leave it out")
+
+
+def dimensionless(
+    given: schema.Dimensionless | None, load: schema.DimensionlessLoad
+) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
+    """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
+    assert given is not None
+    try:
+        problem = Problem(
+            weight=given.weight,
+            alpha=given.alpha,
+            clearance=given.clearance,
+            poisson=given.poisson,
+            twist=load.twist,
+            ends=checked_ends(given.ends),
+        )
+    except InputError as found:
+        section = "load" if found.field == "twist" else "dimensionless"
+        raise InputError(f"{section}.{found.field}", found.value, found.problem) from None
+    if load.until is None and load.applied is None:
+        check_force_words(load)
+    bottom = load.at == "bottom"
+    more = problem.axial_weight if bottom else 0.0
+    until = None if load.until is None else load.until + more
+    applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
+    check_reach(until, applied)
+    return problem, until, applied

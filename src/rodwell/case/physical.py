@@ -1,0 +1,200 @@
+"""From the rod, hole, fluids and load of a case file to the dimensionless problem."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rodwell.case import schema
+from rodwell.case.applied import AppliedLoad
+from rodwell.case.catalogue import Catalogue
+from rodwell.case.facts import Fact
+from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
+from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.errors import InputError
+from rodwell.problem.ends import checked_ends
+from rodwell.problem.problem import Problem
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.units import System
+
+
+@dataclass(frozen=True)
+class Physical:
+    """A case with dimensions: problem, scales, effective end forces at s = 1 in B/L², and how; gravity in m/s²."""
+
+    problem: Problem
+    scales: Scales
+    until: float | None
+    applied: tuple[AppliedLoad, ...]
+    rod: PhysicalRod
+    fluids: Fluids
+    gravity: float
+    facts: tuple[Fact, ...]
+
+
+def physical(parsed: schema.CaseFile, load: schema.Load, catalogue: Catalogue) -> Physical:
+    """Return the dimensionless problem of a case with dimensions, and what it was made from.
+
+    Raises
+    ------
+    InputError
+        Naming the key of the case file that is missing, contradicts another, or does not fit the others.
+    """
+    if parsed.rod is None:
+        raise InputError("rod", None, "is missing: a case with [hole] needs [rod]")
+    if parsed.hole is None:
+        raise InputError("hole", None, "is missing: a case with [rod] needs [hole]")
+    hole = parsed.hole
+    rod = physical_rod(parsed.rod, hole.gravity, catalogue)
+    fluids = fluids_of(parsed.mud, parsed.pressure, rod)
+    weight = checked_weight(fluids, rod, hole.gravity)
+    clearance = _clearance(rod, hole)
+    if clearance >= rod.length:
+        raise InputError(
+            "hole.clearance" if hole.clearance else "hole.diameter",
+            hole.clearance or hole.diameter,
+            f"leaves a clearance of {clearance:g} m, which must be below the rod's length of {rod.length:g} m",
+        )
+    radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
+    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
+    problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
+    facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
+    facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
+    until, applied, how = _end_force(load, parsed, problem, scales, rod, fluids)
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how))
+
+
+def _problem(
+    ends: str, rod: PhysicalRod, hole: schema.Hole, scales: Scales, weight: float, clearance: float, twist: float
+) -> Problem:
+    """The problem in units B = L = 1; errors in the names of the case file."""
+    try:
+        return Problem(
+            weight=weight / scales.factor("force_per_length"),
+            alpha=_angle(hole),
+            clearance=clearance / rod.length,
+            poisson=rod.poisson,
+            twist=twist / scales.factor("moment"),
+            ends=checked_ends(ends),
+        )
+    except InputError as found:
+        names = {
+            "weight": "rod.length",
+            "poisson": "rod.poisson",
+            "twist": "load.twist",
+            "ends": "rod.ends",
+            "clearance": "hole.diameter",
+        }
+        name = names.get(found.field, found.field)
+        what = found.problem
+        if found.field == "weight":
+            what = (
+                f"makes γ = mg L³/B = {weight / scales.factor('force_per_length'):g}, which {what}: check the units of "
+            )
+            what += "length, weight or density, stiffness or diameters, and gravity"
+        raise InputError(name, None if found.field == "weight" else found.value, what) from None
+
+
+def _end_force(
+    load: schema.Load,
+    parsed: schema.CaseFile,
+    problem: Problem,
+    scales: Scales,
+    rod: PhysicalRod,
+    fluids: Fluids,
+) -> tuple[float | None, tuple[AppliedLoad, ...], list[Fact]]:
+    """Effective end forces at s = 1 in B/L² from load.until and load.applied, wherever and however they are measured.
+
+    The real force becomes the effective one where it is measured; from the bottom to the top the effective force
+    grows by the buoyed weight along the axis, N(s) = F + γ cos α (s − 1).
+    """
+    if load.until is None and load.applied is None:
+        check_force_words(load)
+        return None, (), []
+    if parsed.pressure is not None and load.kind is None:
+        key = "until" if load.until is not None else "applied"
+        what = (
+            f'is missing: with [pressure], say whether load.{key} is the "real" force in the wall of the pipe or the '
+        )
+        raise InputError("load.kind", None, what + '"effective" one')
+    assert parsed.hole is not None
+    bottom, gravity = load.at == "bottom", parsed.hole.gravity
+    drop = rod.length * math.cos(math.radians(problem.alpha)) if bottom and problem.alpha < 90.0 else 0.0
+    less = fluids.effective_minus_real(rod, gravity, drop) if load.kind == "real" else 0.0
+    where = "bottom, s = 0" if bottom else "top, s = 1"
+    facts = []
+
+    def at_top(given: float, what: str) -> float:
+        force = (given + less) / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+        how = f"from {load.kind or 'effective'} {scales.system.text(given, 'force', 6)} at the {where}"
+        facts.append(Fact(f"{what}, effective, at s = 1", force * scales.factor("force"), "force", how))
+        return force
+
+    until = None if load.until is None else at_top(load.until, "end force asked for")
+    applied = tuple(
+        AppliedLoad(at_top(given, "applied end force"), given, bottom, load.kind == "real")
+        for given in load.applied or ()
+    )
+    check_reach(until, applied)
+    return until, applied, facts
+
+
+def check_reach(until: float | None, applied: tuple[AppliedLoad, ...]) -> None:
+    """Refuse applied loads that lie beyond load.until."""
+    if until is None or not applied or min(load.force for load in applied) >= until:
+        return
+    raise InputError("load.until", None, "ends before load.applied: give one that is at least as compressive, or none")
+
+
+def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
+    """Refuse words on load.until where it is not given."""
+    for key in ("at", "kind"):
+        if getattr(load, key, None) is not None:
+            raise InputError(
+                f"load.{key}",
+                getattr(load, key),
+                "tells of load.until and load.applied: give load.until or load.applied too, or leave it out",
+            )
+
+
+def _clearance_from(hole: schema.Hole) -> str:
+    return "as given" if hole.diameter is None else "half of hole.diameter less the rod's outer diameter"
+
+
+def _clearance(rod: PhysicalRod, hole: schema.Hole) -> float:
+    if hole.clearance is not None:
+        if hole.diameter is not None:
+            raise InputError("hole.clearance", None, "contradicts hole.diameter: give only one of the two")
+        return hole.clearance
+    if hole.diameter is None:
+        raise InputError("hole.diameter", None, "is missing: give it, or hole.clearance (from axis to axis)")
+    if rod.outer_diameter is None:
+        raise InputError("rod.outer_diameter", None, "is missing: it is needed with hole.diameter")
+    if rod.outer_diameter >= hole.diameter:
+        raise InputError(
+            "hole.diameter",
+            hole.diameter,
+            f"must be above the rod's outer diameter of {rod.outer_diameter:g} m: the rod does not fit",
+        )
+    return 0.5 * (hole.diameter - rod.outer_diameter)
+
+
+def _angle(hole: schema.Hole) -> float:
+    angles = {
+        "angle_from_vertical": hole.angle_from_vertical,
+        "angle_from_horizontal": hole.angle_from_horizontal,
+    }
+    given = [(name, value) for name, value in angles.items() if value is not None]
+    if len(given) != 1:
+        raise InputError(
+            "hole.angle_from_vertical",
+            None,
+            "is missing: give it or hole.angle_from_horizontal"
+            if not given
+            else "contradicts hole.angle_from_horizontal: give only one of the two",
+        )
+    name, value = given[0]
+    degrees = round(math.degrees(value), 12)  # "90 deg" makes its way through radians
+    if not 0.0 <= degrees <= 90.0:
+        raise InputError(f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"')
+    return degrees if name == "angle_from_vertical" else 90.0 - degrees

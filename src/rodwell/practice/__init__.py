@@ -1,1 +1,0 @@
-"""The engineer's side: case files, units, answers, what they mean."""

@@ -1,0 +1,1 @@
+"""Stress and strength of rod, cylinder and supports in a state."""

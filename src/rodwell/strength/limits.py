@@ -1,0 +1,174 @@
+"""Loads at which something gives on the way from the straight rod to lift-off: yield, stability, capacities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF, SpecialPoint
+from rodwell.analysis.state.fields import ZOOMS
+from rodwell.case.case import Case
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.continuation.location import bracketed_root
+from rodwell.numerics.equilibria.family import Family, State
+from rodwell.problem.problem import Problem
+from rodwell.strength.cylinder import von_mises
+from rodwell.strength.loaded import LoadedRod, OnMesh, on_mesh
+from rodwell.strength.section import rod_section
+from rodwell.strength.supports import most_used
+
+LIFTS_OFF, UNSTABLE, YIELDS, CYLINDER, SUPPORT = "lift-off", "stability", "yield", "cylinder", "support"
+NAMES = {
+    "buckling": "buckling",
+    LIFTS_OFF: "lift-off",
+    UNSTABLE: "loss of stability (secondary bifurcation or fold)",
+    YIELDS: "first yield of the rod",
+    CYLINDER: "first yield of the cylinder",
+    SUPPORT: "capacity of a support",
+}
+
+NEAR = 0.9
+"""From this part of a strength on, its largest value along the rod is looked for closely."""
+
+LOOKS = 17
+"""Forces at which the straight rod is looked at for one that it bears."""
+
+ROUND_OFF = 1e-12
+"""Relative error of a load found for the straight rod."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A load at which something gives.
+
+    Attributes
+    ----------
+    kind
+        Key of ``NAMES``.
+    force, error
+        End force F at s = 1 in B/L², tension positive, and its error estimate; None where it is reached at any load.
+    s
+        Where along the rod, None where it is no place.
+    buckled
+        Whether the rod is buckled there; else it is straight.
+    """
+
+    kind: str
+    force: float | None
+    error: float = 0.0
+    s: float | None = None
+    buckled: bool = True
+
+    @property
+    def name(self) -> str:
+        """What gives."""
+        return NAMES[self.kind]
+
+
+@dataclass(frozen=True)
+class Use:
+    """How much of a strength a state uses: 1 is all of it.
+
+    ``size`` takes the fields of a state on one mesh, as a function of places, and how often to look closer for the
+    largest value; it gives the largest part used, and its place s/L (None where it is no place along the rod).
+    """
+
+    kind: str
+    size: Callable[[OnMesh, int], tuple[float, float | None]]
+
+    def of(self, state: LoadedRod, zooms: int = ZOOMS) -> tuple[float, float | None]:
+        """Largest part used and its place, on the fine mesh."""
+        return self.size(state.along[-1], zooms)
+
+
+def uses(case: Case) -> tuple[Use, ...]:
+    """The strengths that a case tells of."""
+    out, rod, scales = [], rod_section(case), case.scales
+    if rod is not None and rod.strength is not None:
+        strength = rod.strength
+        out.append(Use(YIELDS, lambda at, n: at.largest(lambda f: rod.von_mises(f) / strength, n)))
+    if case.cylinder is not None and scales is not None:
+        cylinder = case.cylinder
+        bears = cylinder.yield_strength
+        out.append(Use(CYLINDER, lambda at, n: at.largest(lambda f: von_mises(cylinder, f, scales) / bears, n)))
+    if case.supports is not None and scales is not None:
+        supports = case.supports
+        out.append(Use(SUPPORT, lambda at, _n: (most_used(at, supports, scales), None)))
+    return tuple(out)
+
+
+def limits(case: Case, branch: Branch, critical: float) -> tuple[Limit, ...]:
+    """Every limit of a rod on the way to lift-off of its first mode, the least compressive first.
+
+    The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached.
+    """
+    end = end_of_the_way(branch)
+    found = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
+    if end is not None:
+        buckled = end.kind != CRITICAL
+        kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
+        found.append(Limit(kind, end.force, end.error, end.s[0] if end.s else None, buckled))
+    return tuple(sorted(found, key=lambda limit: -np.inf if limit.force is None else -limit.force))
+
+
+def end_of_the_way(branch: Branch) -> SpecialPoint | None:
+    """Lift-off, or where the shape loses its stability before; None where the branch ends on the wall and stable."""
+    if branch.lift_off_at_buckling:
+        return branch.lift_off
+    return next((p for p in branch.special_points if p.kind == LIFT_OFF or p.index_after > 0), None)
+
+
+def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) -> Limit | None:
+    """Where a strength is used up: on the straight rod, or on the branch up to its end; None if it is not."""
+    problem = branch.problem
+    at_buckling, place = use.of(LoadedRod("", problem, critical))
+    if at_buckling >= 1.0:
+        return _of_straight(use, problem, critical, at_buckling - 1.0) or Limit(use.kind, None, s=place, buckled=False)
+    if end is not None and end.kind == CRITICAL:
+        return None
+    last = len(branch) - 1 if end is None else end.after
+    for i in range(1, last + 1):
+        state = LoadedRod("", problem, branch[i].force, solution=branch[i])
+        if use.of(state, 1)[0] >= NEAR and use.of(state)[0] >= 1.0:
+            return _located(use, branch, i - 1)
+    if end is not None and use.of(LoadedRod("", problem, end.force, solution=end.solution))[0] >= 1.0:
+        return _located(use, branch, last)
+    return None
+
+
+def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> Limit | None:
+    """Where the straight rod uses a strength up before it buckles; None if it does so at any load."""
+
+    def over(share: float) -> float:
+        return use.of(LoadedRod("", problem, least + share * (critical - least)))[0] - 1.0
+
+    # what is used is convex in the force, and least where neither end is far from zero force
+    forces = [force for force in np.linspace(0.0, problem.axial_weight, LOOKS) if force > critical]
+    parts = [use.of(LoadedRod("", problem, float(force)))[0] for force in forces]
+    if not parts or min(parts) >= 1.0:
+        return None
+    least, at_least = float(forces[int(np.argmin(parts))]), min(parts) - 1.0
+    force = least + bracketed_root(over, 0.0, 1.0, at_least, excess) * (critical - least)
+    error = ROUND_OFF * (abs(least) + abs(critical))
+    return Limit(use.kind, force, error, use.of(LoadedRod("", problem, force))[1], buckled=False)
+
+
+def _located(use: Use, branch: Branch, i: int) -> Limit:
+    """The limit between points i and i+1, located on both meshes.
+
+    If that fails, the last point before it, with the step as its error: the answer then counts as not converged.
+    """
+
+    def excess(family: Family, state: State) -> float:
+        return use.size(on_mesh(branch.problem, family, state), ZOOMS)[0] - 1.0
+
+    try:
+        solution, error = branch.zero_between(i, excess)
+    except NotConvergedError:
+        solution, error = branch[i], abs(branch[i + 1].force - branch[i].force)
+    return Limit(
+        use.kind, solution.force, error, use.of(LoadedRod("", branch.problem, solution.force, 0.0, solution))[1]
+    )

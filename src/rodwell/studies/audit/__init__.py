@@ -1,0 +1,1 @@
+"""Formulas of practice held against the exact loads."""

@@ -1,0 +1,1 @@
+"""Parameter studies: a case file with lists or ranges."""

@@ -1,0 +1,101 @@
+"""What becomes of the rod at the loads that act, for one point of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.answers.result.assessment import STRAIGHT, UNKNOWN, Assessment, AtLoad
+from rodwell.answers.result.computed import Computed
+from rodwell.case.applied import AppliedLoad
+from rodwell.case.case import Case
+from rodwell.strength.loaded import LoadedRod
+from rodwell.strength.section import RodStress, rod_section
+
+BUCKLES = "buckling"
+"""Key of ``limits.NAMES`` for the first critical load."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A number of one point in units B = L = 1, with its error estimate."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class LoadResult:
+    """The rod at one load of ``load.applied``.
+
+    Attributes
+    ----------
+    load
+        The load.
+    what
+        STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT or UNKNOWN, as in :mod:`rodwell.answers.result.assessment`.
+    why
+        For UNKNOWN, why; else what is amiss with the state, if anything.
+    spare
+        How much more compression until something gives, in B/L²; **negative**: that much beyond. By kind, the keys of
+        ``limits.NAMES``; those that are not reached before the rod leaves the wall are missing.
+    exceeded
+        Kinds of strength that are used up at any load.
+    contact
+        Largest contact force per length on the wall, in B/L³; None where the state is not known.
+    stress, safety
+        Largest von Mises stress in the rod in **Pa**, and the safety factor against yield; None where there is none.
+    """
+
+    load: AppliedLoad
+    what: str
+    why: str = ""
+    spare: Mapping[str, Result] = field(default_factory=dict)
+    exceeded: tuple[str, ...] = ()
+    contact: Result | None = None
+    stress: Result | None = None
+    safety: Result | None = None
+
+
+def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadResult, ...]:
+    """Return what becomes of the rod at each load that acts, from its first critical load and its first branch."""
+    if not case.applied:
+        return ()
+    assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
+    return tuple(_at(assessment, at) for at in assessment.applied)
+
+
+def _at(a: Assessment, at: AtLoad) -> LoadResult:
+    force, limits = at.load.force, a.window.limits
+    spare = {BUCKLES: Result(force - a.critical.force, a.critical.error)}
+    spare |= {one.kind: Result(force - one.force, one.error) for one in limits if one.force is not None}
+    exceeded = tuple(one.kind for one in limits if one.force is None)
+    state, why = at.state, at.why
+    if state is not None and state.solution is not None and not state.solution.converged:
+        why = "the state does not meet the tolerance: its errors say how well it is known"
+    stress = None if state is None else a.stress(state)
+    return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress))
+
+
+def _of_state(state: LoadedRod | None, found: RodStress | None) -> tuple[Result | None, Result | None, Result | None]:
+    """Contact, stress and safety factor of a state."""
+    contact = None if state is None else Result(state.contact.value, state.contact.error)
+    if found is None:
+        return contact, None, None
+    return contact, Result(found.value, found.error), None if found.safety is None else Result(*found.safety)
+
+
+def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadResult, ...]:
+    """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known."""
+    out, first, section = [], critical[0], rod_section(case)
+    for load in case.applied:
+        spare = {BUCKLES: Result(load.force - first.force, first.error)}
+        if load.force < first.force:
+            out.append(LoadResult(load, UNKNOWN, why, spare))
+            continue
+        state = LoadedRod("at the applied load", case.problem, load.force)
+        stress = None if section is None else section.largest(state)
+        out.append(LoadResult(load, STRAIGHT, "", spare, (), *_of_state(state, stress)))
+    return tuple(out)

@@ -1,0 +1,166 @@
+"""The points of a parameter study: what is computed for one case, and what its results are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.state.fields import ZOOMS
+from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
+from rodwell.case.case import Case
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.strength.limits import uses
+from rodwell.strength.loaded import LoadedRod
+from rodwell.studies.sweep.loads import LoadResult, Result, at_loads, without_branch
+
+__all__ = ["LoadResult", "Point", "Result", "Rod", "computed", "point"]
+
+
+@dataclass(frozen=True)
+class Point:
+    """One case of a study.
+
+    Attributes
+    ----------
+    number
+        Its number, from 0.
+    at
+        Numbers of the values that the varied inputs take.
+    case
+        The case; None if the inputs do not make one.
+    critical
+        First critical load: end force at s = 1, tension positive.
+    half_waves
+        Number of half waves of its mode, √(∫y''²/∫y'²)/π.
+    lift_off
+        Lift-off load of the first mode: end force at s = 1, tension positive; in a vertical cylinder it is buckling.
+    places
+        s/L of the places that lift off.
+    contact
+        Largest contact force per length at lift-off; None where lift-off coincides with buckling.
+    used
+        Parts used at lift-off of the strengths that the case tells of, 1 is all: of the rod ("yield"), of the cylinder
+        and of the most loaded support, by kind.
+    loads
+        The state at each of the loads that act, in the order of the case file; none where the case has none.
+    reasons
+        Why results are missing, by name: "case", "critical", "lift_off", "contact", "applied".
+    """
+
+    number: int
+    at: tuple[int, ...]
+    case: Case | None
+    critical: Result | None = None
+    half_waves: float | None = None
+    lift_off: Result | None = None
+    places: tuple[float, ...] = ()
+    contact: Result | None = None
+    used: Mapping[str, Result] = field(default_factory=dict)
+    loads: tuple[LoadResult, ...] = ()
+    reasons: Mapping[str, str] | None = None
+
+    def factor(self, dimension: str) -> float:
+        """SI value of one dimensionless unit of this point; 1 without dimensions."""
+        if self.case is None or self.case.scales is None:
+            return 1.0
+        return self.case.scales.factor(dimension)
+
+    def compression(self, name: str, bottom: bool = False) -> tuple[float, float] | None:
+        """Compression at "critical" or "lift_off", **positive**, and its error, in N (or B/L²).
+
+        At s = 1, where the end force acts, or at the ``bottom``, s = 0.
+        """
+        found: Result | None = getattr(self, name)
+        if found is None or self.case is None:
+            return None
+        unit = self.factor("force")
+        extra = self.case.problem.axial_weight if bottom else 0.0
+        return (extra - found.value) * unit, found.error * unit
+
+
+@dataclass(frozen=True)
+class Rod:
+    """What points share that differ in loads and strengths only.
+
+    Attributes
+    ----------
+    critical
+        First critical load; None if it could not be computed.
+    branch
+        First branch, to lift-off; None if it could not be followed.
+    why
+        What went wrong.
+    """
+
+    critical: CriticalLoads | None
+    branch: Branch | None = None
+    why: str = ""
+
+
+def computed(case: Case) -> Rod:
+    """Critical load and first branch of a case; what goes wrong is told in ``why``."""
+    try:
+        critical = critical_loads(case.problem, 1, rtol=case.rtol)
+    except NotConvergedError as problem:
+        return Rod(None, why=str(problem))
+    try:
+        return Rod(critical, follow(case.problem, critical[0], rtol=case.rtol))
+    except (InputError, NotConvergedError) as problem:
+        return Rod(critical, why=str(problem))
+
+
+def point(number: int, at: tuple[int, ...], case: Case, rod: Rod) -> Point:
+    """Results of one case, whose critical load and branch are those of ``rod``; reasons for what is missing."""
+    out = Point(number, at, case)
+    if rod.critical is None:
+        return replace(out, reasons={"critical": rod.why, "lift_off": "no critical load", "contact": "no lift-off"})
+    mode = rod.critical[0]
+    reasons: dict[str, str] = {}
+    out = replace(out, critical=Result(mode.force, mode.error), half_waves=mode.wavenumber / math.pi)
+    try:
+        if rod.branch is None:
+            raise NotConvergedError(rod.why)
+        lift_off, places, contact = _at_lift_off(rod.branch, reasons)
+        used = {} if contact is None else _used(case, rod.branch)
+        loads = at_loads(case, rod.critical, rod.branch)
+        out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads)
+    except (InputError, NotConvergedError) as problem:
+        reasons = {"lift_off": str(problem), "contact": "no lift-off"}
+        out = replace(out, loads=without_branch(case, rod.critical, str(problem)))
+    amiss = "; ".join(dict.fromkeys(one.why for one in out.loads if one.why))
+    if amiss:
+        reasons["applied"] = amiss
+    return replace(out, reasons=reasons or None)
+
+
+def _used(case: Case, branch: Branch) -> dict[str, Result]:
+    """Parts of the strengths used at lift-off, with errors from the two meshes."""
+    assert branch.lift_off is not None
+    lift = branch.lift_off
+    state = LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution)
+    out = {}
+    for use in uses(case):
+        coarse, fine = (use.size(mesh, ZOOMS)[0] for mesh in state.along)
+        out[use.kind] = Result(fine, float(estimated_error(fine, coarse)))
+    return out
+
+
+def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Result | None, tuple[float, ...], Result | None]:
+    lift = branch.lift_off
+    if lift is None:
+        reasons.update(lift_off=f"was not found: {branch.ended_because}", contact="no lift-off")
+        return None, (), None
+    found = Result(lift.force, lift.error)
+    if branch.lift_off_at_buckling:
+        reasons["contact"] = "lift-off coincides with buckling: no lateral weight"
+        return found, lift.s, None
+    if not branch.converged:
+        reasons["lift_off"] = (
+            "the branch to it does not meet the tolerance everywhere: its error says how well it is known"
+        )
+    peak = lift.solution.wall.contact
+    return found, lift.s, Result(peak.value, peak.error)

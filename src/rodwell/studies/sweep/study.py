@@ -1,0 +1,198 @@
+"""Parameter studies: a case file with lists or ranges, computed point by point."""
+
+from __future__ import annotations
+
+import itertools
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rodwell.case.case import Case, CaseError
+from rodwell.case.file import read_toml
+from rodwell.errors import InputError
+from rodwell.faces import plain
+from rodwell.quantities.units import SI, System
+from rodwell.studies.sweep.points import Point, computed, point
+from rodwell.studies.sweep.varied import LISTS, Varied, may_vary, varied_inputs
+
+APPLIED = "load.applied"
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class Study:
+    """What :func:`study` found.
+
+    Attributes
+    ----------
+    title, source, text
+        As in :class:`rodwell.Case`.
+    given
+        The inputs as written.
+    varied
+        One or two inputs that vary.
+    points
+        All points; the last input varies fastest.
+    """
+
+    title: str
+    source: str
+    text: str
+    given: Mapping[str, Any]
+    varied: tuple[Varied, ...]
+    points: tuple[Point, ...]
+
+    @property
+    def system(self) -> System:
+        """The units in which results are shown."""
+        found = (p.case.scales for p in self.points if p.case is not None and p.case.scales is not None)
+        return next((scales.system for scales in found), SI)
+
+    @property
+    def physical(self) -> bool:
+        """Whether the cases have dimensions."""
+        return any(point.case is not None and point.case.scales is not None for point in self.points)
+
+    def worst(self, name: str = "critical") -> Point | None:
+        """The point with the least compression at s = 1 at "critical" or "lift_off"; None if none has one.
+
+        Physical forces are compared, in N, since the unit B/L² may differ from point to point.
+        """
+        found = [(load[0], point) for point in self.points if (load := point.compression(name)) is not None]
+        return min(found, key=lambda pair: pair[0])[1] if found else None
+
+    @property
+    def incomplete(self) -> tuple[Point, ...]:
+        """Points that lack a result; their ``reasons`` say why."""
+        return tuple(point for point in self.points if point.reasons)
+
+    def inputs(self, point: Point) -> str:
+        """The varied inputs of a point in words."""
+        return ", ".join(f"{v.name} = {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+
+    @property
+    def load_varies(self) -> bool:
+        """Whether ``load.applied`` varies, which changes neither the critical load nor lift-off."""
+        return any(varied.name == APPLIED for varied in self.varied)
+
+    def rod_inputs(self, point: Point) -> str:
+        """The varied inputs of a point that change its critical load and lift-off, in words; may be empty."""
+        pairs = zip(self.varied, point.at, strict=True)
+        return ", ".join(f"{v.name} = {v.text(i)}" for v, i in pairs if v.name != APPLIED)
+
+    @property
+    def rods(self) -> tuple[Point, ...]:
+        """A point for each combination of the inputs other than the load, one that was computed if there is one."""
+        found: dict[tuple[int, ...], Point] = {}
+        for one in self.points:
+            key = tuple(i for v, i in zip(self.varied, one.at, strict=True) if v.name != APPLIED)
+            if key not in found or (found[key].critical is None and one.critical is not None):
+                found[key] = one
+        return tuple(found.values())
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain data, for JSON."""
+        return plain(self)
+
+
+def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None) -> Study:
+    """Compute a parameter study: a case in which one or two inputs are lists or ranges.
+
+    Parameters
+    ----------
+    case
+        Path of a case file, or its content as a dictionary. A list holds values as the case file would have them
+        (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both ends
+        included). Two inputs make a grid.
+    progress
+        Called with what is being done and how much is done.
+    units
+        "si", "field" or "mm": the units in which results are shown; by default those of the case. Tables as files are
+        in SI.
+
+    Raises
+    ------
+    InputError
+        If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
+        are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
+    """
+    data, source, text = _read(case)
+    try:
+        varied = varied_inputs(data)
+    except InputError as problem:
+        raise CaseError(source, [(problem.field, problem.value, problem.problem)]) from None
+    if not varied:
+        raise CaseError(
+            source, [("study", None, 'has no input that varies: give one a list, or a range "30..90 deg in 13"')]
+        )
+    tell = progress or (lambda _what, _done: None)
+    grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
+    folder = Path.cwd() if isinstance(case, Mapping) else Path(case).parent
+    cases = [_case(data, varied, at, source, folder, units) for at in grid]
+    if all(isinstance(found, InputError) for found in cases):
+        raise cases[0]  # type: ignore[misc]
+    points = _points(grid, cases, tell)
+    tell("done", 1.0)
+    title = str(data.get("title", "Untitled study"))
+    return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, points)
+
+
+def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[Point, ...]:
+    """All points in their order; those that differ in loads or strengths only share what is computed once."""
+    same: dict[Any, list[int]] = {}
+    for number, case in enumerate(cases):
+        same.setdefault((case.problem, case.rtol) if isinstance(case, Case) else number, []).append(number)
+    points: list[Point] = []
+    for numbers in same.values():
+        rod = None
+        for number in numbers:
+            tell(f"point {number + 1} of {len(grid)}", len(points) / len(grid))
+            case = cases[number]
+            if not isinstance(case, Case):
+                points.append(Point(number, grid[number], None, reasons={"case": str(case)}))
+                continue
+            rod = computed(case) if rod is None else rod
+            points.append(point(number, grid[number], case, rod))
+    return tuple(sorted(points, key=lambda found: found.number))
+
+
+def is_study(path: Path) -> bool:
+    """Whether a file is a case file with a list or range; False for what cannot be read, which ``Case`` explains."""
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, RecursionError):
+        return False
+    sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
+    values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
+    return any(may_vary(name, value) for name, value in values)
+
+
+def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:
+    if isinstance(case, Mapping):
+        return case, "study", ""
+    if not isinstance(case, str | Path):
+        raise InputError("case", case, "must be the path of a case file, or its content as a dictionary")
+    path = Path(case)
+    data, text = read_toml(path)
+    return data, path.name, text
+
+
+def _case(
+    data: Mapping[str, Any],
+    varied: tuple[Varied, ...],
+    at: tuple[int, ...],
+    source: str,
+    folder: Path,
+    units: str | None,
+) -> Case | InputError:
+    """The case of one point, or what is wrong with it."""
+    single: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in data.items()}
+    for one, i in zip(varied, at, strict=True):
+        single[one.section][one.key] = one.values[i]
+    try:
+        return Case.from_dict(single, source=source, folder=folder).in_units(units)
+    except InputError as problem:
+        return problem

@@ -1,0 +1,1 @@
+"""A well, station by station."""

@@ -1,0 +1,52 @@
+"""A screening as plain data, for JSON."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rodwell._version import __version__
+from rodwell.quantities.arrays import FloatArray
+from rodwell.studies.well.screening import Screening
+from rodwell.studies.well.tables import assumptions, sentences
+
+
+def screening_dict(screening: Screening) -> dict[str, Any]:
+    """Everything as plain data in SI units (m, N, degrees), for JSON; null where there is no value."""
+    survey = screening.survey
+
+    def listed(values: FloatArray | None) -> list[float | None] | None:
+        return None if values is None else [None if math.isnan(v) else float(v) for v in values]
+
+    string = screening.string
+    return {
+        "title": screening.case.title,
+        "rodwell_version": __version__,
+        "conventions": "SI units, angles in degrees; compression positive, at the station",
+        "assumptions": assumptions(screening),
+        "summary": sentences(screening),
+        "survey": survey.source,
+        "ignored_columns": list(survey.ignored),
+        "string": {
+            "bending_stiffness": string.stiffness,
+            "weight_per_length": string.weight,
+            "clearance": string.clearance,
+            "ends": list(string.ends),
+        },
+        "measured_depth": listed(survey.md),
+        "vertical_depth": listed(survey.tvd),
+        "inclination": listed(survey.inclination),
+        "azimuth": listed(survey.azimuth),
+        "local_rod_length": listed(screening.lengths),
+        "critical_compression": listed(screening.critical.values),
+        "critical_error": listed(screening.critical.errors),
+        "lift_off_compression": listed(screening.lift_off.values),
+        "lift_off_error": listed(screening.lift_off.errors),
+        "formulas": {key: listed(values) for key, values in screening.formulas.items()},
+        "compression": listed(screening.compression),
+        "utilisation": listed(screening.utilisation),
+        "weakest_station": screening.weakest + 1,
+        "worst_station": None if screening.worst is None else screening.worst + 1,
+        "length_effect": [{"inclination": a, "relative": v} for a, v in screening.length_effect.items()],
+        "remarks": {str(i + 1): text for i in range(len(survey)) if (text := screening.remarks(i))},
+    }

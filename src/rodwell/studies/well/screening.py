@@ -1,0 +1,220 @@
+"""Screening a well: exact local loads at every station of a survey, beside the formulas' and the string's force."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.loads.by_inclination import Loads, Precision, loads_at
+from rodwell.analysis.loads.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
+from rodwell.case.case import Case
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.formulas import FORMULAS
+from rodwell.quantities.arrays import FloatArray
+from rodwell.studies.well.survey import Survey
+
+CRITICAL_PRECISION = Precision(1e-3, 6)
+LIFT_OFF_PRECISION = Precision(1e-2, 4)
+"""Relative errors to which loads are interpolated where there are many inclinations; lift-off jumps where the place
+that lifts off changes."""
+
+BESIDE = {
+    "dawson_paslay": "Dawson–Paslay, sinusoidal",
+    "chen_lin_cheatham": "Chen–Lin–Cheatham, helical",
+    "he_kyllingstad": "He–Kyllingstad, sinusoidal, curved",
+}
+"""Formulas of practice that are set beside the exact loads, by key."""
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class Screening:
+    """What :func:`screen` found. Compression is **positive** here, in N, at the station.
+
+    Attributes
+    ----------
+    case, survey
+        String and hole; the well.
+    string
+        B, w, r and the ends of the local rod.
+    critical, lift_off
+        Exact loads with errors: compression at the local rod's lower end, which is the station.
+    formulas
+        Loads of the formulas by key, (n,) each.
+    compression
+        Effective compression of the string at the stations (n,), or None if no force was given.
+    length_effect
+        Largest relative gap, estimated, between the critical load of the local rod's length and that of an endless
+        rod, by inclination in degrees at the steepest and the flattest stations.
+    """
+
+    case: Case
+    survey: Survey
+    string: String
+    critical: Loads
+    lift_off: Loads
+    formulas: dict[str, FloatArray]
+    compression: FloatArray | None
+    length_effect: dict[float, float]
+
+    @property
+    def local(self) -> FloatArray:
+        """Inclination of the local rods in degrees, (n,), 0 to 90; a hole of 91° is one of 89° that goes uphill."""
+        return np.minimum(self.survey.inclination, 180.0 - self.survey.inclination)
+
+    @property
+    def lengths(self) -> FloatArray:
+        """Length of the local rod for the critical load in m, (n,)."""
+        return np.array([self.string.length(float(alpha)) for alpha in self.local])
+
+    @property
+    def utilisation(self) -> FloatArray | None:
+        """Compression as a part of the critical compression, (n,); 0 in tension, NaN without a critical load."""
+        if self.compression is None:
+            return None
+        return np.asarray(np.maximum(self.compression, 0.0) / self.critical.values)
+
+    @property
+    def dropping(self) -> FloatArray:
+        """Whether the hole's curvature takes the pipe off the low side, (n,): straight-hole loads are then too high.
+
+        Judged by He–Kyllingstad below Dawson–Paslay by more than one percent.
+        """
+        return np.asarray(self.formulas["he_kyllingstad"] < 0.99 * self.formulas["dawson_paslay"])
+
+    @property
+    def weakest(self) -> int:
+        """The station where least compression buckles the pipe."""
+        return int(np.nanargmin(self.critical.values))
+
+    @property
+    def worst(self) -> int | None:
+        """The station with the largest utilisation; None without forces, or if all is in tension."""
+        used = self.utilisation
+        return None if used is None or not np.nanmax(used) > 0.0 else int(np.nanargmax(used))
+
+    def remarks(self, i: int) -> str:
+        """What must be known of a station."""
+        parts = [f"critical load: {self.critical.reasons[i]}"] if i in self.critical.reasons else []
+        parts += [f"lift-off: {self.lift_off.reasons[i]}"] if i in self.lift_off.reasons else []
+        if self.local[i] == 0.0:
+            parts.append(
+                "vertical: no lateral weight, lift-off coincides with buckling, and the load falls with length"
+            )
+        if self.dropping[i]:
+            parts.append("hole curvature takes the pipe off the low side: the straight-hole loads are too high here")
+        if self.survey.inclination[i] > 90.0:
+            parts.append("uphill: the local rod's lower end is towards the surface")
+        return "; ".join(parts)
+
+
+def screen(
+    case: Case,
+    survey: Survey,
+    *,
+    bit_force: float | None = None,
+    hook_force: float | None = None,
+    progress: Progress | None = None,
+) -> Screening:
+    """Screen a well station by station: where would the string buckle, where leave the wall, under which compression.
+
+    At every station the exact problem of a long straight rod is solved: its lower end is the station, it goes uphill at
+    the station's inclination, with the string's B, weight and clearance and the ends of the case; 20 half
+    waves of the long-rod wave long, 12 for lift-off. Hole curvature, friction and pressure do not enter.
+
+    Parameters
+    ----------
+    case
+        String and hole with dimensions; its length, inclination and loads are not used.
+    survey
+        The well. If it has forces, those are the string's.
+    bit_force, hook_force
+        Effective axial force at the last station or at the first in N, **tension positive**. Along the well it changes
+        by the weight per length of the case times vertical depth (no friction). At most one of the two.
+    progress
+        Called with what is being done and how much is done.
+
+    Raises
+    ------
+    InputError
+        If the case has no dimensions or no weight, or forces are given twice.
+    NotConvergedError
+        If no station at all has a critical load; single ones that lack a load say why in ``reasons``.
+    """
+    tell = progress or (lambda _what, _done: None)
+    string = _string(case)
+    compression = _compression(string, survey, bit_force, hook_force)
+    local = [float(a) for a in np.minimum(survey.inclination, 180.0 - survey.inclination)]
+    known: dict[float, LocalLoad] = {}
+
+    def buckles(alpha: float) -> LocalLoad:
+        if alpha not in known:
+            known[alpha] = critical_compression(string, alpha)
+        return known[alpha]
+
+    critical = loads_at(
+        local,
+        buckles,
+        CRITICAL_PRECISION,
+        lambda done: tell("critical loads", 0.3 * done),
+    )
+    if len(critical.reasons) == len(survey):
+        raise NotConvergedError(f"no station has a critical load: {critical.reasons[0]}")
+    lift_off = loads_at(
+        local,
+        lambda alpha: buckles(alpha) if alpha == 0.0 else lift_off_compression(string, alpha),
+        LIFT_OFF_PRECISION,
+        lambda done: tell("lift-off loads", 0.3 + 0.6 * done),
+    )
+    tell("formulas", 0.95)
+    effect = {alpha: length_effect(string, alpha, buckles(alpha)) for alpha in (min(local), max(local))}
+    return Screening(case, survey, string, critical, lift_off, _formulas(string, survey), compression, effect)
+
+
+def _string(case: Case) -> String:
+    if not isinstance(case, Case):
+        raise InputError("case", case, "must be a rodwell.Case")
+    if case.scales is None:
+        raise InputError("case", case.source, "must have dimensions to be set into a well: give [rod] and [hole]")
+    problem, scales = case.problem, case.scales
+    if problem.weight == 0.0:
+        raise InputError("case", case.source, "has a weightless rod: nothing presses it to the wall of a well")
+    weight = problem.weight * scales.factor("force_per_length")
+    return String(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
+
+
+def _compression(
+    string: String, survey: Survey, bit_force: float | None, hook_force: float | None
+) -> FloatArray | None:
+    """Effective compression at the stations in N."""
+    given = {"a force column": survey.force, "bit_force": bit_force, "hook_force": hook_force}
+    names = [name for name, value in given.items() if value is not None]
+    if len(names) > 1:
+        raise InputError("forces", None, f"are given twice: {' and '.join(names)}; give only one")
+    for name, value in (("bit_force", bit_force), ("hook_force", hook_force)):
+        if value is not None and not math.isfinite(value):
+            raise InputError(name, value, "must be finite, in N, tension positive")
+    if survey.force is not None:
+        return -survey.force
+    hanging = string.weight * survey.tvd
+    if bit_force is not None:
+        return np.asarray(-bit_force - (hanging[-1] - hanging))
+    if hook_force is not None:
+        return np.asarray(hanging - hook_force)
+    return None
+
+
+def _formulas(string: String, survey: Survey) -> dict[str, FloatArray]:
+    out: dict[str, FloatArray] = {}
+    for key in BESIDE:
+        formula, values = FORMULAS[key], []
+        for i in range(len(survey)):
+            known = {"B": string.stiffness, "w": string.weight, "alpha": float(survey.inclination[i]),
+                     "r": string.clearance, "build": float(survey.build[i]), "turn": float(survey.turn[i])}  # fmt: skip
+            values.append(float(formula.function(**{name: known[name] for name in formula.takes})))
+        out[key] = np.array(values)
+    return out
