@@ -30,7 +30,7 @@ from rodwell.case import schema
 from rodwell.case.case import SECTIONS
 from rodwell.case.catalogue import package_catalogue
 from rodwell.cli.main import cli
-from rodwell.quantities import names as nomenclature
+from rodwell.quantities import names
 from rodwell.quantities.text import readable
 from rodwell.quantities.units import KINDS, SI, System
 
@@ -141,14 +141,14 @@ def _run(line: str) -> str:
 def nomenclature_tables() -> str:
     """The fields along the rod and the numbers of one state, as two tables."""
     parts = []
-    titles = {"Fields along the rod": nomenclature.FIELDS, "Numbers of one state": nomenclature.SCALARS}
-    titles["Contact loads that vanish without friction"] = nomenclature.VANISHING
-    for title, names in titles.items():
+    titles = {"Fields along the rod": names.FIELDS, "Numbers of one state": names.SCALARS}
+    titles["Contact loads that vanish without friction"] = names.VANISHING
+    for title, listed in titles.items():
         rows = []
-        for name in names:
-            q = nomenclature.QUANTITIES[name]
-            unit = PRETTY[nomenclature.UNITS[q.dimension]]
-            si = nomenclature.SI_UNITS[q.dimension]
+        for name in listed:
+            q = names.QUANTITIES[name]
+            unit = PRETTY[names.UNITS[q.dimension]]
+            si = names.SI_UNITS[q.dimension]
             rows.append((q.symbol, f"`{q.name}`", q.meaning, unit, PRETTY.get(si, si), q.equation))
         head = ("Symbol", "Name in code", "Meaning", "Unit", "SI", "Equation")
         parts.append(f"## {title}\n\n{make_howto.table(head, rows)}")

@@ -9,7 +9,7 @@ from make_howto import number
 import rodwell
 from rodwell.plots.paper.figures import DRAW
 from rodwell.plots.paper.frame import context
-from rodwell.report.paper import markdown
+from rodwell.report.folders.paper import markdown
 from rodwell.studies.paper.agreement import agreement
 from rodwell.studies.paper.items import ITEMS
 from rodwell.studies.paper.work import Work

@@ -6,9 +6,9 @@ import tempfile
 from pathlib import Path
 
 import rodwell
-from rodwell.report.pdf import typeset
-from rodwell.report.pictures import draw
-from rodwell.report.sections import case_report
+from rodwell.report.folders.pictures import draw
+from rodwell.report.pages.pdf import typeset
+from rodwell.report.reports.case import case_report
 
 PPI = 110
 

@@ -69,8 +69,8 @@ def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
         return {}
 
     monkeypatch.setattr("rodwell.answers.result.answer.answer", lambda *_: computed)
-    monkeypatch.setattr("rodwell.report.write.draw", draw)
-    monkeypatch.setattr("rodwell.report.pdf.render", lambda *_: "<p>new report</p>")
+    monkeypatch.setattr("rodwell.report.folders.case.draw", draw)
+    monkeypatch.setattr("rodwell.report.pages.pdf.render", lambda *_: "<p>new report</p>")
 
 
 @pytest.fixture
@@ -248,9 +248,9 @@ def disk_full(*_: object, **__: object) -> None:
 
 STAGES = [
     pytest.param("rodwell.answers.result.answer.answer", id="computing"),
-    pytest.param("rodwell.report.write.draw", id="drawing"),
-    pytest.param("rodwell.report.pdf.render", id="rendering"),
-    pytest.param("rodwell.report.write.write_answer", id="writing-data"),
+    pytest.param("rodwell.report.folders.case.draw", id="drawing"),
+    pytest.param("rodwell.report.pages.pdf.render", id="rendering"),
+    pytest.param("rodwell.report.folders.case.write_answer", id="writing-data"),
 ]
 
 
@@ -391,7 +391,7 @@ module.follow = interrupted
 """
 
 WRITING = """
-import rodwell.report.write as module
+import rodwell.report.folders.case as module
 
 def draw(answer, folder):
     (folder / "half.png").write_bytes(b"half")

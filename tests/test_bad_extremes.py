@@ -189,6 +189,6 @@ def test_nothing_is_made_if_nothing_is_written(place: Path, monkeypatch: pytest.
     def stopped(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("rodwell.report.pdf.render", stopped)
+    monkeypatch.setattr("rodwell.report.pages.pdf.render", stopped)
     assert exit_code(monkeypatch, "run", "case.toml") == 130
     assert [file.name for file in place.iterdir()] == ["case.toml"]

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 import rodwell
-from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete import first_run
 from rodwell.compiling import second_process
 
 
@@ -21,14 +21,14 @@ def no_helper(monkeypatch):
 
 def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
     rodwell.follow(rodwell.Problem(weight=15, alpha=90), until=-130)
-    for kernel, arguments in ahead.KERNELS:
+    for kernel, arguments in first_run.KERNELS:
         in_use = len(kernel.signatures)
         kernel.compile(arguments)
         assert len(kernel.signatures) == in_use  # compiling ahead added none
 
 
 def test_each_kernel_is_announced(capsys):
-    ahead.main()
+    first_run.main()
     assert capsys.readouterr().out.split() == ["contact_maxima", "correct", "softest"]
 
 
@@ -56,16 +56,17 @@ def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
     begun = []
     monkeypatch.setattr(second_process, "begin", begun.append)
     monkeypatch.setattr(second_process, "on_disk", lambda _kernel: False)
-    ahead.begin()
+    first_run.begin()
     assert begun == ["rodwell.analysis.discrete.first_run"]
     monkeypatch.setattr(second_process, "on_disk", lambda _kernel: True)
-    ahead.begin()
+    first_run.begin()
     assert len(begun) == 1
 
 
 def test_machine_code_on_disk_is_seen(tmp_path):
     script = (
-        "from rodwell.compiling import second_process; from rodwell.numerics.equilibria.newton import dot; import numpy as np;"
+        "from rodwell.compiling import second_process; from rodwell.numerics.equilibria.newton import dot;"
+        "import numpy as np;"
         "print(second_process.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(second_process.on_disk(dot))"
     )
     run = subprocess.run(

@@ -1,5 +1,5 @@
 import rodwell
-from rodwell.report.write import write_results
+from rodwell.report.folders.case import write_results
 
 answer = rodwell.answer(rodwell.Case.read("examples/field-drill-pipe.toml"))
 files = write_results(answer, "results/field-drill-pipe", with_pdf=True)

@@ -52,7 +52,7 @@ _HOME = {
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
     "equilibrium": "rodwell.analysis.branch.minimum",
-    "export": "rodwell.report.export",
+    "export": "rodwell.report.folders.export",
     "follow": "rodwell.analysis.branch.follow",
     "lift_off_curve": "rodwell.analysis.curves.states",
     "screen": "rodwell.studies.well.screening",
@@ -93,7 +93,7 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
-    from rodwell.report.export import export
+    from rodwell.report.folders.export import export
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
@@ -110,7 +110,7 @@ def _late(module: str, name: str) -> Face:
 
 
 fill(
-    html=_late("rodwell.report.notebook", "html"),
+    html=_late("rodwell.report.pages.notebook", "html"),
     plot=_late("rodwell.plots.methods", "plot"),
     plot_in_space=_late("rodwell.plots.methods", "plot_in_space"),
     dataset=_late("rodwell.store.dataset", "dataset"),

@@ -9,7 +9,7 @@ import pytest
 from scipy.linalg import eigh
 
 from rodwell import Problem, diagram, follow
-from rodwell.numerics.continuation import walk as continuation
+from rodwell.numerics.continuation import walk
 from rodwell.numerics.continuation.softest import Watch, _dips, hidden_change
 
 PLACE = np.array([-1.0, 0.0, 1.0])
@@ -57,6 +57,6 @@ def test_a_branch_is_looked_at_between_points_where_an_eigenvalue_dips(monkeypat
         seen.append(hidden_change(*arguments))
         return seen[-1]
 
-    monkeypatch.setattr(continuation, "hidden_change", counted)
+    monkeypatch.setattr(walk, "hidden_change", counted)
     diagram(Problem(15.0, twist=0.5), modes=1, until=-450.0, largest_step=0.04)
     assert any(seen)

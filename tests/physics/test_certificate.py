@@ -9,8 +9,7 @@ import rodwell
 from rodwell import Problem
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state import certificate
-from rodwell.physics.on_wall import braid
-from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall import braid, equations
 from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
 from rodwell.physics.on_wall.parameters import SIDE
 
@@ -183,9 +182,9 @@ def test_engine_finds_the_helix(clearance: float, turns: int) -> None:
 def test_paper_system_has_fifteen_of_everything() -> None:
     x = Fifteen(*np.random.default_rng(1).normal(size=(15, 4)))
     load = Load(-50.0, 0.3, 5.0, 8.0, 0.01, 1.0 / 1.3)
-    assert len(paper.right_hand_sides(x, load)) == len(NAMES) == 15
-    assert paper.rates(np.array(x), load).shape == (15, 4)
-    ends = paper.end_conditions(Fifteen(*np.array(x)[:, 0]), Fifteen(*np.array(x)[:, -1]), load)
+    assert len(equations.right_hand_sides(x, load)) == len(NAMES) == 15
+    assert equations.rates(np.array(x), load).shape == (15, 4)
+    ends = equations.end_conditions(Fifteen(*np.array(x)[:, 0]), Fifteen(*np.array(x)[:, -1]), load)
     assert list(ends) == [f"(B{i})" for i in range(1, 16)]
 
 

@@ -17,8 +17,8 @@ import rodwell
 from rodwell.analysis.state.extent import buckled_to
 from rodwell.answers.words.meaning import sentences
 from rodwell.cli.main import main
-from rodwell.report.texts import number
-from rodwell.report.write import FILES
+from rodwell.report.folders.case import FILES
+from rodwell.report.reports.texts import number
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "drill-string.toml"
 

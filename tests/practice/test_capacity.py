@@ -51,12 +51,12 @@ def test_stress_is_that_of_a_tube_under_bending_and_torsion() -> None:
 
 def test_torsion_alone_counts_as_in_von_mises(monkeypatch: pytest.MonkeyPatch) -> None:
     """√3 τ, with τ = T R/J of a tube."""
-    from rodwell.strength import cylinder as capacity
+    from rodwell.strength import cylinder
 
     def twisted(_problem, _family, _state, s):
         return {"mu": 0.0 * s, "cylinder_M3": 0.0 * s, "T2": np.full_like(s, 0.02)}
 
-    monkeypatch.setattr(capacity, "fields_at", twisted)
+    monkeypatch.setattr(cylinder, "fields_at", twisted)
     state = rodwell.follow(Problem(15.0), until=-130.0)[-1]
     found = cylinder_stress(state, Cylinder(0.3, 0.25, 3e8), Scales(20.0, 1e5))
     torque, polar = 0.02 * 1e5 / 20.0, math.pi / 2.0 * (0.15**4 - 0.125**4)

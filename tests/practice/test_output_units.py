@@ -19,7 +19,7 @@ from rodwell.plots.units import axis
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
 from rodwell.quantities.units import SYSTEMS, System, to_si
-from rodwell.report.texts import derived, rows
+from rodwell.report.reports.texts import derived, rows
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

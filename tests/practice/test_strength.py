@@ -405,7 +405,7 @@ def test_figures_put_depth_downwards_in_inclined_holes(base: dict[str, Any], tur
 
 def test_section_of_the_report(drilling: Answer) -> None:
     """The numbers of the answer, in its units, and every table that the case has."""
-    from rodwell.report.strength import strength_sections
+    from rodwell.report.reports.strength import strength_sections
 
     page = json.dumps([asdict(section) for section in strength_sections(drilling)], ensure_ascii=False)
     lift, scales = drilling.lift_off, drilling.case.scales

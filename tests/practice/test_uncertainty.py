@@ -132,7 +132,7 @@ def test_nonsense_is_refused(key: str, text: str, message: str) -> None:
 
 def test_answer_and_report_carry_it(tmp_path) -> None:
     from rodwell.answers.words.meaning import sentences
-    from rodwell.report.write import write_results
+    from rodwell.report.folders.case import write_results
 
     result = rodwell.answer(case(rod__length="30 m ± 0.1 m"))
     data = result.as_dict()

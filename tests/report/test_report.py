@@ -22,7 +22,7 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.answers.words.advice import statuses
 from rodwell.cli.main import main
 from rodwell.plots.bifurcation import telling
-from rodwell.report.write import write_results
+from rodwell.report.folders.case import write_results
 
 TITLE = 'A <script>alert("1")</script> & *bold* #pagebreak() $x$ pipe'
 PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
@@ -209,10 +209,10 @@ def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monke
 
 
 def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) -> None:
-    from rodwell.report.content import Words
-    from rodwell.report.pdf import pdf
-    from rodwell.report.pictures import draw
-    from rodwell.report.sections import case_report
+    from rodwell.report.folders.pictures import draw
+    from rodwell.report.pages.pdf import pdf
+    from rodwell.report.reports.case import case_report
+    from rodwell.report.reports.content import Words
 
     case = rodwell.Case.from_dict(
         {

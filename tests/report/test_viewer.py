@@ -14,7 +14,7 @@ import pytest
 
 import rodwell
 from rodwell.analysis.space.scene import drawn, scene
-from rodwell.report.viewer import view, viewer, write_viewer
+from rodwell.report.pages.viewer import view, viewer, write_viewer
 
 NEEDED = {"src", "href", "data", "poster", "action"}
 
@@ -113,7 +113,7 @@ def test_colour_bar(state: rodwell.Solution) -> None:
 
 
 def test_report_turns_and_prints(tmp_path: Path) -> None:
-    from rodwell.report.write import FILES, write_results
+    from rodwell.report.folders.case import FILES, write_results
 
     case = rodwell.Case.from_dict({"dimensionless": {"weight": 15}, "analysis": {"modes": 1, "rtol": 1e-6}})
     write_results(rodwell.answer(case), tmp_path)

@@ -22,7 +22,7 @@ from rodwell.analysis.space.scene import linear_colours, palette, pressure_colou
 from rodwell.analysis.space.surfaces import tube
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
-from rodwell.report.export import FORMATS
+from rodwell.report.folders.export import FORMATS
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "drill-string.toml"
 

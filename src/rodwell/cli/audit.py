@@ -63,7 +63,7 @@ def audit(
     if friction is not None:
         extra["mu"] = friction
 
-    from rodwell.report.audit import write_audit  # noqa: PLC0415
+    from rodwell.report.folders.audit import write_audit  # noqa: PLC0415
     from rodwell.studies.audit.audit import audit as compute  # noqa: PLC0415
     from rodwell.studies.audit.error_map import error_map  # noqa: PLC0415
 

@@ -57,8 +57,8 @@ def export(
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.report.export import checked_files, checked_rod_radius  # noqa: PLC0415
-    from rodwell.report.export import export as write  # noqa: PLC0415
+    from rodwell.report.folders.export import checked_files, checked_rod_radius  # noqa: PLC0415
+    from rodwell.report.folders.export import export as write  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     read = Case.read(case).in_units(units)

@@ -65,7 +65,7 @@ def diagram(
     problem = make_problem(given)
     check_writable(out)
     from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
-    from rodwell.report.write import write_diagram  # noqa: PLC0415
+    from rodwell.report.folders.case import write_diagram  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(
@@ -149,7 +149,7 @@ def curve(
     given[over] = start  # whatever was given: the range counts
     problem = make_problem(_with_required(given, over))
     check_writable(out)
-    from rodwell.report.write import write_curves  # noqa: PLC0415
+    from rodwell.report.folders.case import write_curves  # noqa: PLC0415
 
     with progress_bar(not as_json, f"{kind} curve") as tell:
         report = lambda done: tell(f"{kind} curve over {over}", done)  # noqa: E731

@@ -47,7 +47,7 @@ def paper(
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     check_writable(out)
-    from rodwell.report.paper import write_paper  # noqa: PLC0415
+    from rodwell.report.folders.paper import write_paper  # noqa: PLC0415
 
     with progress_bar(not as_json, "numbers") as tell:
         table, files = write_paper(out, names, figures=figures, rtol=rtol, jobs=jobs, progress=tell)
@@ -64,7 +64,7 @@ def _print(table: Agreement) -> None:
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
 
-    from rodwell.report.paper import HEAD, remarks  # noqa: PLC0415
+    from rodwell.report.folders.paper import HEAD, remarks  # noqa: PLC0415
     from rodwell.studies.paper.agreement import CONVENTION  # noqa: PLC0415
 
     console = Console(highlight=False)
@@ -83,7 +83,7 @@ def _rows(findings: list[Finding]) -> Iterator[Sequence[str] | str]:
     """Rows under the places of the paper that they belong to."""
     from rich.markup import escape  # noqa: PLC0415
 
-    from rodwell.report.paper import cells  # noqa: PLC0415
+    from rodwell.report.folders.paper import cells  # noqa: PLC0415
 
     place = ""
     for finding in findings:

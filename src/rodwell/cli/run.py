@@ -37,7 +37,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
 
     folder = Path("results") / case.stem if out is None else out
     if with_pdf:
-        from rodwell.report.pdf import check_pdf  # noqa: PLC0415
+        from rodwell.report.pages.pdf import check_pdf  # noqa: PLC0415
 
         check_pdf()
     if is_study(case):
@@ -49,7 +49,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
     read = Case.read(case).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
-    from rodwell.report.write import write_results  # noqa: PLC0415
+    from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
         result = answer(read, tell)
@@ -69,9 +69,9 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
 
     from rodwell.answers.words.meaning import sentences  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
-    from rodwell.report.pdf import PDF  # noqa: PLC0415
-    from rodwell.report.texts import rows  # noqa: PLC0415
-    from rodwell.report.write import FILES  # noqa: PLC0415
+    from rodwell.report.folders.case import FILES  # noqa: PLC0415
+    from rodwell.report.pages.pdf import PDF  # noqa: PLC0415
+    from rodwell.report.reports.texts import rows  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(answer)

@@ -53,7 +53,7 @@ def screen(
     check_writable(folder)
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
 
-    from rodwell.report.survey import write_screening  # noqa: PLC0415
+    from rodwell.report.folders.well import write_screening  # noqa: PLC0415
     from rodwell.studies.well.plain import screening_dict  # noqa: PLC0415
     from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
     """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
-    from rodwell.report.study import write_study  # noqa: PLC0415
+    from rodwell.report.folders.study import write_study  # noqa: PLC0415
     from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "reading") as tell:

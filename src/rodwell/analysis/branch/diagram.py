@@ -13,7 +13,7 @@ from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, checked_end
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.symmetry import Reflection
-from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, CriticalLoads, critical_loads
@@ -174,7 +174,7 @@ def diagram(
     NotConvergedError
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
-    ahead.begin()
+    first_run.begin()
     rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
     largest_step = checked_step(largest_step)
     tell = progress or (lambda _what, _done: None)

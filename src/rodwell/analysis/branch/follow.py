@@ -10,7 +10,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state
 from rodwell.analysis.branch.tracing import Progress, traced
-from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
@@ -87,7 +87,7 @@ def follow(
     """
     rtol = checked_rtol(rtol)
     largest_step = checked_step(largest_step)
-    ahead.begin()
+    first_run.begin()
     if parameter not in PATHS:
         raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family as equilibria
 from rodwell.analysis.discrete.measures import measured_ladder
@@ -47,7 +47,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     NotConvergedError
         If no minimum was found, with the reason.
     """
-    ahead.begin()
+    first_run.begin()
     rtol = checked_rtol(rtol)
     force = checked_force("force", force)
     if problem.turns == 0:

@@ -45,7 +45,7 @@ class Solution(Equilibrium, Shown):
 
     @cached_property
     def wall(self) -> WallLoads:
-        """What the wall and the supports of the cylinder must bear: see :class:`rodwell.analysis.state.wall.WallLoads`."""
+        """What wall and supports must bear: see :class:`rodwell.analysis.state.wall.WallLoads`."""
         return wall_loads(self)
 
     @cached_property

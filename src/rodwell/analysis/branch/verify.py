@@ -1,9 +1,9 @@
 """A second opinion: the paper's fifteen-dimensional boundary-value problem by another method and another program.
 
 SciPy's ``solve_bvp`` (collocation with cubic polynomials on an adaptive mesh, residual control) solves (22)–(27),
-(32)–(36), (41)–(44) with (B1)–(B15) as stated in :mod:`rodwell.physics.on_wall.equations`. It shares neither energy nor spline nor
-Newton's method with the engine, and it does not start from the engine's answer but from the state at another load,
-sampled coarsely: what agrees afterwards was found twice.
+(32)–(36), (41)–(44) with (B1)–(B15) as stated in :mod:`rodwell.physics.on_wall.equations`. It shares neither energy nor
+spline nor Newton's method with the engine, and it does not start from the engine's answer but from the state at another
+load, sampled coarsely: what agrees afterwards was found twice.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from rodwell.analysis.branch.tracing import Progress
 from rodwell.analysis.state.certificate import load_of
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, NotConvergedError, checked_number
-from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
 
@@ -226,14 +226,14 @@ def _solve(load: Load, start: Guess, rtol: float) -> tuple[int, float, Dense, st
     from scipy.integrate import solve_bvp  # noqa: PLC0415 - slow to import
 
     def conditions(first: FloatArray, last: FloatArray) -> FloatArray:
-        ends = paper.end_conditions(Fifteen(*first), Fifteen(*last), load)
+        ends = equations.end_conditions(Fifteen(*first), Fifteen(*last), load)
         return np.array([condition.residual for condition in ends.values()])
 
     # a loose solution first: the mesh then grows where the solution, not the start, needs it
-    result = solve_bvp(lambda s, x: paper.rates(x, load), conditions, *start, tol=1e-4, max_nodes=MOST_NODES)
+    result = solve_bvp(lambda s, x: equations.rates(x, load), conditions, *start, tol=1e-4, max_nodes=MOST_NODES)
     if result.status == 0 and rtol < 1e-4:
         result = solve_bvp(
-            lambda s, x: paper.rates(x, load), conditions, result.x, result.y, tol=rtol, max_nodes=MOST_NODES
+            lambda s, x: equations.rates(x, load), conditions, result.x, result.y, tol=rtol, max_nodes=MOST_NODES
         )
     return result.x.size, float(np.max(result.rms_residuals)), result.sol, result.message
 
@@ -280,7 +280,7 @@ def _highest_pressure(load: Load, dense: Dense, side: float) -> float:
     from scipy.optimize import minimize_scalar  # noqa: PLC0415
 
     def pressure(s: FloatArray) -> FloatArray:
-        return np.asarray(side * sum(paper.strands(Fifteen(*dense(s)), load).p))
+        return np.asarray(side * sum(equations.strands(Fifteen(*dense(s)), load).p))
 
     s = np.linspace(0.0, 1.0, 10 * GRID)
     values = pressure(s)

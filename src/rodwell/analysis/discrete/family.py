@@ -39,7 +39,7 @@ def spline_ends(problem: Problem) -> Ends:
 
 
 def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
-    """Parameters of ``problem`` as one of :data:`PATHS` varies: see :class:`rodwell.numerics.equilibria.family.Family`."""
+    """Parameters as one of :data:`PATHS` varies: see :class:`rodwell.numerics.equilibria.family.Family`."""
     out = np.zeros((4, COUNT))
     out[0] = parameters(problem, force)
     if parameter == "weight":

@@ -1,9 +1,10 @@
 """Critical loads with proof: enclosed to any number of digits, numbered, none skipped.
 
-What is proved, and how: see :mod:`rodwell.analysis.proof.inertia` for the counts and :mod:`rodwell.analysis.proof.roots` for the
-enclosures. In short, each load lies in an interval at whose ends the certified number of critical loads above differs
-by one. That proves that it exists, that no other load lies in the interval, and which number it has. It holds for every
-inclination and every pair of ends. Where a closed form exists, its change of sign over the same interval is proved too.
+What is proved, and how: see :mod:`rodwell.analysis.proof.inertia` for the counts and
+:mod:`rodwell.analysis.proof.roots` for the enclosures. In short, each load lies in an interval at whose ends the
+certified number of critical loads above differs by one. That proves that it exists, that no other load lies in the
+interval, and which number it has. It holds for every inclination and every pair of ends. Where a closed form exists,
+its change of sign over the same interval is proved too.
 """
 
 from __future__ import annotations

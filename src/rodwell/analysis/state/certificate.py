@@ -1,8 +1,8 @@
 """The certificate of a solution: the paper's own equations, evaluated on it term by term.
 
 The engine finds y(s); everything else is rebuilt from it. Here the rebuilt fields are put into the paper's fifteen
-differential equations, its algebraic relations and its end conditions (:mod:`rodwell.physics.on_wall.equations`), none of
-which the engine uses, with derivatives taken numerically from the fields themselves. Each residual is divided by the
+differential equations, its algebraic relations and its end conditions (:mod:`rodwell.physics.on_wall.equations`), none
+of which the engine uses, with derivatives taken numerically from the fields themselves. Each residual is divided by the
 largest term of its equation along the rod. A true solution leaves what the mesh leaves; a mistake in engine,
 reconstruction or equations leaves something of the order of one.
 """
@@ -17,7 +17,7 @@ import numpy as np
 from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import element_fields, gauss_calculus
-from rodwell.physics.on_wall import equations as paper
+from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
 
@@ -119,15 +119,15 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     first, last = (Fifteen(*(ends[name][i] for name in NAMES)) for i in (0, -1))
     out: dict[str, float] = {}
     bending_rate = rate("omega2")
-    for number, name, terms in zip(NUMBERS, NAMES, paper.right_hand_sides(x, load), strict=True):
+    for number, name, terms in zip(NUMBERS, NAMES, equations.right_hand_sides(x, load), strict=True):
         # the variable itself counts as a term: where it is constant, its derivative is round-off and has no size
         sizes = (inside(name), bending_rate) if name == "mu" else (inside(name),)
         out[number] = _scaled((rate(name), *(-term for term in terms)), sizes)
-    for number, terms in paper.moments(x, rate("mu"), load).items():
+    for number, terms in equations.moments(x, rate("mu"), load).items():
         out[number] = _scaled(terms, (load.clearance * bending_rate,))
     out |= _strands(x, load, inside)
     extent = {k: float(np.max(np.abs(fields[name]))) for k, name in zip(Fifteen._fields, NAMES, strict=True)}
-    for number, condition in paper.end_conditions(first, last, load).items():
+    for number, condition in equations.end_conditions(first, last, load).items():
         out[number] = abs(float(condition.residual)) / (max(extent[k] for k in condition.against) + _TINY)
     out["T₂ by two routes"] = _torque(fields, solution.problem)
     out["h by two routes"] = _scaled((fields["tangential_balance"],), (fields["rod_F1"],))
@@ -148,7 +148,7 @@ def _strands(x: Fifteen, load: Load, inside: Any) -> dict[str, float]:
     """(52)–(58): forces of rod and cylinder by force and moment balance, against the paper's expressions."""
     names = {"(52)": "rod_F1", "(53)": "rod_F2", "(54)": "rod_F3", "(56)": "cylinder_F1", "(57)": "cylinder_F2"}
     names |= {"(58)": "cylinder_F3", "(55)": "contact_pressure"}
-    s = paper.strands(x, load)
+    s = equations.strands(x, load)
     sums = {"(52)": s.F11, "(53)": s.F12, "(54)": s.F13, "(56)": s.F21, "(57)": s.F22, "(58)": s.F23, "(55)": s.p}
     rod = (inside("rod_F3"),)  # the cylinder's forces are differences F − F⁽¹⁾, (45), and known no better than these
     sizes = {"(56)": rod, "(57)": rod, "(58)": rod}

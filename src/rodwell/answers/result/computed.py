@@ -10,7 +10,7 @@ from rodwell.analysis.branch.exploring import Progress
 from rodwell.analysis.branch.follow import extended, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
-from rodwell.analysis.discrete import first_run as ahead
+from rodwell.analysis.discrete import first_run
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
@@ -104,7 +104,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
-    ahead.begin()
+    first_run.begin()
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)

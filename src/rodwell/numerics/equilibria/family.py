@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics.equilibria import newton as corrector
+from rodwell.numerics.equilibria import newton
 from rodwell.numerics.splines import assembly, banded
 from rodwell.numerics.splines.held import Ends, spread
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -134,13 +134,13 @@ class Family:
 
     def _on_path(self, lam: float) -> FloatArray:
         out = np.empty((2, self.path.shape[1]))
-        corrector.on_path(self.path, lam, out[0], out[1])
+        newton.on_path(self.path, lam, out[0], out[1])
         return out
 
     def covector(self, tangent: FloatArray, tangent_lam: float) -> tuple[FloatArray, float, FloatArray, float]:
         """Return row, row_λ and the tangent, normalised in the metric."""
         unit, row = tangent.copy(), np.empty_like(tangent)
-        unit_lam, row_lam = corrector.hyperplane(self.space.slope_gram, *self._metric, unit, tangent_lam, row)
+        unit_lam, row_lam = newton.hyperplane(self.space.slope_gram, *self._metric, unit, tangent_lam, row)
         return row, row_lam, unit, unit_lam
 
     def state(self, c: FloatArray, lam: float, tangent: FloatArray, tangent_lam: float, index: int) -> State:
@@ -180,13 +180,13 @@ class Family:
         tangent, new_row = np.empty(n), np.empty(n)
         held, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
         wait_for("correct")
-        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = corrector.correct(
+        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = newton.correct(
             self.model, space.tags, space.table, space.points, space.weights, space.slope_gram,
             self.ends.held[0], n - self.ends.held[1], *self.ends.tied, self.parity, held, covector, c, lam, self.path,
             row, row_lam, target, self.scale_c, self.lam_scale, self.slope_scale, tolerance,
             self.most_steps, self.extra_steps, tangent, new_row,
         )  # fmt: skip
-        if status != corrector.CONVERGED:
+        if status != newton.CONVERGED:
             return _OUTCOMES[status], None, steps, factors
         state = State(space, c, lam, tangent, tangent_lam, new_row, new_row_lam, index, energy)
         return Outcome.CONVERGED, state, steps, factors
@@ -237,9 +237,7 @@ class Family:
         space, free = self.space, self.free
         factors = self.free_part(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
-        corrector.inverse_iteration(
-            factors, free.start, free.stop, *self.ends.tied, space.slope_gram, iterations, vector
-        )
+        newton.inverse_iteration(factors, free.start, free.stop, *self.ends.tied, space.slope_gram, iterations, vector)
         above, size, below = assembly.variation(
             self.model, space.tags, space.table, space.points, space.weights, state.c,
             *self._on_path(state.lam), vector,
@@ -266,7 +264,7 @@ class Family:
         increment = c - state.c
         # Newton's method leaves alone what breaks the symmetry or an end condition: round-off in it would grow
         # from prediction to prediction
-        corrector.symmetrise(increment, self.parity)
+        newton.symmetrise(increment, self.parity)
         spread(increment, self.free.start, self.free.stop, *self.ends.tied)
         c = state.c + increment
         target = float(state.row @ state.c) + state.row_lam * state.lam + length

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.equilibria import newton as corrector
+from rodwell.numerics.equilibria import newton
 from rodwell.numerics.equilibria.family import Family, Outcome
 from rodwell.numerics.splines import banded
 from rodwell.quantities.arrays import FloatArray
@@ -51,5 +51,5 @@ def _downhill(family: Family, gradient: FloatArray, band: FloatArray, sigma: flo
     free = -family.ends.gather(gradient)
     banded.solve(factors, free)
     step = family.ends.spread(free)
-    corrector.symmetrise(step, family.parity)
+    newton.symmetrise(step, family.parity)
     return step, sigma

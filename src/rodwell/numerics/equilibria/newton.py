@@ -123,8 +123,8 @@ def correct(
     step, and locating a change of the index takes them at the solution itself.
 
     Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
-    ``scale_lam``: see :mod:`rodwell.numerics.equilibria.family`) and towards growing ``row·c + row_λ λ``, and its covector
-    ``new_row`` (n,).
+    ``scale_lam``: see :mod:`rodwell.numerics.equilibria.family`) and towards growing ``row·c + row_λ λ``, and its
+    covector ``new_row`` (n,).
 
     Returns
     -------

@@ -7,8 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.numerics.splines import assembly, banded
-from rodwell.numerics.splines import basis as bsplines
+from rodwell.numerics.splines import assembly, banded, basis
 from rodwell.numerics.splines.held import Ends
 from rodwell.quantities.arrays import FloatArray
 
@@ -78,19 +77,19 @@ class SplineSpace:
     @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
-        return np.asarray(bsplines.tabulate(self.knots, self.degree, self.points, self.per_element, 3))
+        return np.asarray(basis.tabulate(self.knots, self.degree, self.points, self.per_element, 3))
 
     @cached_property
     def samples(self) -> tuple[FloatArray, FloatArray]:
         """Places (k,), a few in each element and both ends, and basis table (k, 4, degree + 1) there."""
         share = np.arange(SAMPLES_PER_ELEMENT) / SAMPLES_PER_ELEMENT
         grid = np.append((self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * share).ravel(), 1.0)
-        return grid, np.asarray(bsplines.tabulate(self.knots, self.degree, grid, SAMPLES_PER_ELEMENT, 4))
+        return grid, np.asarray(basis.tabulate(self.knots, self.degree, grid, SAMPLES_PER_ELEMENT, 4))
 
     @cached_property
     def landmarks(self) -> tuple[FloatArray, NDArray[np.int64]]:
         """Basis table (3, 3, degree + 1) at both ends and in the middle, and the elements in which they lie (3,)."""
-        table, spans = bsplines.tabulate_anywhere(self.knots, self.degree, np.array([0.0, 0.5, 1.0]), 3)
+        table, spans = basis.tabulate_anywhere(self.knots, self.degree, np.array([0.0, 0.5, 1.0]), 3)
         return np.asarray(table), np.asarray(spans) - self.degree
 
     @cached_property
@@ -122,7 +121,7 @@ class SplineSpace:
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
         """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
         table, first = self._tabulated(np.ascontiguousarray(places, dtype=float), orders)
-        return np.asarray(bsplines.combine_all(self.tags[0], table, first, coefficients))
+        return np.asarray(basis.combine_all(self.tags[0], table, first, coefficients))
 
     def _tabulated(self, points: FloatArray, orders: int) -> tuple[FloatArray, NDArray[np.int64]]:
         """Basis table and first functions at ``points``: tables of the last few sets of places are kept.
@@ -133,7 +132,7 @@ class SplineSpace:
         key = orders, points.tobytes()
         found = self._tables.pop(key, None) if points.size >= FEW else None
         if found is None:
-            table, spans = bsplines.tabulate_anywhere(self.knots, self.degree, points, orders)
+            table, spans = basis.tabulate_anywhere(self.knots, self.degree, points, orders)
             found = np.asarray(table), np.asarray(spans) - self.degree
         if points.size < FEW:
             return found
@@ -188,11 +187,11 @@ class Prolongation:
 
     def __init__(self, coarse: SplineSpace, fine: SplineSpace) -> None:
         self.coarse, self.fine = coarse, fine
-        self._first, self._weights = bsplines.insertion_weights(coarse.knots, fine.knots, coarse.degree)
+        self._first, self._weights = basis.insertion_weights(coarse.knots, fine.knots, coarse.degree)
 
     def __call__(self, coefficients: FloatArray) -> FloatArray:
         """Return the coefficients on the finer space."""
-        return np.asarray(bsplines.insert(self._first, self._weights, coefficients))
+        return np.asarray(basis.insert(self._first, self._weights, coefficients))
 
 
 def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, least: int = 8) -> FloatArray:

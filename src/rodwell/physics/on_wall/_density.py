@@ -8,9 +8,9 @@ import numpy as np
 def rod_density(s: Any, y: Any, y1: Any, y2: Any, parameters: Any, rates: Any) -> Any:
     """Energy per length of the rod, relative to the straight rod, and its derivatives at ``s``, from y, y', y''.
 
-    The order of ``parameters`` is that of ``rodwell.physics.on_wall.parameters``. Returns the energy, its derivative along
-    ``rates``, the gradient (3) by y, y', y'', its derivative along ``rates`` (3), and the Hessian (3, 3). Arguments
-    are numbers, arrays, or lanes of vector registers (``rodwell.numerics.splines.lanes``).
+    The order of ``parameters`` is that of ``rodwell.physics.on_wall.parameters``. Returns the energy, its derivative
+    along ``rates``, the gradient (3) by y, y', y'', its derivative along ``rates`` (3), and the Hessian (3, 3).
+    Arguments are numbers, arrays, or lanes of vector registers (``rodwell.numerics.splines.lanes``).
     """
     force = parameters[0]
     axial_weight = parameters[1]
@@ -28,64 +28,45 @@ def rod_density(s: Any, y: Any, y1: Any, y2: Any, parameters: Any, rates: Any) -
     cos_eta = np.sqrt((1.0 - y1) * (1.0 + y1))
     sec_eta = 1.0 / cos_eta
     t0 = sin_half**2
-    t1 = 2 * t0
+    t1 = 2*t0
     t2 = curvature**2
     t3 = y1**4
     t4 = sec_eta**2
     t5 = y2**2
-    t6 = 1 / (cos_eta + 1)
-    t7 = t6 * twist
+    t6 = 1/(cos_eta + 1)
+    t7 = t6*twist
     t8 = y1**3
-    t9 = curvature * t8
+    t9 = curvature*t8
     t10 = s - 1
-    t11 = axial_weight * t10 + force
+    t11 = axial_weight*t10 + force
     t12 = y1**2
-    t13 = t11 * t12
-    t14 = 2 * cos_half * lateral_weight * sin_half
+    t13 = t11*t12
+    t14 = 2*cos_half*lateral_weight*sin_half
     t15 = sec_eta**4
-    t16 = t15 * t5
-    t17 = curvature * t12
-    t18 = sec_eta * t17
-    t19 = sec_eta * t11
-    t20 = t17 * t6
-    t21 = lateral_weight * (1 - t1)
-    t22 = sec_eta * y1
-    t23 = t12 * t2
+    t16 = t15*t5
+    t17 = curvature*t12
+    t18 = sec_eta*t17
+    t19 = sec_eta*t11
+    t20 = t17*t6
+    t21 = lateral_weight*(1 - t1)
+    t22 = sec_eta*y1
+    t23 = t12*t2
     t24 = sec_eta**3
-    t25 = axial_weight_rate * t10
+    t25 = axial_weight_rate*t10
     t26 = curvature**3
-    t27 = t12 * t6
-    energy = clearance * lateral_weight * t1 + t13 * t6 + (1 / 2) * t2 * t3 + (1 / 2) * t4 * t5 - t7 * t9
+    t27 = t12*t6
+    energy = clearance*lateral_weight*t1 + t13*t6 + (1/2)*t2*t3 + (1/2)*t4*t5 - t7*t9
     gradient0 = t14
-    gradient1 = t16 * y1 - t18 * twist + t19 * y1 + 2 * t2 * t8 - t20 * twist
-    gradient2 = t4 * y2
-    hessian00 = curvature * t21
+    gradient1 = t16*y1 - t18*twist + t19*y1 + 2*t2*t8 - t20*twist
+    gradient2 = t4*y2
+    hessian00 = curvature*t21
     hessian10 = 0
-    hessian11 = (
-        -3 * curvature * t22 * twist + 4 * sec_eta**6 * t12 * t5 + t13 * t24 + t16 + t19 + 6 * t23 - t24 * t9 * twist
-    )
+    hessian11 = -3*curvature*t22*twist + 4*sec_eta**6*t12*t5 + t13*t24 + t16 + t19 + 6*t23 - t24*t9*twist
     hessian20 = 0
-    hessian21 = 2 * t15 * y1 * y2
+    hessian21 = 2*t15*y1*y2
     hessian22 = t4
-    mixed0 = -clearance_rate * t2 * t21 * y + 2 * cos_half * lateral_weight_rate * sin_half
-    mixed1 = (
-        clearance_rate * (sec_eta * t23 * twist + t23 * t7 - 4 * t26 * t8)
-        + force_rate * t22
-        + t22 * t25
-        + twist_rate * (-t18 - t20)
-    )
+    mixed0 = -clearance_rate*t2*t21*y + 2*cos_half*lateral_weight_rate*sin_half
+    mixed1 = clearance_rate*(sec_eta*t23*twist + t23*t7 - 4*t26*t8) + force_rate*t22 + t22*t25 + twist_rate*(-t18 - t20)
     mixed2 = 0
-    rate = (
-        clearance * lateral_weight_rate * t1
-        + clearance_rate * (-curvature * t14 * y + 2 * lateral_weight * t0 + t2 * t6 * t8 * twist - t26 * t3)
-        + force_rate * t27
-        + t25 * t27
-        - t6 * t9 * twist_rate
-    )
-    return (
-        energy,
-        rate,
-        (gradient0, gradient1, gradient2),
-        (mixed0, mixed1, mixed2),
-        ((hessian00, hessian10, hessian20), (hessian10, hessian11, hessian21), (hessian20, hessian21, hessian22)),
-    )
+    rate = clearance*lateral_weight_rate*t1 + clearance_rate*(-curvature*t14*y + 2*lateral_weight*t0 + t2*t6*t8*twist - t26*t3) + force_rate*t27 + t25*t27 - t6*t9*twist_rate
+    return energy, rate, (gradient0, gradient1, gradient2), (mixed0, mixed1, mixed2), ((hessian00, hessian10, hessian20), (hessian10, hessian11, hessian21), (hessian20, hessian21, hessian22))

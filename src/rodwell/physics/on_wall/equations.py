@@ -1,10 +1,10 @@
 """The paper's own system, to be read beside it: fifteen equations, fifteen end conditions, and the relations between.
 
-The engine does not solve this system; it solves for one function y(s), and :mod:`rodwell.physics.on_wall.braid` rebuilds the
-fifteen variables from it. Here the paper's equations are stated as printed, (22)–(27), (32)–(36), (41)–(44), as sums
-of terms, so that a solution can be put into them term by term (the certificate) and so that another solver can be given
-them (``rodwell verify``). Units B = L = 1; primes are derivatives by s; tension is positive. Nothing is shared with the
-energy from which the engine works.
+The engine does not solve this system; it solves for one function y(s), and :mod:`rodwell.physics.on_wall.braid`
+rebuilds the fifteen variables from it. Here the paper's equations are stated as printed, (22)–(27), (32)–(36),
+(41)–(44), as sums of terms, so that a solution can be put into them term by term (the certificate) and so that another
+solver can be given them (``rodwell verify``). Units B = L = 1; primes are derivatives by s; tension is positive.
+Nothing is shared with the energy from which the engine works.
 """
 
 from __future__ import annotations

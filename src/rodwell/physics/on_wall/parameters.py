@@ -14,7 +14,8 @@ side               ±1      1 for a rod inside the cylinder, −1 for one outsid
 
 The spline of a coiled rod holds y less the even winding: a helix is then exactly zero, and the third derivative of y,
 which the contact pressure needs, is not drowned by the round-off of a large y. The ramp is added to y and y′ where a
-model is evaluated (:mod:`rodwell.physics.on_wall.model`) and where fields are rebuilt; the energy itself does not know it.
+model is evaluated (:mod:`rodwell.physics.on_wall.model`) and where fields are rebuilt; the energy itself does not know
+it.
 """
 
 from __future__ import annotations

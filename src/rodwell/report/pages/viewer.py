@@ -23,7 +23,7 @@ from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
-from rodwell.report.templates import HERE, template
+from rodwell.report.pages.templates import HERE, template
 
 PLACES, SIDES = (321, 801), 16
 """Fewest and most places along the rod, sides around it: what a page can carry and an eye can tell apart."""

@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from rodwell.errors import InputError
-from rodwell.report.content import Report
-from rodwell.report.page import Pictures, render
-from rodwell.report.templates import HERE
-from rodwell.report.viewer import Viewer
+from rodwell.report.pages.page import Pictures, render
+from rodwell.report.pages.templates import HERE
+from rodwell.report.pages.viewer import Viewer
+from rodwell.report.reports.content import Report
 
 PDF = "report.pdf"
 """Name of the file in a results folder."""

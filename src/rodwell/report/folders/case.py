@@ -10,11 +10,11 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
-from rodwell.report.pdf import check_pdf, write_report
-from rodwell.report.pictures import draw, draw_curves, draw_diagram
-from rodwell.report.sections import case_report
-from rodwell.report.templates import embedded
-from rodwell.report.viewer import view, viewer, write_viewer
+from rodwell.report.folders.pictures import draw, draw_curves, draw_diagram
+from rodwell.report.pages.pdf import check_pdf, write_report
+from rodwell.report.pages.templates import embedded
+from rodwell.report.pages.viewer import view, viewer, write_viewer
+from rodwell.report.reports.case import case_report
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf

@@ -14,7 +14,7 @@ from rodwell.compiling import second_process
 from rodwell.errors import checked_whole
 from rodwell.numerics.equilibria.newton import correct
 from rodwell.quantities.tolerance import RTOL
-from rodwell.report.texts import number
+from rodwell.report.reports.texts import number
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 from rodwell.studies.paper.agreement import CONVENTION, Agreement, agreement

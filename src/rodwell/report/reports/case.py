@@ -10,9 +10,9 @@ from rodwell.answers.result.figure import Figure
 from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.plots.bifurcation import ORDINATES, telling
-from rodwell.report.content import Front, Grid, Items, Number, Picture, Report, Section, Words
-from rodwell.report.strength import strength_sections
-from rodwell.report.texts import (
+from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.reports.strength import strength_sections
+from rodwell.report.reports.texts import (
     certificate,
     conversions,
     derived,

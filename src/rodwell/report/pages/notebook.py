@@ -16,10 +16,10 @@ from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES
 from rodwell.problem.problem import Problem, ends_text
 from rodwell.quantities.names import QUANTITIES
-from rodwell.report.content import Grid
-from rodwell.report.sections import key_figures
-from rodwell.report.templates import template
-from rodwell.report.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number
+from rodwell.report.pages.templates import template
+from rodwell.report.reports.case import key_figures
+from rodwell.report.reports.content import Grid
+from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number
 
 UNITS = {**PLAIN_UNITS, "energy": "B/L", "curvature": "1/L", "angle": "rad"}
 

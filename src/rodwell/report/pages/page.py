@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rodwell.report.content import Report, unbroken
-from rodwell.report.templates import HERE, embedded, template
-from rodwell.report.viewer import Viewer
+from rodwell.report.pages.templates import HERE, embedded, template
+from rodwell.report.pages.viewer import Viewer
+from rodwell.report.reports.content import Report, unbroken
 
 Pictures = dict[str, tuple[str, bytes]]
 """Type ("svg" or "png") and content of each picture by name."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.survey import plot_screening
-from rodwell.report.pictures import save_figure
+from rodwell.report.folders.pictures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json

@@ -6,7 +6,7 @@ import csv
 from pathlib import Path
 
 from rodwell.plots.audit import plot_error_map
-from rodwell.report.pictures import save_figure
+from rodwell.report.folders.pictures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 from rodwell.studies.audit.audit import Audit

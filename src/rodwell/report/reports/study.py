@@ -1,21 +1,14 @@
-"""The report and the results folder of a parameter study."""
+"""The report of a parameter study."""
 
 from __future__ import annotations
 
 import datetime
-from pathlib import Path
 
 from rodwell._version import __version__
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
-from rodwell.plots.study import plot_study
-from rodwell.report.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
-from rodwell.report.pdf import check_pdf, write_report
-from rodwell.report.pictures import save_figure
-from rodwell.report.texts import error_text
-from rodwell.store.folder import whole_folder
-from rodwell.store.tables import write_csv, write_xlsx
-from rodwell.store.text import write_json
+from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.reports.texts import error_text
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import Point
 from rodwell.studies.sweep.study import Study
@@ -28,34 +21,8 @@ from rodwell.studies.sweep.tables import (
     remarks,
     scales,
     sentences,
-    study_table,
     worst_points,
 )
-
-
-def write_study(study: Study, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
-    """Write report (HTML), curves (PNG, SVG), table (CSV, XLSX), data (JSON) and the file to ``out``: all, or none.
-
-    ``with_pdf`` adds the report as PDF. Returns the names of the files.
-
-    Raises
-    ------
-    InputError
-        If ``out`` cannot be written, or what makes the PDF is not installed.
-    """
-    if with_pdf:
-        check_pdf()
-    with whole_folder(Path(out)) as folder:
-        save_figure(plot_study(study), folder / "curves")
-        pictures = {"curves": ("svg", (folder / "curves.svg").read_bytes())}
-        report = study_report(study)
-        write_report(report, pictures, folder, with_pdf=with_pdf)
-        table = study_table(study)
-        write_csv(table, folder / "points.csv")
-        write_xlsx([table], folder / "points.xlsx")
-        write_json(study.as_dict(), folder / "study.json", finite=True)
-        (folder / "case.toml").write_text(study.text, encoding="utf-8")
-        return tuple(sorted(file.name for file in folder.iterdir()))
 
 
 def study_report(study: Study) -> Report:

@@ -9,7 +9,7 @@ from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIG
 from rodwell.answers.words.verdict import local_sentence
 from rodwell.quantities.text import plain
 from rodwell.quantities.units import SI, System
-from rodwell.report.content import Block, Grid, Picture, Section, Words
+from rodwell.report.reports.content import Block, Grid, Picture, Section, Words
 from rodwell.strength.limits import LIFTS_OFF, Limit
 from rodwell.strength.loaded import LoadedRod
 

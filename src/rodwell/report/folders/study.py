@@ -1,0 +1,40 @@
+"""The results folder of a parameter study."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rodwell.plots.study import plot_study
+from rodwell.report.folders.pictures import save_figure
+from rodwell.report.pages.pdf import check_pdf, write_report
+from rodwell.report.reports.study import study_report
+from rodwell.store.folder import whole_folder
+from rodwell.store.tables import write_csv, write_xlsx
+from rodwell.store.text import write_json
+from rodwell.studies.sweep.study import Study
+from rodwell.studies.sweep.tables import study_table
+
+
+def write_study(study: Study, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
+    """Write report (HTML), curves (PNG, SVG), table (CSV, XLSX), data (JSON) and the file to ``out``: all, or none.
+
+    ``with_pdf`` adds the report as PDF. Returns the names of the files.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written, or what makes the PDF is not installed.
+    """
+    if with_pdf:
+        check_pdf()
+    with whole_folder(Path(out)) as folder:
+        save_figure(plot_study(study), folder / "curves")
+        pictures = {"curves": ("svg", (folder / "curves.svg").read_bytes())}
+        report = study_report(study)
+        write_report(report, pictures, folder, with_pdf=with_pdf)
+        table = study_table(study)
+        write_csv(table, folder / "points.csv")
+        write_xlsx([table], folder / "points.xlsx")
+        write_json(study.as_dict(), folder / "study.json", finite=True)
+        (folder / "case.toml").write_text(study.text, encoding="utf-8")
+        return tuple(sorted(file.name for file in folder.iterdir()))
