@@ -29,7 +29,7 @@ def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
 
 def test_each_kernel_is_announced(capsys):
     first_run.main()
-    assert capsys.readouterr().out.split() == ["contact_maxima", "correct", "softest"]
+    assert capsys.readouterr().out.split() == ["maxima", "newton", "softest"]
 
 
 def test_waiting_ends_with_the_name_and_when_the_other_process_dies(no_helper, tmp_path, monkeypatch):
@@ -49,7 +49,7 @@ def test_without_permission_to_start_processes_there_is_no_helper(no_helper, mon
     monkeypatch.setattr(subprocess, "Popen", refused)
     second_process.begin("anything")
     assert second_process._helper is None
-    second_process.wait_for("correct")
+    second_process.wait_for("newton")
 
 
 def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):

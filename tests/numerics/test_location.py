@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from rodwell import Problem, follow
 from rodwell.numerics.continuation.crossings import _bisect
 from rodwell.numerics.continuation.location import Span, bracketed_root
-from rodwell.numerics.equilibria.maxima import contact_maxima
+from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.model import RodOnCylinder

@@ -42,8 +42,8 @@ def test_softest_eigenvalues_against_dense_ones() -> None:
     for _ in range(12):
         watch.add(ladder, point, 0.0)
     family = ladder.coarse
-    hessian = dense(family.free_part(family.assemble(point.coarse.c, point.coarse.lam)[2]))
-    values, vectors = eigh(hessian, dense(family.free_part(family.space.slope_gram)))
+    hessian = dense(family.held.free_part(family.assemble(point.coarse.c, point.coarse.lam)[2]))
+    values, vectors = eigh(hessian, dense(family.held.free_part(family.space.slope_gram)))
     parity = np.array([np.sign(v @ v[::-1]) for v in vectors.T])
     expected = [min(values[parity == p], key=abs) for p in (1, -1)]
     assert watch.values[-1] == pytest.approx(expected, rel=1e-4)

@@ -79,7 +79,7 @@ def test_a_field_that_is_wrong_by_a_part_in_ten_thousand_is_seen(
         return half, fields
 
     monkeypatch.setattr(certificate, "element_fields", spoilt)
-    assert not certificate.certify(buckled).passed
+    assert not certificate.certificate_of(buckled).passed
 
 
 def test_wrong_energy_balance_is_seen(buckled: rodwell.Solution, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -87,7 +87,7 @@ def test_wrong_energy_balance_is_seen(buckled: rodwell.Solution, monkeypatch: py
     for name, factor in (("force", 1.001), ("twist", 1.1), ("axial_weight", 1.01), ("lateral_weight", 1.001)):
         spoilt = load._replace(**{name: factor * getattr(load, name)})
         monkeypatch.setattr(certificate, "load_of", lambda *_given, spoilt=spoilt: spoilt)
-        assert certificate.certify(buckled).residuals[WORK] > 1e-6
+        assert certificate.certificate_of(buckled).residuals[WORK] > 1e-6
 
 
 def test_state_that_fails_it_does_not_count_as_converged(

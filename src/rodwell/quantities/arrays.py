@@ -1,4 +1,4 @@
-"""The type of arrays of numbers."""
+"""The types of arrays."""
 
 from __future__ import annotations
 
@@ -7,3 +7,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 """Numbers in double precision, of any shape; docstrings say which."""
+
+IntArray = NDArray[np.int64]
+"""Whole numbers: positions in other arrays."""
+
+BoolArray = NDArray[np.bool_]
+"""Marks."""

@@ -54,10 +54,10 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     family, outcome, coarse = _odd_or_any(problem, force)
     if coarse is None:
-        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {outcome.value}")
+        raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {family.advice(outcome)}")
     outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
-        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {outcome.value}")
+        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}")
     return Solution(problem, ladder.at(point, force) or point, ladder)
 
 

@@ -9,7 +9,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.continuation.events import INDEX, TURN
 from rodwell.numerics.continuation.walk import Trace
-from rodwell.numerics.equilibria.family import Outcome
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
 EQUAL_ENERGY = "equal_energy"
@@ -18,7 +18,7 @@ CRITICAL, FOLD, BRANCH_POINT, UNCERTAIN = "critical", "fold", "branch_point", "u
 KINDS = (LIFT_OFF, EQUAL_ENERGY, END, INDEX, TURN)
 """What continuation finds that makes a special point; what else ends a branch is told in words."""
 
-OUT_OF_RANGE = Outcome.OUT_OF_RANGE.value
+OUT_OF_RANGE = RodOnCylinder.out_of_range()
 """Why a branch ends where the rod turns across the cylinder."""
 
 STRAIGHT = "it meets the straight rod"

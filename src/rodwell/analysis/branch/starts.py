@@ -91,7 +91,7 @@ def at_state(problem: Problem, start: Solution, parameter: str, until: float, rt
     for level, c in ((ladder.coarse, old.coarse.c), (ladder.fine, old.fine.c)):
         outcome, state, _ = level.sharp().at(c, here)
         if state is None:
-            raise NotConvergedError(f"the state to start from could not be solved again: {outcome.value}")
+            raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
         states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
     return ladder, ladder.point(*states)
 
@@ -125,7 +125,7 @@ def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> f
     The algebraic branching equation: with ψ = v and second derivatives of the gradient g along directions of the
     plane of t and v, ψ·g[t, t] = 0, so τ = −ψ·g[v, v] / (2 ψ·g[t, v]), 0 at a pitchfork.
     """
-    free = equilibria.free
+    free = equilibria.held.free
     size = STENCIL * equilibria.scale_c
     v = vector / np.max(np.abs(vector)) * size
     scale = STENCIL  # a state's tangent has length one: about 1 rad, or the scale of λ

@@ -228,7 +228,7 @@ class Zero(ABC):
             family = _meshes(self.ladder(ladder, Spot(x, lam)))[mesh]
             outcome, state, _ = family.correct(c, lam, row, row_lam, target)
             if state is None:
-                raise CurveLostError(outcome.value)
+                raise CurveLostError(family.advice(outcome))
             return state, self.function(family, state)
 
         x, step = spot.x, PROBE * travel.unit
@@ -260,7 +260,7 @@ def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, func
     else:
         outcome, state, _ = family.correct(c, lam, near.row, near.row_lam, float(near.row @ c) + near.row_lam * lam)
     if state is None:
-        raise CurveLostError(outcome.value)
+        raise CurveLostError(family.advice(outcome))
     value, step = function(family, state), PROBE
     for _ in range(MOST_SECANTS):
         new = family.step(state, step)

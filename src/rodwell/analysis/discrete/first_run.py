@@ -8,43 +8,53 @@ from __future__ import annotations
 from typing import Any
 
 import numba
+import numpy as np
 from numba import types
 
 from rodwell.analysis.discrete.choices import DEGREE, POINTS_OF_BRANCH
 from rodwell.compiling import second_process
 from rodwell.numerics.continuation.softest import softest
-from rodwell.numerics.equilibria.maxima import contact_maxima
-from rodwell.numerics.equilibria.newton import correct
+from rodwell.numerics.equilibria.maxima import maxima
+from rodwell.numerics.equilibria.newton import Tolerances, newton
+from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.model import RodOnCylinder
 
 _VECTOR = types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
 _TABLE = types.Array(types.float64, 3, "C")
-_MODEL: Any = numba.typeof(RodOnCylinder())  # type: ignore[no-untyped-call]
-_TAGS: Any = types.Tuple(  # type: ignore[no-untyped-call]
-    [types.UniTuple(types.int64, DEGREE + 1), types.UniTuple(types.int64, POINTS_OF_BRANCH)]  # type: ignore[no-untyped-call]
-)
-_FREE = (types.int64, types.int64, types.boolean, types.boolean)  # first, last, tied_first, tied_last
+
+
+def _typical() -> tuple[Discretisation, Tolerances]:
+    """Records like those of every branch, of a rod without elements: their types count only."""
+    none = np.empty(0)
+    tags = (0,) * (DEGREE + 1), (0,) * POINTS_OF_BRANCH
+    positions = np.empty(0, dtype=np.int64)
+    mesh = Discretisation(
+        RodOnCylinder(), *tags, np.empty((0, 3, DEGREE + 1)), none, none, np.empty((0, DEGREE + 1)),
+        np.empty(0, dtype=np.bool_), positions, positions, np.empty((0, 0)), 0,
+    )  # fmt: skip
+    return mesh, Tolerances(0.0, 0, 0, 1.0, 1.0, 1.0)
+
+
+_MESH, _TOLERANCES = (numba.typeof(record) for record in _typical())  # type: ignore[no-untyped-call]
 
 KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
-    (contact_maxima, (_MODEL, _TAGS[0], _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+    (maxima, (_MESH, _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
     (
-        correct,
+        newton,
         (
-            *(_MODEL, _TAGS, _TABLE, _VECTOR, _VECTOR, _MATRIX, *_FREE, types.int64),  # ... weights, gram, free, parity
-            *(_VECTOR, _VECTOR, _VECTOR, types.float64, _MATRIX, _VECTOR, types.float64, types.float64),  # ... target
-            *[types.float64] * 4,  # scales, tolerance
-            *(types.int64, types.int64, _VECTOR, _VECTOR),  # ... tangent, its covector
+            *(_MESH, _TOLERANCES, _MATRIX, _VECTOR, types.float64, types.float64),  # path, row, row_lam, target
+            *(_VECTOR, _VECTOR, _VECTOR, types.float64, _VECTOR, _VECTOR),  # frozen, covector, c, lam, tangent, new_row
         ),
     ),
-    (softest, (_MATRIX, *_FREE, _MATRIX, types.boolean, types.int64, _MATRIX)),
+    (softest, (_MESH, _MATRIX, types.boolean, types.int64, _MATRIX)),
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 
 
 def begin() -> None:
     """Start the second process, on the first run."""
-    if correct.stats.cache_path is not None and not second_process.on_disk(correct):
+    if newton.stats.cache_path is not None and not second_process.on_disk(newton):
         second_process.begin(__name__)
 
 

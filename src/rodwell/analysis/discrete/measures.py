@@ -11,7 +11,7 @@ import numpy as np
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.maxima import contact_maxima
+from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.two_meshes import Ladder
 from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import combine
@@ -67,32 +67,30 @@ _add = on_lanes(lambda _: _added)
 
 
 @kernel
-def _totals(model, tags, table, points, weights, c, parameters):
+def _totals(mesh, c, parameters):
     """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
-    rows = np.zeros((SHARED + 3 + TOTALS, len(tags[1])))
+    rows = np.zeros((SHARED + 3 + TOTALS, len(mesh.per_element)))
     totals = rows[SHARED + 3 :]
     uniforms = (parameters,)
-    for element in range(c.size - len(tags[0]) + 1):
-        at_points(model, tags, table, points, weights, element * len(tags[1]), c, element, rows)
-        _add(model, tags[1], rows, uniforms, totals)
+    for element in range(mesh.starts.size):
+        at_points(mesh, c, element, rows)
+        _add(mesh.model, mesh.per_element, rows, uniforms, totals)
     shortening, torque, bending, torque_size = totals[0].sum(), totals[1].sum(), totals[2].sum(), totals[3].sum()
     return shortening, torque, bending, torque_size, totals[4].max(), totals[5].max(), totals[6].max()
 
 
 @kernel
-def _numbers(model, tags, table, points, weights, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
+def _numbers(mesh, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
     """Rows of (3, 8): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
     ``highest`` and ``lowest`` are contact pressures, ``smallest`` is the length of the smallest element.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
-    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(
-        model, tags, table, points, weights, c, parameters
-    )
+    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(mesh, c, parameters)
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
-        combine(tags[0], landmarks, i, c, marks[i], u[i])
+        combine(mesh.local, landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
     out = np.zeros((3, STEEPEST + 1))
     numbers, scales, noise = out
@@ -142,11 +140,8 @@ def measure(family: Family, state: State) -> FloatArray:
     space, p = state.space, family.parameters(state.lam)
     _, values, lowest = pressure_maxima(family, state, p)
     return np.asarray(
-        _numbers(
-            family.model, space.tags, space.table, space.points, space.weights, *space.landmarks, state.c, p,
-            state.energy, values.max(), lowest, space.smallest,
-        )
-    )  # fmt: skip
+        _numbers(family.mesh, *space.landmarks, state.c, p, state.energy, values.max(), lowest, space.smallest)
+    )
 
 
 def pressure_maxima(
@@ -154,8 +149,6 @@ def pressure_maxima(
 ) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
-    wait_for("contact_maxima")
-    places, values, lowest = contact_maxima(
-        family.model, space.tags[0], space.knots, *space.samples, state.c, p, NEAR_THE_TOP
-    )
+    wait_for("maxima")
+    places, values, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
     return places, values, float(lowest)

@@ -162,18 +162,18 @@ def _solve(
 ) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
     factors = second_variation(space.points, parameters(problem))
-    ends = spline_ends(problem)
-    stiffness, gram = ends.restrict(space.form(factors)), ends.restrict(space.slope_gram)
+    held = spline_ends(problem).among(space.size)
+    stiffness, gram = held.free_part(space.form(factors)), held.free_part(space.slope_gram)
 
     def full(block: FloatArray) -> FloatArray:
-        return np.array([ends.spread(free) for free in block])
+        return np.array([held.spread(free) for free in block])
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
         return space.grams(factors, full(block))
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
     below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
-    guess = None if start is None else (start[0], start[1][:, ends.free(space.size)])
+    guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
     try:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
         values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)

@@ -46,7 +46,7 @@ class Span:
         target = float(a.row @ a.c) + a.row_lam * a.lam + t * self._length
         outcome, state, _ = self.family.correct(*self._interpolant(t), a.row, a.row_lam, target, self.frozen)
         if state is None:
-            raise LocationError(f"no equilibrium found while locating an event: {outcome.value}")
+            raise LocationError(f"no equilibrium found while locating an event: {self.family.advice(outcome)}")
         return state
 
     @cached_property

@@ -65,21 +65,18 @@ class Watch:
             self.vectors, self.space = np.random.default_rng(0).standard_normal((2, space.size)), space
             iterations = FIRST_ITERATIONS
         if factors is None:
-            factors = family.free_part(family.assemble(state.c, state.lam)[2])
+            factors = family.held.restrict(family.assemble(state.c, state.lam)[2])
             factorise(factors)
-        free, tied = family.free, family.ends.tied
         wait_for("softest")
-        even, odd = softest(
-            factors, free.start, free.stop, *tied, space.slope_gram, space.symmetric, iterations, self.vectors
-        )
+        even, odd = softest(family.mesh, factors, space.symmetric, iterations, self.vectors)
         return float(even), float(odd)
 
 
 @kernel
-def softest(factors, first, last, tied_first, tied_last, gram, symmetric, iterations, vectors):
+def softest(mesh, factors, symmetric, iterations, vectors):
     """Eigenvalues (2,) of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vectors`` (2, n).
 
-    ``factors`` are those of H for the unknowns ``first … last−1``. On a ``symmetric`` mesh the first value is that of
+    ``factors`` are those of H. On a ``symmetric`` mesh the first value is that of
     even vectors and the second that of odd ones; otherwise the second vector is kept normal to the first. ``vectors``
     become the eigenvectors, of length one.
     """
@@ -87,22 +84,21 @@ def softest(factors, first, last, tied_first, tied_last, gram, symmetric, iterat
     values = np.zeros(2)
     for _ in range(iterations):
         for k in range(2):
-            right = multiply(gram, vectors[k])
-            length = np.sqrt(dot(vectors[k], right))
-            gather(right, first, last, tied_first, tied_last)
-            new = np.zeros(n)
-            for i in range(first, last):
-                new[i] = right[i] / length
-            solve(factors, new[first:last])
-            spread(new, first, last, tied_first, tied_last)
+            new = multiply(mesh.gram, vectors[k])
+            length = np.sqrt(dot(vectors[k], new))
+            gather(new, mesh.held, mesh.follows)
+            for i in range(n):
+                new[i] /= length
+            solve(factors, new)
+            spread(new, mesh.follows)
             if symmetric:
                 symmetrise(new, 1 - 2 * k)
             elif k == 1:
-                part = dot(vectors[0], multiply(gram, new))
+                part = dot(vectors[0], multiply(mesh.gram, new))
                 for i in range(n):
                     new[i] -= part * vectors[0, i]
-            values[k] = length / dot(multiply(gram, vectors[k]), new)
-            size = np.sqrt(dot(new, multiply(gram, new)))
+            values[k] = length / dot(multiply(mesh.gram, vectors[k]), new)
+            size = np.sqrt(dot(new, multiply(mesh.gram, new)))
             for i in range(n):
                 vectors[k, i] = new[i] / size
     return values[0], values[1]

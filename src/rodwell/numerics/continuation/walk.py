@@ -139,7 +139,7 @@ class _Walk:
         if new_ladder is not ladder:
             outcome, adopted = new_ladder.adopt(ladder, last)
             if adopted is None:
-                return outcome.value
+                return new_ladder.coarse.advice(outcome)
             base, factors = adopted, None
         try:
             opening = len(trace.points) == 1
@@ -169,7 +169,7 @@ class _Walk:
         expected = self.course.ahead(length)
         outcome, coarse, strayed, factors = ladder.coarse.step_to(state, length, *expected, ladder.loose)
         if coarse is None:
-            return outcome.value, ladder, None, 0.0, None
+            return ladder.coarse.advice(outcome), ladder, None, 0.0, None
         cosine = float(state.row @ coarse.tangent) + state.row_lam * coarse.tangent_lam
         turn = math.acos(min(1.0, cosine))
         if turn > self.stepping.sharpest_turn:
@@ -177,4 +177,4 @@ class _Walk:
         if strayed > STRAYED * length:
             return "the steps stray from the branch", ladder, None, turn, None
         outcome, ladder, point = ladder.resolve(coarse)
-        return (outcome.value if outcome is not Outcome.CONVERGED else ""), ladder, point, turn, factors
+        return (ladder.coarse.advice(outcome) if outcome is not Outcome.CONVERGED else ""), ladder, point, turn, factors

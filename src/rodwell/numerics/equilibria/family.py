@@ -10,8 +10,10 @@ in which arclength, step lengths and angles are measured. It is stated here and 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,7 +21,9 @@ import numpy as np
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
 from rodwell.numerics.splines import assembly, banded
-from rodwell.numerics.splines.held import Ends, spread
+from rodwell.numerics.equilibria.newton import Tolerances
+from rodwell.numerics.splines.held import Ends, Held, spread
+from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
@@ -30,7 +34,7 @@ class Outcome(Enum):
     CONVERGED = "converged"
     NOT_CONVERGED = "Newton's method did not settle: start nearer, or take a smaller step"
     DIVERGED = "Newton's method diverged: start nearer, or take a smaller step"
-    OUT_OF_RANGE = "the rod turned across the cylinder (|η| = 90°): the load is beyond the theory's range"
+    OUT_OF_RANGE = "the state left the range of the model"
 
 
 ROUND_OFF = 1e-15
@@ -41,6 +45,9 @@ SYMMETRIC = 1e-5
 
 NOISE = 8.0 * float(np.finfo(float).eps)
 """Round-off left in a second variation, as a part of the size of its terms."""
+
+Given = Callable[[FloatArray], FloatArray]
+"""Coefficients that vary along s: values (m, k) at places (m,)."""
 
 _NOTHING = np.empty(0)
 
@@ -97,7 +104,8 @@ class Family:
     """Equilibria of ``model`` along a path in its parameters, with given ends: see the module's text.
 
     ``path`` (4, k) gives the parameters p(λ) = path[0] + λ path[1] + cos λ path[2] + sin λ path[3], λ in degrees in the
-    latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them.
+    latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them. ``given`` are the
+    coefficients that vary along s, as the model names them.
     """
 
     model: Any
@@ -111,6 +119,11 @@ class Family:
     tolerance: float = 1e-8
     most_steps: int = 8
     extra_steps: int = 0
+    given: Given | None = None
+
+    def advice(self, outcome: Outcome) -> str:
+        """What came of a solve, in words; where it left the range of the model, in the model's."""
+        return str(self.model.out_of_range()) if outcome is Outcome.OUT_OF_RANGE else outcome.value
 
     def on(self, space: SplineSpace) -> Family:
         """Return the same family on another space."""
@@ -119,6 +132,28 @@ class Family:
     def sharp(self) -> Family:
         """Return the same family with tangents and index taken at the converged state, at the cost of a step."""
         return replace(self, extra_steps=1)
+
+    @cached_property
+    def held(self) -> Held:
+        """What the ends hold among the coefficients."""
+        return self.ends.among(self.space.size)
+
+    @cached_property
+    def mesh(self) -> Discretisation:
+        """The family on its mesh, as compiled loops take it."""
+        space, (local, per_element) = self.space, self.space.tags
+        quadrature = space.table, space.points, space.weights, space.slope_gram
+        given = np.empty((space.points.size, 0)) if self.given is None else self.given(space.points)
+        return Discretisation(
+            self.model, local, per_element, *quadrature, self.held.held, self.held.follows, space.starts, given,
+            self.parity,
+        )  # fmt: skip
+
+    @cached_property
+    def tolerances(self) -> Tolerances:
+        """When Newton's method has converged, as compiled loops take it."""
+        sizes = float(self.scale_c), float(self.lam_scale), float(self.slope_scale)
+        return Tolerances(self.tolerance, self.most_steps, self.extra_steps, *sizes)
 
     @property
     def _metric(self) -> tuple[float, float]:
@@ -175,20 +210,18 @@ class Family:
         frozen: FloatArray | None,
         tolerance: float,
     ) -> tuple[Outcome, State | None, int, FloatArray]:
-        """The same, with the factors of the last Hessian (free unknowns)."""
-        space, c, n = self.space, c.copy(), c.size
-        tangent, new_row = np.empty(n), np.empty(n)
-        held, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
-        wait_for("correct")
-        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = newton.correct(
-            self.model, space.tags, space.table, space.points, space.weights, space.slope_gram,
-            self.ends.held[0], n - self.ends.held[1], *self.ends.tied, self.parity, held, covector, c, lam, self.path,
-            row, row_lam, target, self.scale_c, self.lam_scale, self.slope_scale, tolerance,
-            self.most_steps, self.extra_steps, tangent, new_row,
+        """The same, with the factors of the last Hessian."""
+        c = c.copy()
+        tangent, new_row = np.empty(c.size), np.empty(c.size)
+        direction, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
+        wait_for("newton")
+        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = newton.newton(
+            self.mesh, self.tolerances._replace(step=tolerance), self.path, row, row_lam, target, direction, covector,
+            c, lam, tangent, new_row,
         )  # fmt: skip
         if status != newton.CONVERGED:
             return _OUTCOMES[status], None, steps, factors
-        state = State(space, c, lam, tangent, tangent_lam, new_row, new_row_lam, index, energy)
+        state = State(self.space, c, lam, tangent, tangent_lam, new_row, new_row_lam, index, energy)
         return Outcome.CONVERGED, state, steps, factors
 
     def _normalised(self, vector: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -201,20 +234,8 @@ class Family:
         """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""
         space = self.space
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
-        energy, _ = assembly.assemble(
-            self.model, space.tags, space.table, space.points, space.weights, c,
-            *self._on_path(lam), gradient, mixed, band,
-        )  # fmt: skip
+        energy, _ = assembly.assemble(self.mesh, c, *self._on_path(lam), gradient, mixed, band)
         return energy, gradient, band
-
-    @property
-    def free(self) -> slice:
-        """The coefficients that are not held."""
-        return self.ends.free(self.space.size)
-
-    def free_part(self, band: FloatArray) -> FloatArray:
-        """Band of the free unknowns of a banded matrix."""
-        return self.ends.restrict(band)
 
     def end_reactions(self, state: State) -> tuple[float, float]:
         """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
@@ -234,14 +255,10 @@ class Family:
         variation: unlike a tiny pivot, it is not drowned by the round-off of entries that grow like h⁻³. The noise is
         what round-off leaves in it.
         """
-        space, free = self.space, self.free
-        factors = self.free_part(self.assemble(state.c, state.lam)[2])
+        factors = self.held.restrict(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
-        newton.inverse_iteration(factors, free.start, free.stop, *self.ends.tied, space.slope_gram, iterations, vector)
-        above, size, below = assembly.variation(
-            self.model, space.tags, space.table, space.points, space.weights, state.c,
-            *self._on_path(state.lam), vector,
-        )  # fmt: skip
+        newton.inverse_iteration(self.mesh, factors, iterations, vector)
+        above, size, below = assembly.variation(self.mesh, state.c, *self._on_path(state.lam), vector)
         return float(above / below), float(NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
@@ -265,7 +282,7 @@ class Family:
         # Newton's method leaves alone what breaks the symmetry or an end condition: round-off in it would grow
         # from prediction to prediction
         newton.symmetrise(increment, self.parity)
-        spread(increment, self.free.start, self.free.stop, *self.ends.tied)
+        spread(increment, self.mesh.follows)
         c = state.c + increment
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)

@@ -1,4 +1,6 @@
-"""Where the contact pressure of a state is highest, and how high: also between grid points."""
+"""Where what a model observes of a state is highest along s, and how high: also between grid points.
+
+The class of a model names it: ``observed(s, u, parameters)``, from the field and three derivatives."""
 
 from __future__ import annotations
 
@@ -12,44 +14,45 @@ from rodwell.numerics.splines.products import dots
 MOST_MAXIMA, MOST_STEPS = 64, 12
 SETTLED = 1e-4
 """Part of the stencil's width below which a Newton step is the last one: the next would be about its square, and the
-parabola gives the pressure at its end to round-off."""
+parabola gives the value at its end to round-off."""
 
 SIDE_BY_SIDE = (0,) * 8
-"""As long as there are samples whose pressures are computed at once."""
+"""As long as there are samples that are computed at once."""
 
 STENCIL, ORDERS = (0,) * 5, (0,) * 4
-"""As long as the stencil of differences, and as many orders of derivatives as the pressure takes, with the field."""
+"""As long as the stencil of differences, and as many orders of derivatives as are known, with the field."""
 
-_contacts = on_lanes(
-    lambda model: lambda rows, parameters: [model.contact(rows[0], [rows[k] for k in range(1, 5)], parameters)]
+_observed = on_lanes(
+    lambda model: lambda rows, parameters: [model.observed(rows[0], [rows[k] for k in range(1, 5)], parameters)]
 )
-"""Contact pressure at places side by side, from rows of place, field and three derivatives."""
+"""What is observed, at places side by side, from rows of place, field and three derivatives."""
 
 
 @formula
-def _sample(model, local_tag, grid, table, c, parameters, sample):
-    """Write the contact pressure at all places of a grid."""
+def _sample(mesh, grid, table, c, parameters, sample):
+    """Write what is observed at all places of a grid."""
     m = grid.size
-    per_element, last = (m - 1) // (c.size - len(local_tag) + 1), c.size - len(local_tag)
-    count = len(SIDE_BY_SIDE)
-    known, pressure, u = np.empty((5, count)), np.empty((1, count)), np.empty(4)
+    elements = mesh.starts.size
+    per_element, count = (m - 1) // elements, len(SIDE_BY_SIDE)
+    known, values, u = np.empty((5, count)), np.empty((1, count)), np.empty(4)
     for start in range(0, m, count):
         for i in range(count):
             j = min(start + i, m - 1)
-            dots(model, local_tag, ORDERS, table, 4 * j, 1, c, min(j // per_element, last), u, 0)
+            first = mesh.starts[min(j // per_element, elements - 1)]
+            dots(mesh.model, mesh.local, ORDERS, table, 4 * j, 1, c, first, u, 0)
             known[0, i], known[1, i], known[2, i], known[3, i], known[4, i] = grid[j], u[0], u[1], u[2], u[3]
-        _contacts(model, SIDE_BY_SIDE, known, (parameters,), pressure)
+        _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), values)
         for i in range(min(count, m - start)):
-            sample[start + i] = pressure[0, i]
+            sample[start + i] = values[0, i]
 
 
 @formula
-def _around(model, local_tag, knots, c, parameters, place, delta, basis, known, f):
-    """Write to ``f`` (1, 5) the contact pressure around a place, ``delta`` apart.
+def _around(mesh, knots, c, parameters, place, delta, basis, known, f):
+    """Write to ``f`` (1, 5) what is observed around a place, ``delta`` apart.
 
     A little beyond the ends the polynomial pieces are continued.
     """
-    degree = len(local_tag) - 1
+    degree = len(mesh.local) - 1
     for k in range(5):
         s = place + (k - 2) * delta
         span = find_span(knots, degree, s)
@@ -57,10 +60,10 @@ def _around(model, local_tag, knots, c, parameters, place, delta, basis, known, 
         known[0, k] = s
         for d in range(4):
             total = 0.0
-            for a in range(len(local_tag)):
+            for a in range(len(mesh.local)):
                 total += basis[d, a] * c[span - degree + a]
             known[1 + d, k] = total
-    _contacts(model, STENCIL, known, (parameters,), f)
+    _observed(mesh.model, STENCIL, known, (parameters,), f)
 
 
 @kernel
@@ -73,11 +76,11 @@ def _vertex(x, f):
 
 
 @kernel
-def contact_maxima(model, local_tag, knots, grid, table, c, parameters, margin):
-    """Local maxima of the contact pressure over s in [0, 1], both ends included.
+def maxima(mesh, knots, grid, table, c, parameters, margin):
+    """Local maxima of what is observed over s in [0, 1], both ends included.
 
-    The pressure is sampled on ``grid`` (m,), several places per element, with basis ``table`` (m, 4, p+1). Each
-    sampled maximum within ``margin`` times the range of the pressure from the highest is then refined: Newton's
+    It is sampled on ``grid`` (m,), several places per element, with basis ``table`` (m, 4, p+1). Each
+    sampled maximum within ``margin`` times the range of the samples from the highest is then refined: Newton's
     method on the derivative, which is taken from five-point differences that stay small against the element.
 
     Returns
@@ -85,16 +88,16 @@ def contact_maxima(model, local_tag, knots, grid, table, c, parameters, margin):
     places, values
         Of the maxima, (k,) each, in order of place.
     lowest
-        The smallest sampled pressure.
+        The smallest sample.
     """
     m = grid.size
     sample = np.empty(m)
-    _sample(model, local_tag, grid, table, c, parameters, sample)
+    _sample(mesh, grid, table, c, parameters, sample)
     highest, lowest = np.max(sample), np.min(sample)
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
-    basis, known, f = np.empty((4, len(local_tag))), np.empty((5, 5)), np.empty((1, 5))
+    basis, known, f = np.empty((4, len(mesh.local))), np.empty((5, 5)), np.empty((1, 5))
     for j in range(m):
         if (
             sample[j] < threshold
@@ -109,7 +112,7 @@ def contact_maxima(model, local_tag, knots, grid, table, c, parameters, margin):
         if 0 < j < m - 1:
             place = _vertex(grid[j - 1 : j + 2], sample[j - 1 : j + 2])
         for _ in range(MOST_STEPS):
-            _around(model, local_tag, knots, c, parameters, place, delta, basis, known, f)
+            _around(mesh, knots, c, parameters, place, delta, basis, known, f)
             slope = (8.0 * (f[0, 3] - f[0, 1]) - (f[0, 4] - f[0, 0])) / (12.0 * delta)
             bend = (16.0 * (f[0, 3] + f[0, 1]) - 30.0 * f[0, 2] - (f[0, 4] + f[0, 0])) / (12.0 * delta * delta)
             uphill = high if slope > 0.0 else low
@@ -120,7 +123,7 @@ def contact_maxima(model, local_tag, knots, grid, table, c, parameters, margin):
                 refined = f[0, 2] + step * (slope + 0.5 * step * bend)
                 break
         else:
-            _around(model, local_tag, knots, c, parameters, place, 0.0, basis, known, f)
+            _around(mesh, knots, c, parameters, place, 0.0, basis, known, f)
             refined = f[0, 2]
         if refined < value:  # a maximum at an end, or one too flat to refine
             place, refined = grid[j], value

@@ -44,12 +44,12 @@ def minimise(family: Family, c: FloatArray, lam: float, most_steps: int = 500) -
 def _downhill(family: Family, gradient: FloatArray, band: FloatArray, sigma: float) -> tuple[FloatArray, float]:
     """Newton step with the Hessian shifted, from ``sigma`` on, until it is positive definite; and the shift."""
     while True:
-        factors = family.free_part(band + sigma * family.space.slope_gram)
+        factors = family.held.free_part(band + sigma * family.space.slope_gram)
         if banded.factorise(factors) == 0:
             break
         sigma = max(1.0, 4.0 * sigma)
-    free = -family.ends.gather(gradient)
+    free = -family.held.gather(gradient)
     banded.solve(factors, free)
-    step = family.ends.spread(free)
+    step = family.held.spread(free)
     newton.symmetrise(step, family.parity)
     return step, sigma

@@ -12,7 +12,7 @@ by mixed block elimination, which stays accurate where H is singular but the sys
 H w = row, then, for what is left, from H b = m. See W. Govaerts, *Numerical Methods for Bifurcations of Dynamical
 Equilibria* (2000), section 3.6. The tangent follows from b, the stability index from the pivots of H: one
 factorisation gives all three.
-Only the unknowns ``first … last−1`` vary; the others are held by the end conditions or tied to their neighbour
+Only some unknowns vary; the others are held by the end conditions or follow their neighbour
 (:mod:`rodwell.numerics.splines.held`). A ``parity`` of ±1 keeps
 increments even or odd about the middle: it removes the round-off in the direction that breaks the symmetry,
 which a nearly singular H would blow up near a symmetry-breaking bifurcation. Where there is no symmetry, a
@@ -20,6 +20,8 @@ which a nearly singular H would blow up near a symmetry-breaking bifurcation. Wh
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,7 +59,7 @@ def deflate(x, vector, covector):
 
 @kernel
 def on_path(path, lam, parameters, rates):
-    """Write the parameters p(λ) and their derivatives, see :func:`correct`."""
+    """Write the parameters p(λ) and their derivatives, see :func:`newton`."""
     angle = lam * DEGREE
     cos, sin = np.cos(angle), np.sin(angle)
     for i in range(parameters.size):
@@ -75,17 +77,17 @@ def dot(x, y):
 
 
 @kernel
-def solve_within(factors, x, first, last, tied_first, tied_last, parity, frozen, covector):
-    """Solve H x = b in place for the free unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
+def solve_within(mesh, factors, x, frozen, covector):
+    """Solve H x = b in place for the unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
-    solve(factors, x[first:last])
-    spread(x, first, last, tied_first, tied_last)
-    symmetrise(x, parity)
+    solve(factors, x)
+    spread(x, mesh.follows)
+    symmetrise(x, mesh.parity)
     deflate(x, frozen, covector)  # ... and out of the solution
 
 
 @kernel
-def _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last):
+def _move(c, a, b, more_dlam, dlam, gradient, mixed):
     """Add the step δc = a − δλ₂ b to ``c``; return its largest entry and ½ (g + m δλ)·δc.
 
     The latter is what δc changes the energy by, to second order: g·δc + m·δc δλ + ½ δc·H δc with H δc = −g − m δλ.
@@ -95,8 +97,7 @@ def _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last):
         dc = a[i] - more_dlam * b[i]
         c[i] += dc
         largest = max(largest, abs(dc))
-        if first <= i < last:
-            work += 0.5 * (gradient[i] + mixed[i] * dlam) * dc
+        work += 0.5 * (gradient[i] + mixed[i] * dlam) * dc
     return largest, work
 
 
@@ -106,104 +107,123 @@ def _settles(step, previous):
     return step < previous < 1.0 and step**3 <= NOTHING_LEFT * previous**2
 
 
+class Tolerances(NamedTuple):
+    """When Newton's method has converged, and the sizes (one metric) in which that is measured.
+
+    Attributes
+    ----------
+    step
+        The first step below this ends the iteration: convergence is quadratic, the error left is about its square.
+    most
+        Steps at most.
+    extra
+        Steps after convergence: pivots and tangent belong to the iterate before the last step, and locating a change of
+        the index takes them at the solution itself.
+    size_c, size_lam
+        Of the coefficients, and of λ: steps are measured against them, and λ in the metric.
+    size_slope
+        Of y′, in the metric (:mod:`rodwell.numerics.equilibria.family`).
+    """
+
+    step: float
+    most: int
+    extra: int
+    size_c: float
+    size_lam: float
+    size_slope: float
+
+
 @kernel
-def correct(
-    model, tags, table, points, weights, gram, first, last, tied_first, tied_last, parity,
-    frozen, covector, c, lam, path, row, row_lam, target, scale_c, scale_lam, slope_scale, tolerance, most,
-    extra, tangent, new_row,
-):  # fmt: skip
+def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, lam, tangent, new_row):
     """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
 
-    The parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
-    ``scale_c`` and ``scale_lam`` are the sizes against which Newton steps are measured: iteration ends with
-    the first step below ``tolerance`` (convergence is quadratic: the error left is about its square), or with one from
-    which as small an error can be foreseen, and fails after ``most`` steps, or as soon as a step is not smaller than
+    ``mesh`` is a :class:`rodwell.numerics.splines.records.Discretisation`, ``tolerances`` are :class:`Tolerances`. The
+    parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
+    Iteration ends with the first step below the tolerance, or with one from
+    which as small an error can be foreseen, and fails after too many steps, or as soon as a step is not smaller than
     the one before it, unless both are so small that round-off in a nearly singular H explains it (the two meshes then
-    disagree by as much). ``extra`` steps follow convergence: pivots and tangent belong to the iterate before the last
-    step, and locating a change of the index takes them at the solution itself.
+    disagree by as much).
 
-    Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric (``gram``, ``slope_scale`` and
-    ``scale_lam``: see :mod:`rodwell.numerics.equilibria.family`) and towards growing ``row·c + row_λ λ``, and its
-    covector ``new_row`` (n,).
+    Written: ``tangent`` (n,) of the branch of equilibria, of length one in the metric and towards growing
+    ``row·c + row_λ λ``, and its covector ``new_row`` (n,).
 
     Returns
     -------
     status, λ, λ components of tangent and covector, negative pivots of H, energy, number of steps, last factors of H
-    (free unknowns)
     """
     n = c.size
     gradient, mixed = np.empty(n), np.empty(n)
-    band = np.empty((n, table.shape[2]))
+    band = np.empty((n, len(mesh.local) * len(mesh.model)))
     a, b, w = np.zeros(n), np.zeros(n), np.zeros(n)
     parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
     inner = np.empty((0, 0))
     previous = np.inf
     status, negative, energy, settled, iteration = NOT_CONVERGED, -1, np.nan, 0, 0
-    while status == NOT_CONVERGED and iteration < most + extra:
+    while status == NOT_CONVERGED and iteration < tolerances.most + tolerances.extra:
         iteration += 1
         on_path(path, lam, parameters, rates)
-        energy, rate = assemble(model, tags, table, points, weights, c, parameters, rates, gradient, mixed, band)
+        energy, rate = assemble(mesh, c, parameters, rates, gradient, mixed, band)
         if not np.isfinite(energy):
             status = OUT_OF_RANGE
             break
-        inner = restrict(band, first, last, tied_first, tied_last)
-        gather(gradient, first, last, tied_first, tied_last)
-        gather(mixed, first, last, tied_first, tied_last)
+        inner = restrict(band, mesh.held, mesh.follows)
+        gather(gradient, mesh.held, mesh.follows)
+        gather(mixed, mesh.held, mesh.follows)
         negative = factorise(inner)
         gap = target - row_lam * lam - dot(row, c)
         for i in range(n):
-            w[i] = row[i]
-        gather(w, first, last, tied_first, tied_last)
-        for i in range(n):
-            b[i], w[i] = (mixed[i], w[i]) if first <= i < last else (0.0, 0.0)
-        solve_within(inner, b, first, last, tied_first, tied_last, parity, frozen, covector)
-        solve_within(inner, w, first, last, tied_first, tied_last, parity, frozen, covector)
+            b[i], w[i] = mixed[i], row[i]
+        gather(w, mesh.held, mesh.follows)
+        solve_within(mesh, inner, b, frozen, covector)
+        solve_within(mesh, inner, w, frozen, covector)
         first_dlam, lever = gap, row_lam
-        for i in range(first, last):
+        for i in range(n):
             first_dlam += w[i] * gradient[i]
             lever -= w[i] * mixed[i]
         first_dlam /= lever
         for i in range(n):
-            a[i] = -gradient[i] - mixed[i] * first_dlam if first <= i < last else 0.0
-        solve_within(inner, a, first, last, tied_first, tied_last, parity, frozen, covector)
+            a[i] = -gradient[i] - mixed[i] * first_dlam
+        solve_within(mesh, inner, a, frozen, covector)
         more_dlam = (gap - row_lam * first_dlam - dot(row, a)) / (row_lam - dot(row, b))
         dlam = first_dlam + more_dlam
-        largest, work = _move(c, a, b, more_dlam, dlam, gradient, mixed, first, last)
-        step = max(abs(dlam) / scale_lam, largest / scale_c)
+        largest, work = _move(c, a, b, more_dlam, dlam, gradient, mixed)
+        step = max(abs(dlam) / tolerances.size_lam, largest / tolerances.size_c)
         energy += rate * dlam + work
         lam += dlam
         if not np.isfinite(step):
             status = DIVERGED
-        elif step <= tolerance or settled > 0 or _settles(step, previous):
+        elif step <= tolerances.step or settled > 0 or _settles(step, previous):
             settled += 1
-            status = CONVERGED if settled > extra else NOT_CONVERGED
+            status = CONVERGED if settled > tolerances.extra else NOT_CONVERGED
         elif iteration > 1 and step > previous:
-            at_round_off = extra == 0 and max(step, previous) <= STAGNANT * tolerance
+            at_round_off = tolerances.extra == 0 and max(step, previous) <= STAGNANT * tolerances.step
             status = CONVERGED if at_round_off else DIVERGED
         previous = step
     sign = -1.0 if dot(row, b) <= row_lam else 1.0  # the tangent is (−b, 1), towards growing row·c + row_λ λ
     for i in range(n):
         tangent[i] = sign * b[i]
-    tangent_lam, new_row_lam = hyperplane(gram, slope_scale**-2, scale_lam**-2, tangent, -sign, new_row)
+    tangent_lam, new_row_lam = hyperplane(
+        mesh.gram, tolerances.size_slope**-2, tolerances.size_lam**-2, tangent, -sign, new_row
+    )
     return status, lam, tangent_lam, new_row_lam, negative, energy, iteration, inner
 
 
 @kernel
-def inverse_iteration(factors, first, last, tied_first, tied_last, gram, iterations, vector):
+def inverse_iteration(mesh, factors, iterations, vector):
     """Turn ``vector`` (n,), in place, towards the H v = μ G v with μ nearest to zero; its largest entry becomes 1.
 
-    ``factors`` are those of H for the unknowns ``first … last−1``, ``gram`` is G.
+    ``factors`` are those of H, G are the integrals of u′v′.
     """
     for _ in range(iterations):
-        new = multiply(gram, vector)
-        gather(new, first, last, tied_first, tied_last)
-        solve(factors, new[first:last])
+        new = multiply(mesh.gram, vector)
+        gather(new, mesh.held, mesh.follows)
+        solve(factors, new)
         largest = 0.0
-        for i in range(first, last):
+        for i in range(new.size):
             largest = max(largest, abs(new[i]))
         for i in range(new.size):
-            vector[i] = new[i] / largest if first <= i < last else 0.0
-        spread(vector, first, last, tied_first, tied_last)
+            vector[i] = new[i] / largest
+        spread(vector, mesh.follows)
 
 
 @kernel

@@ -20,6 +20,10 @@ from rodwell.numerics.splines.lanes import CONTRACT, DOUBLE, index, load, spread
 WIDTH = 4
 """Sums that are completed together, and rows of a product that are summed at a time."""
 
+HESSIAN_OF_ONE, ROWS_OF_ONE = 8, 17
+"""For a model of one field: the row of ``terms`` in which the Hessian begins, and how many rows there are; see
+:func:`congruence`."""
+
 WIDEST = 8
 """Most numbers in a chunk of a row: narrower registers take them in two parts."""
 
@@ -140,7 +144,23 @@ def congruence(typingctx, model, tags, table, start, terms, e, f, product):
         product[a, b] = Σ_q B[q, :, a] · H[q, e, f] B[q, :, b]     for b ≥ a, other entries are not to be used
         product[local, b] = Σ_q g[q, f] · B[q, :, b]               product[local+1, b] likewise with m
 
-    All arrays are contiguous.
+    All arrays are contiguous. In full::
+
+        S = 3 nf: fields and two derivatives;  unknown of function i, field f: i nf + f;  element e: from its start
+
+        table (m, 3, p+1)             terms (2 + S(S+2), points of the element),        product (p+3, p+1), block (e, f)
+                                      each row times the weights of the points
+              a=0 … p                 row                                                     b=0  1  …  p
+         q ┌ B    values              0                     energy density                a=0 ┌ K  K  …  K ┐
+           │ B'   1st derivatives     1                     its rate along `rates`          1 │ ·  K  …  K │  K[a,b], b ≥ a,
+           └ B''  2nd derivatives     2     + 3f+d          gradient  g[f,d]                ⋮ │ ·  ·  ⋱  ⋮ │  = Σ_q B[q,:,a]·H B[q,:,b]
+        q+1┌ B                        2+S   + 3f+d          mixed     m[f,d]                p │ ·  ·  ·  K │
+           ⋮                          2+2S  + S(3e+d)+3f+k  H[e,d; f,k]                   p+1 │ Σ_q g·B    │  gradient of field f
+                                                                                          p+2 └ Σ_q m·B    ┘  mixed
+        one field: S = 3, 17 rows: energy 0, rate 1, g 2–4, m 5–7, H 8–16                     ·  not to be used
+
+        band (n, (p+1) nf): band[j, k] = A[j+k, j];  K[b, a] of block (e, f) is added at
+                                                     j = (start + b) nf + e,  k = (a − b) nf + f − e ≥ 0
     """
     local, points = (tag.count for tag in tags.types)
     size = 3 * model.count

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rodwell.numerics.splines import assembly, banded, basis
 from rodwell.numerics.splines.held import Ends
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES_PER_ELEMENT = 3
 ROUND_OFF = 1e-12
@@ -45,6 +45,8 @@ class SplineSpace:
     ----------
     size
         Number of coefficients, elements + degree.
+    starts
+        First basis function of each element, (elements,).
     points, weights
         Gauss quadrature, ``per_element`` points in each element in turn. With p − 1 of them φ″φ″ is integrated
         exactly, which keeps the order of the energy.
@@ -59,6 +61,7 @@ class SplineSpace:
         self.tags = (0,) * (degree + 1), (0,) * self.per_element  # their lengths: what compiled loops must know
         self._tables: dict[tuple[int, bytes], tuple[FloatArray, NDArray[np.int64]]] = {}
         self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
+        self.starts: IntArray = np.arange(self.elements, dtype=np.int64)
         nodes, weights = _gauss(self.per_element)
         half = 0.5 * np.diff(self.breaks)[:, None]
         self.points: FloatArray = (self.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
@@ -100,7 +103,7 @@ class SplineSpace:
     def form(self, density: FloatArray) -> FloatArray:
         """Band of Σ_d ∫ density[d] φᵢ⁽ᵈ⁾ φⱼ⁽ᵈ⁾ ds; ``density`` is (3,) or (3, m) at the quadrature points."""
         full = np.array(np.broadcast_to(np.atleast_2d(density.T).T, (3, self.points.size)), order="C")
-        return np.asarray(assembly.assemble_form(self.tags[0], self.table, self.weights, self.elements, full))
+        return np.asarray(assembly.assemble_form(self.tags[0], self.table, self.weights, self.starts, full))
 
     def grams(self, density: FloatArray, block: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Matrices (k, k) of the form with ``density`` (3, m), and of ∫u'v' ds, for functions with coefficients (k, n).
@@ -112,7 +115,7 @@ class SplineSpace:
         for first in range(0, self.elements, step):
             count = min(step, self.elements - first)
             here = slice(first * self.per_element, (first + count) * self.per_element)
-            values = np.asarray(assembly.values_at_points(self.tags, self.table, block, first, count))
+            values = np.asarray(assembly.values_at_points(self.tags, self.table, self.starts, block, first, count))
             slope += (values[:, 1] * self.weights[here]) @ values[:, 1].T
             factors = density[:, here] * self.weights[here]
             energy += sum((values[:, d] * factors[d]) @ values[:, d].T for d in range(3))
@@ -144,7 +147,7 @@ class SplineSpace:
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m); (k, 3, m) of a block (k, size)."""
         block = np.ascontiguousarray(np.atleast_2d(coefficients))
-        values = np.asarray(assembly.values_at_points(self.tags, self.table, block, 0, self.elements))
+        values = np.asarray(assembly.values_at_points(self.tags, self.table, self.starts, block, 0, self.elements))
         return values if coefficients.ndim > 1 else values[0]
 
     def wavenumber(self, coefficients: FloatArray) -> float:
@@ -164,10 +167,11 @@ class SplineSpace:
         load = np.zeros(self.size)
         for a in range(self.degree + 1):
             load[a : a + self.elements] += local[:, a]
-        mass, free = ends.restrict(self.form(np.array([1.0, 0.0, 0.0]))), ends.gather(load)
+        held = ends.among(self.size)
+        mass, free = held.free_part(self.form(np.array([1.0, 0.0, 0.0]))), held.gather(load)
         banded.factorise(mass)
         banded.solve(mass, free)
-        return ends.spread(free)
+        return held.spread(free)
 
     @cached_property
     def symmetric(self) -> bool:

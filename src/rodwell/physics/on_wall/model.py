@@ -15,13 +15,23 @@ class RodOnCylinder(NamedTuple):
     y: int = 0
 
     @staticmethod
-    def density(s: Any, u: Any, parameters: Any, rates: Any) -> Any:
+    def given() -> tuple[str, ...]:
+        """Names of the coefficients that vary along s: none."""
+        return ()
+
+    @staticmethod
+    def out_of_range() -> str:
+        """What an energy that is no number means."""
+        return "the rod turned across the cylinder (|η| = 90°): the load is beyond the theory's range"
+
+    @staticmethod
+    def density(s: Any, u: Any, _given: Any, parameters: Any, rates: Any) -> Any:
         """Energy density and its derivatives at ``s``, where y less the ramp has the value and derivatives ``u``."""
         ramp = parameters[RAMP]
         return rod_density(s, u[0] + ramp * s, u[1] + ramp, u[2], parameters, rates)
 
     @staticmethod
-    def contact(s: Any, u: Any, parameters: Any) -> Any:
-        """Contact pressure, negative in contact, at ``s``; ``u`` as for the density, with the third derivative."""
+    def observed(s: Any, u: Any, parameters: Any) -> Any:
+        """What is looked at along s: the contact pressure, negative in contact, at ``s``; ``u`` as for the density, with the third derivative."""
         ramp = parameters[RAMP]
         return towards_lift_off(s, u[0] + ramp * s, u[1] + ramp, u[2], u[3], parameters)
