@@ -64,10 +64,8 @@ def test_index_is_the_count_of_negative_eigenvalues(fig3c: dict[int, Branch]) ->
         family, fine = state.ladder.fine, state.point.fine
         space, n = fine.space, fine.space.size
         band = np.empty((n, space.degree + 1))
-        assembly.assemble(
-            family.model, space.tags, space.table, space.points, space.weights, fine.c,
-            family.parameters(fine.lam), family.rates(fine.lam), np.empty(n), np.empty(n), band,
-        )  # fmt: skip
+        at_state = family.parameters(fine.lam), family.rates(fine.lam)
+        assembly.assemble(family.mesh, fine.c, *at_state, np.empty(n), np.empty(n), band)
         full = np.zeros((n, n))
         for k in range(space.degree + 1):
             i = np.arange(n - k)

@@ -8,6 +8,7 @@ import numba
 import numpy as np
 import pytest
 import scipy.linalg
+from discretised import discretised
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -51,9 +52,7 @@ def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float,
     gradient, mixed = np.empty(space.size), np.empty(space.size)
     band = np.empty((space.size, space.degree + 1))
     rates = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    energy, _ = assembly.assemble(
-        RodOnCylinder(), space.tags, space.table, space.points, space.weights, c, p, rates, gradient, mixed, band
-    )
+    energy, _ = assembly.assemble(discretised(RodOnCylinder(), space), c, p, rates, gradient, mixed, band)
     return energy, gradient, mixed, dense(band)
 
 
@@ -81,9 +80,7 @@ def test_variation_along_a_direction_is_that_of_the_hessian() -> None:
     rng = np.random.default_rng(4)
     c, v = 0.004 * rng.standard_normal(space.size), rng.standard_normal(space.size)
     p, rates = np.array([-90.0, 10.0, 15.0, 0.05, 0.4, 1.0, 0.0]), np.zeros(7)
-    above, size, below = assembly.variation(
-        RodOnCylinder(), space.tags, space.table, space.points, space.weights, c, p, rates, v
-    )
+    above, size, below = assembly.variation(discretised(RodOnCylinder(), space), c, p, rates, v)
     assert above == pytest.approx(v @ rod_system(c, space, p)[3] @ v, rel=1e-9)
     assert below == pytest.approx(v @ dense(space.slope_gram) @ v, rel=1e-11)
     assert size >= abs(above)
@@ -130,7 +127,11 @@ class TwoBeams(NamedTuple):
     b: int = 0
 
     @staticmethod
-    def density(s: Any, u: Any, parameters: Any, rates: Any) -> Any:
+    def given() -> tuple[str, ...]:
+        return ()
+
+    @staticmethod
+    def density(s: Any, u: Any, _: Any, parameters: Any, rates: Any) -> Any:
         hessian: list[list[Any]] = [[0.0] * 6 for _ in range(6)]
         hessian[0][4] = hessian[4][0] = u[4]
         hessian[1][3] = hessian[3][1] = 1.0
@@ -148,9 +149,7 @@ def test_assembly_of_two_coupled_fields() -> None:
 
     def system(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
         gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, 2 * (space.degree + 1)))
-        energy, _ = assemble(
-            TwoBeams(), space.tags, space.table, space.points, space.weights, x, p, rates, gradient, mixed, band
-        )
+        energy, _ = assemble(discretised(TwoBeams(), space), x, p, rates, gradient, mixed, band)
         return energy, gradient, dense(band)
 
     _, gradient, hessian = system(c)

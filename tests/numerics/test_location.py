@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from rodwell import Problem, follow
 from rodwell.numerics.continuation.crossings import _bisect
 from rodwell.numerics.continuation.location import Span, bracketed_root
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -69,7 +70,8 @@ def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> 
     c = space.project(amplitude * profile / np.max(np.abs(profile)), Ends((2, 2)))
     p = np.array([-100.0, 0.0, lateral, clearance, 0.0, 1.0, 0.0])
     grid, table = space.samples
-    places, values, _ = contact_maxima(RodOnCylinder(), space.tags[0], space.knots, grid, table, c, p, 0.5)
+    family = Family(RodOnCylinder(), np.zeros((4, p.size)), space, Ends((2, 2)), 0, clearance, 1.0, 1.0)
+    places, values, _ = maxima(family.mesh, space.knots, grid, table, c, p, 0.5)
     dense = np.linspace(0.0, 1.0, 200_001)
     u = space.evaluate(c, dense, 4)
     return np.array([places, values]), np.array([dense, contact_pressure(dense, *u, p)])

@@ -57,7 +57,9 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {family.advice(outcome)}")
     outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
-        raise NotConvergedError(f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}")
+        raise NotConvergedError(
+            f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}"
+        )
     return Solution(problem, ladder.at(point, force) or point, ladder)
 
 

@@ -20,8 +20,8 @@ import numpy as np
 
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
-from rodwell.numerics.splines import assembly, banded
 from rodwell.numerics.equilibria.newton import Tolerances
+from rodwell.numerics.splines import assembly, banded
 from rodwell.numerics.splines.held import Ends, Held, spread
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace

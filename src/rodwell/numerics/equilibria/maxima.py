@@ -1,6 +1,7 @@
 """Where what a model observes of a state is highest along s, and how high: also between grid points.
 
-The class of a model names it: ``observed(s, u, parameters)``, from the field and three derivatives."""
+The class of a model names it: ``observed(s, u, parameters)``, from the field and three derivatives.
+"""
 
 from __future__ import annotations
 

@@ -4,11 +4,12 @@ A *model* is a named tuple with one entry for each field. Its class gives the en
 
     ``density(s, u, given, parameters, rates)`` → energy, rate, gradient, mixed, hessian,
 
-where ``u[3 f + d]`` is derivative d of field f, and ``given`` are the coefficients that vary along s, whose names
-``given()`` returns; the derivatives by u are ``gradient`` (3 nf) and ``hessian``
+where ``u[3 f + d]`` is derivative d of field f; the derivatives by u are ``gradient`` (3 nf) and ``hessian``
 (3 nf, 3 nf), and ``rate`` and ``mixed`` (3 nf) are those of energy and gradient along ``rates``, a direction in the
-space of the ``parameters``. Where contact is looked at, ``contact(s, u, parameters)`` is the contact pressure from the
-fields and three derivatives. Both are compiled into the kernels: see :mod:`rodwell.numerics.splines.lanes`.
+space of the ``parameters``. ``given`` are the coefficients that vary along s, in the order in which the class's
+``given()`` names them. What is looked at along s, and maximised, is ``observed(s, u, parameters)``, from a field and
+three derivatives. Both formulas are compiled into the kernels: see :mod:`rodwell.numerics.splines.lanes`. And
+``out_of_range()`` says in words what it means where the energy is no number.
 
 Coefficients are ordered basis function by basis function, fields inside: unknown ``i nf + f``; the half-bandwidth is
 ``(p + 1) nf − 1``.
@@ -169,5 +170,16 @@ def values_at_points(tags, table, starts, block, start, elements):
         for element in range(elements):
             for d in range(3):
                 row, at = 3 * (start + element) * per_element + d, (3 * i + d) * elements * per_element
-                dots(ONE, tags[0], tags[1], table, row, 3, block[i], starts[start + element], out, at + element * per_element)
+                dots(
+                    ONE,
+                    tags[0],
+                    tags[1],
+                    table,
+                    row,
+                    3,
+                    block[i],
+                    starts[start + element],
+                    out,
+                    at + element * per_element,
+                )
     return out

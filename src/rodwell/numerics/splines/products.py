@@ -146,21 +146,28 @@ def congruence(typingctx, model, tags, table, start, terms, e, f, product):
 
     All arrays are contiguous. In full::
 
-        S = 3 nf: fields and two derivatives;  unknown of function i, field f: i nf + f;  element e: from its start
+        S = 3 nf: fields and two derivatives;  unknown of function i, field f: i nf + f
 
-        table (m, 3, p+1)             terms (2 + S(S+2), points of the element),        product (p+3, p+1), block (e, f)
-                                      each row times the weights of the points
-              a=0 … p                 row                                                     b=0  1  …  p
-         q ┌ B    values              0                     energy density                a=0 ┌ K  K  …  K ┐
-           │ B'   1st derivatives     1                     its rate along `rates`          1 │ ·  K  …  K │  K[a,b], b ≥ a,
-           └ B''  2nd derivatives     2     + 3f+d          gradient  g[f,d]                ⋮ │ ·  ·  ⋱  ⋮ │  = Σ_q B[q,:,a]·H B[q,:,b]
-        q+1┌ B                        2+S   + 3f+d          mixed     m[f,d]                p │ ·  ·  ·  K │
-           ⋮                          2+2S  + S(3e+d)+3f+k  H[e,d; f,k]                   p+1 │ Σ_q g·B    │  gradient of field f
-                                                                                          p+2 └ Σ_q m·B    ┘  mixed
-        one field: S = 3, 17 rows: energy 0, rate 1, g 2–4, m 5–7, H 8–16                     ·  not to be used
+        table (m, 3, p+1)             terms (2 + S(S+2), points of the element), weighted
+            a=0 … p                   row
+         q ┌ B    values              0                     energy density
+           │ B'   1st derivatives     1                     its rate along `rates`
+           └ B''  2nd derivatives     2     + 3f+d          gradient  g[f,d]
+        q+1┌ B                        2+S   + 3f+d          mixed     m[f,d]
+           ⋮                          2+2S  + S(3e+d)+3f+k  H[e,d; f,k]
+                                      one field: 17 rows: energy 0, rate 1, g 2–4, m 5–7, H 8–16
 
-        band (n, (p+1) nf): band[j, k] = A[j+k, j];  K[b, a] of block (e, f) is added at
-                                                     j = (start + b) nf + e,  k = (a − b) nf + f − e ≥ 0
+        product (p+3, p+1) of block (e, f)
+             b=0  1  …  p
+        a=0 ┌ K   K  …  K ┐
+          1 │ ·   K  …  K │  K[a,b] = Σ_q B[q,:,a] · H B[q,:,b], b ≥ a
+          ⋮ │ ·   ·  ⋱  ⋮ │  ·  not to be used
+          p │ ·   ·  ·  K │
+        p+1 │ Σ_q g · B   │  gradient of field f
+        p+2 └ Σ_q m · B   ┘  mixed
+
+        band (n, (p+1) nf): band[j, k] = A[j+k, j];  K[b, a] of block (e, f) of an element is added at
+        j = (start + b) nf + e,  k = (a − b) nf + f − e ≥ 0
     """
     local, points = (tag.count for tag in tags.types)
     size = 3 * model.count

@@ -13,7 +13,8 @@ class Discretisation(NamedTuple):
     Attributes
     ----------
     model
-        A named tuple with an entry for each field; its class gives the formulas (:mod:`rodwell.numerics.splines.assembly`).
+        A named tuple with an entry for each field; its class gives the formulas, see
+        :mod:`rodwell.numerics.splines.assembly`.
     local, per_element
         Zeros, p + 1 and as many as there are quadrature points in an element: lengths that the compiler knows.
     table

@@ -32,6 +32,6 @@ class RodOnCylinder(NamedTuple):
 
     @staticmethod
     def observed(s: Any, u: Any, parameters: Any) -> Any:
-        """What is looked at along s: the contact pressure, negative in contact, at ``s``; ``u`` as for the density, with the third derivative."""
+        """Return the contact pressure, negative in contact, at ``s``, from ``u`` with the third derivative."""
         ramp = parameters[RAMP]
         return towards_lift_off(s, u[0] + ramp * s, u[1] + ramp, u[2], u[3], parameters)
