@@ -365,7 +365,7 @@ main()
 """
 
 COMPUTING = """
-import rodwell.answers.result.answer as module
+import rodwell.answers.result.computed as module
 genuine = module.follow
 
 def endless(*arguments, **options):
@@ -378,7 +378,7 @@ module.follow = endless
 """
 
 COMPILED = """
-import rodwell.answers.result.answer as module
+import rodwell.answers.result.computed as module
 
 def interrupted(*arguments, **options):  # what a compiled call raises when the signal meets it
     print("ready", flush=True)

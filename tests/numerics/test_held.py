@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from discretised import nothing_on_disk
 from hypothesis import given
 from hypothesis import strategies as st
-from numba.core.caching import NullCache
 from scipy.optimize import brentq
 from scipy.special import airy
 
 from rodwell.numerics.equilibria.family import Family
-from rodwell.numerics.splines.assembly import assemble
 from rodwell.numerics.splines.banded import factorise, solve
 from rodwell.numerics.splines.held import Ends, Held
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -93,9 +93,9 @@ class Column(NamedTuple):
 
 
 @pytest.fixture
-def _not_on_disk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Machine code for a model of this file can be read by it alone."""
-    monkeypatch.setattr(assemble, "_cache", NullCache())
+def _not_on_disk() -> Iterator[None]:
+    with nothing_on_disk():
+        yield
 
 
 @pytest.mark.usefixtures("_not_on_disk")

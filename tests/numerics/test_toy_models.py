@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from numba.core.caching import NullCache
+from discretised import nothing_on_disk
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipe, ellipk
@@ -23,7 +23,6 @@ from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import newton
 from rodwell.numerics.equilibria.two_meshes import Ladder, Point
-from rodwell.numerics.splines.assembly import assemble, variation
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
@@ -74,19 +73,12 @@ MIDDLE, SLOPE, ENERGY = range(3)
 
 DEGREE, ELEMENTS = 7, 16
 END = "end"
-OF_MODELS = assemble, variation, newton, maxima
-"""The kernels that are compiled for each model."""
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _nothing_on_disk() -> Iterator[None]:
-    """Keep machine code for these models off the disk: an index that names them can be read by this file alone."""
-    caches = [kernel._cache for kernel in OF_MODELS]
-    for kernel in OF_MODELS:
-        kernel._cache = NullCache()
-    yield
-    for kernel, cache in zip(OF_MODELS, caches, strict=True):
-        kernel._cache = cache
+    with nothing_on_disk():
+        yield
 
 
 def measure(_: Family, state: State) -> FloatArray:
