@@ -89,7 +89,7 @@ def ladder_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELE
     """Equilibria in λ, the only parameter; u' = π and λ = 10 count as one unit of arclength."""
     space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree, degree + 1)
     path = np.array([[0.0], [1.0], [0.0], [0.0]])
-    return Ladder(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9, kin=((1, 1),))
+    return Ladder(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
 
 
 def followed(ladder: Ladder, start: Point, loads: Sequence[float], *, switched: bool = False) -> Trace:
