@@ -215,7 +215,7 @@ def from_nothing(ladder: Ladder) -> Point:
     return ladder.point(states[0], states[1])
 
 
-@pytest.fixture(scope="module", params=[1], ids=["even"])
+@pytest.fixture(scope="module", params=[1, 0], ids=["kept even", "free"])
 def folding(request: pytest.FixtureRequest) -> Trace:
     """The branch from λ = 0 over the fold and back to λ = 1."""
     ladder = ladder_of(Folding(), request.param)
