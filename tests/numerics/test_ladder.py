@@ -13,7 +13,7 @@ def test_errors_from_two_meshes() -> None:
     rng = np.random.default_rng(0)
     fine, coarse = rng.uniform(0.1, 1.0, (2, 3, 6))
     fine[1, 5] = np.inf  # a guard: it is not judged
-    error, worst = _judged(fine, coarse, ((2, 4),))
+    error, worst = _judged(fine, coarse, np.array([[2, 4]]))
     expected = np.abs(fine[0] - coarse[0]) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine[0]) + fine[2]
     expected[:5] += ROUND_OFF * fine[1, :5]
     expected[2:5] = expected[2:5].max()  # numbers of one kind share the largest error
@@ -21,8 +21,16 @@ def test_errors_from_two_meshes() -> None:
     assert worst == pytest.approx(np.max(expected[:5] / fine[1, :5]), rel=1e-14)
 
 
+def test_numbers_without_kin_keep_their_own_errors() -> None:
+    fine, coarse = np.array([[1.0, 2.0], [1.0, 1.0], [0.0, 0.0]]), np.zeros((3, 2))
+    error, worst = _judged(fine, coarse, np.empty((0, 2), dtype=np.int64))
+    np.testing.assert_allclose(error, np.array([1.0, 2.0]) / CLAIMED_GAIN, rtol=1e-10)
+    assert worst == error[1]
+    assert len(_judged.signatures) == 1, "the same machine code for any number of groups"
+
+
 @pytest.mark.parametrize("place", range(3))
 def test_a_number_that_is_none_is_not_passed_over(place: int) -> None:
     fine, coarse = np.ones((3, 3)), np.ones((3, 3))
     fine[0, place] = np.nan
-    assert np.isnan(_judged(fine, coarse, ((0, 1),))[1])
+    assert np.isnan(_judged(fine, coarse, np.array([[0, 1]]))[1])

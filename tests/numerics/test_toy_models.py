@@ -90,7 +90,7 @@ def ladder_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELE
     """Equilibria in λ, the only parameter; u' = π and λ = 10 count as one unit of arclength."""
     space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree, degree + 1)
     path = np.array([[0.0], [1.0], [0.0], [0.0]])
-    return Ladder(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9, kin=((1, 1),))
+    return Ladder(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
 
 
 def followed(ladder: Ladder, start: Point, loads: Sequence[float], *, switched: bool = False) -> Trace:
@@ -214,7 +214,7 @@ def from_nothing(ladder: Ladder) -> Point:
     return ladder.point(states[0], states[1])
 
 
-@pytest.fixture(scope="module", params=[1], ids=["even"])
+@pytest.fixture(scope="module", params=[1, 0], ids=["kept even", "free"])
 def folding(request: pytest.FixtureRequest) -> Trace:
     """The branch from λ = 0 over the fold and back to λ = 1."""
     ladder = ladder_of(Folding(), request.param)

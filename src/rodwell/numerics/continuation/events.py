@@ -121,11 +121,14 @@ class _Segment:
         """Whether a branch turns back since it meets its own mirror image.
 
         The index is then the same on both sides, and its softest eigenvalue, which vanishes there without changing
-        sign, must not be looked at.
+        sign, must not be looked at. The reflection that leaves the state as it is turns the branch round, so the
+        tangent has the other symmetry; where a branch of symmetric states folds, it has theirs.
         """
         family = self.ladder.fine
-        straight = np.max(np.abs(state.c)) < NEARLY * family.scale_c
-        return bool(straight or (family.parity == 0 and state.space.symmetric and state.symmetry_within(NEARLY) != 0))
+        if np.max(np.abs(state.c)) < NEARLY * family.scale_c:
+            return True
+        parity = state.symmetry_within(NEARLY) if family.parity == 0 and state.space.symmetric else 0
+        return parity != 0 and family.loses(state, parity)
 
     def _changed(self, crossing: Crossing) -> Found:
         index = crossing.before, crossing.after

@@ -87,8 +87,7 @@ class State:
 
     def symmetrised(self, parity: int) -> FloatArray:
         """Coefficients of the even (1) or odd (−1) part; of a coil, odd about its middle."""
-        middle = self.c[0] + self.c[-1] if parity < 0 else 0.0
-        return 0.5 * (self.c + parity * self.c[::-1] + middle)
+        return _part(self.c, parity)
 
     def reversed(self) -> State:
         """Return the same state with the opposite direction of travel."""
@@ -97,6 +96,12 @@ class State:
     def along(self, other: State) -> float:
         """Return the distance to ``other`` along the tangent of this state (same space)."""
         return float(self.row @ (other.c - self.c) + self.row_lam * (other.lam - self.lam))
+
+
+def _part(c: FloatArray, parity: int) -> FloatArray:
+    """The even (1) or odd (−1, up to a constant) part of coefficients."""
+    middle = c[0] + c[-1] if parity < 0 else 0.0
+    return 0.5 * (c + parity * c[::-1] + middle)
 
 
 @dataclass(frozen=True)
@@ -287,6 +292,11 @@ class Family:
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)
         return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam), factors
+
+    def loses(self, state: State, parity: int) -> bool:
+        """Whether the branch through a state breaks its symmetry rather than keep it: so its tangent does."""
+        kept = _part(state.tangent, parity)
+        return self.distance(state.tangent - kept, 0.0) > self.distance(kept, state.tangent_lam)
 
     def distance(self, c: FloatArray, lam: float) -> float:
         """Length of a difference of states in the metric."""

@@ -14,6 +14,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, ROUND_OFF, estimated_error
@@ -21,6 +22,8 @@ from rodwell.numerics.equilibria.family import Family, Outcome, State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.quantities.arrays import FloatArray
+
+IntArray = NDArray[np.int64]
 
 Measure = Callable[[Family, State], FloatArray]
 """Rows of (3, k): numbers to report of a state, the scales against which their errors are judged, and the errors that
@@ -40,13 +43,17 @@ def _larger(a, b):
 
 @kernel
 def _judged(fine, coarse, kin):
-    """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale."""
+    """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale.
+
+    ``kin`` (g, 2) is an array, not a tuple: its type is the same for any number of groups, and for none.
+    """
     error = np.empty(fine.shape[1])
     for i in range(error.size):
         scale = fine[1, i]
         known = ROUND_OFF * scale if np.isfinite(scale) else 0.0
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
-    for first, last in kin:
+    for group in range(kin.shape[0]):
+        first, last = kin[group, 0], kin[group, 1]
         for i in range(first, last + 1):
             error[first] = _larger(error[first], error[i])
         for i in range(first, last + 1):
@@ -115,10 +122,10 @@ class Ladder:
         measure: Measure,
         rtol: float,
         most_elements: int = 20_000,
-        kin: Sequence[tuple[int, int]] = (),
+        kin: Sequence[tuple[int, int]] | IntArray = (),
     ) -> None:
         self.floor = 1.0  # excess below which refinement was found not to help (round-off)
-        self.kin = tuple(kin)  # first and last number of each group
+        self.kin = np.array(kin, dtype=np.int64).reshape(-1, 2)  # first and last number of each group
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
