@@ -1,9 +1,8 @@
-"""Shared fixtures, and removal of compiled kernels that are older than any kernel source."""
+"""Shared fixtures."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")  # threads that wait for each other slow small systems; before NumPy loads
@@ -15,20 +14,6 @@ import rodwell  # noqa: E402
 
 settings.register_profile("rodwell", deadline=None, derandomize=True)  # tests do not time
 settings.load_profile("rodwell")
-
-SOURCE = Path(rodwell.__file__).parent
-
-
-def _drop_stale_kernels() -> None:
-    """Numba notices a change of a function's own file only, not of the compiled functions that it calls."""
-    compiled = list(SOURCE.rglob("*.nbi")) + list(SOURCE.rglob("*.nbc"))
-    newest = max(file.stat().st_mtime for file in SOURCE.rglob("*.py"))
-    if compiled and min(file.stat().st_mtime for file in compiled) < newest:
-        for file in compiled:
-            file.unlink()
-
-
-_drop_stale_kernels()
 
 
 @pytest.fixture(scope="session")

@@ -65,3 +65,7 @@ def checked_whole(field: str, value: object, low: int, high: int) -> int:
 
 class NotConvergedError(RodwellError):
     """A result that could not be computed to the tolerance asked for, with the reason."""
+
+
+class CacheWarning(UserWarning):
+    """Compiled kernels could not be read from disk, or not be kept there: that costs time; results are the same."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
+from typing import Any
 
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")  # threads slow small banded systems; must be set before NumPy loads
@@ -21,7 +23,7 @@ from rodwell.cli.paper import paper
 from rodwell.cli.quick import critical, liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
-from rodwell.errors import InputError, RodwellError
+from rodwell.errors import CacheWarning, InputError, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
 
@@ -45,6 +47,7 @@ for command in (
 
 def main() -> None:
     """Run the command line; turn every expected error into one message and an exit code."""
+    warnings.showwarning = _warned
     try:
         cli.main(standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as problem:
@@ -53,7 +56,11 @@ def main() -> None:
     except click.ClickException as problem:
         problem.show()
         sys.exit(problem.exit_code)
-    except (click.Abort, KeyboardInterrupt):
+    except click.Abort as abort:  # click's word for Ctrl-C, but for an EOFError from anywhere as well
+        if isinstance(abort.__cause__, EOFError):
+            raise abort.__cause__ from None
+        _interrupted()
+    except KeyboardInterrupt:
         _interrupted()
     except SystemError as problem:
         if not _caused_by_interrupt(problem):
@@ -71,6 +78,17 @@ def main() -> None:
     except OSError as problem:
         click.echo(f"rodwell: error: {problem}", err=True)
         sys.exit(COMPUTATION_ERROR)
+
+
+_show_warning = warnings.showwarning
+
+
+def _warned(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+    """Tell a warning of rodwell in one line, without the place in the source; others as Python does."""
+    if issubclass(category, CacheWarning):
+        click.echo(f"rodwell: warning: {message}", err=True)
+    else:
+        _show_warning(message, category, *where, **more)
 
 
 def _interrupted() -> None:

@@ -121,10 +121,9 @@ def progress_bar(show: bool, first: str) -> Iterator[Progress]:
     from rich.console import Console  # noqa: PLC0415
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn  # noqa: PLC0415
 
-    from rodwell.compiling.second_process import on_disk  # noqa: PLC0415
-    from rodwell.numerics.equilibria.newton import newton  # noqa: PLC0415
+    from rodwell.analysis.discrete import first_run  # noqa: PLC0415
 
-    note = "" if on_disk(newton) else " (first run: compiling once, some seconds)"
+    note = "" if first_run.done() else " (first run: compiling once, some seconds)"
     columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(first + note, total=1.0)

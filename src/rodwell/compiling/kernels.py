@@ -13,21 +13,20 @@ from typing import Any
 import numba
 from numba.extending import register_jitable
 
+from rodwell.compiling.cache import keep
+
 
 def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
 
     ``options`` are those of ``numba.njit``.
 
-    Where no folder for the cache can be written (a read-only installation without a home folder), the
-    function is compiled anew in each process instead.
+    Where it cannot be kept (a full disk, a read-only installation without a home folder), the function is compiled
+    anew in each process instead: see :mod:`rodwell.compiling.cache`.
     """
     if function is None:
         return partial(kernel, **options)
-    try:
-        return numba.njit(cache=True, error_model="numpy", **options)(function)
-    except RuntimeError:  # Numba: "no locator available"
-        return numba.njit(error_model="numpy", **options)(function)
+    return keep(numba.njit(error_model="numpy", **options)(function))
 
 
 def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:

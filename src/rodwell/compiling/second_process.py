@@ -12,8 +12,6 @@ import atexit
 import os
 import subprocess
 import sys
-from pathlib import Path
-from typing import Any
 
 
 class _Helper:
@@ -46,14 +44,6 @@ class _Helper:
 
 
 _helper: _Helper | None = None
-
-
-def on_disk(kernel: Any) -> bool:
-    """Whether machine code of a kernel lies on disk from an earlier run."""
-    folder = kernel.stats.cache_path
-    function = kernel.py_func
-    module = function.__module__.rpartition(".")[2]
-    return folder is not None and any(Path(folder).glob(f"{module}.{function.__qualname__}-*.nbc"))
 
 
 def begin(module: str) -> None:

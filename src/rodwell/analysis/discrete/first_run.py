@@ -13,6 +13,7 @@ from numba import types
 
 from rodwell.analysis.discrete.choices import DEGREE, POINTS_OF_BRANCH
 from rodwell.compiling import second_process
+from rodwell.compiling.cache import on_disk
 from rodwell.numerics.continuation.softest import softest
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import Tolerances, newton
@@ -52,16 +53,23 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
 """Kernels and the types of their arguments: the only ones with which they are called."""
 
 
+def done() -> bool:
+    """Whether an earlier run has compiled; the largest kernel tells."""
+    return on_disk(*KERNELS[1])
+
+
 def begin() -> None:
     """Start the second process, on the first run."""
-    if newton.stats.cache_path is not None and not second_process.on_disk(newton):
+    if newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)
 
 
 def main() -> None:
-    """Compile, and print the name of each kernel that is done."""
+    """Compile, and print the name of each kernel that is done; end where none reaches the disk."""
     for kernel, arguments in KERNELS:
         kernel.compile(arguments)
+        if not on_disk(kernel, arguments):  # a full disk: nobody should wait for more
+            return
         print(kernel.py_func.__name__, flush=True)  # read by the first process
 
 

@@ -10,9 +10,8 @@ from contextlib import contextmanager
 from multiprocessing import get_context
 from pathlib import Path
 
-from rodwell.compiling import second_process
+from rodwell.analysis.discrete import first_run
 from rodwell.errors import checked_whole
-from rodwell.numerics.equilibria.newton import newton
 from rodwell.quantities.tolerance import RTOL
 from rodwell.report.reports.texts import number
 from rodwell.store.folder import whole_folder
@@ -74,7 +73,7 @@ def write_paper(
     jobs = checked_whole("jobs", usual if jobs is None else jobs, 1, MOST_JOBS)
     tell = progress or (lambda _what, _done: None)
     share = 1.0 / (1.0 + 2.0 * len(drawn))
-    if jobs > 1 and drawn and not second_process.on_disk(newton):  # first run of all: let one process compile
+    if jobs > 1 and drawn and not first_run.done():  # first run of all: let one process compile
         work.branch(Work.WARM)
     with whole_folder(out) as folder, _drawing(drawn, rtol, folder, jobs) as finished:
         table = agreement(only, work=work, progress=lambda what, done: tell(what, share * done))

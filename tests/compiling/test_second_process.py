@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 
 import pytest
 
@@ -32,6 +31,12 @@ def test_each_kernel_is_announced(capsys):
     assert capsys.readouterr().out.split() == ["maxima", "newton", "softest"]
 
 
+def test_no_kernel_is_announced_that_is_not_on_disk(capsys, monkeypatch):
+    monkeypatch.setattr(first_run, "on_disk", lambda _kernel, _arguments: False)
+    first_run.main()
+    assert capsys.readouterr().out == ""
+
+
 def test_waiting_ends_with_the_name_and_when_the_other_process_dies(no_helper, tmp_path, monkeypatch):
     (tmp_path / "short_lived.py").write_text("print('one', flush=True)\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
@@ -55,25 +60,9 @@ def test_without_permission_to_start_processes_there_is_no_helper(no_helper, mon
 def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
     begun = []
     monkeypatch.setattr(second_process, "begin", begun.append)
-    monkeypatch.setattr(second_process, "on_disk", lambda _kernel: False)
+    monkeypatch.setattr(first_run, "done", lambda: False)
     first_run.begin()
     assert begun == ["rodwell.analysis.discrete.first_run"]
-    monkeypatch.setattr(second_process, "on_disk", lambda _kernel: True)
+    monkeypatch.setattr(first_run, "done", lambda: True)
     first_run.begin()
     assert len(begun) == 1
-
-
-def test_machine_code_on_disk_is_seen(tmp_path):
-    script = (
-        "from rodwell.compiling import second_process; from rodwell.numerics.equilibria.newton import dot;"
-        "import numpy as np;"
-        "print(second_process.on_disk(dot)); dot(np.ones(2), np.ones(2)); print(second_process.on_disk(dot))"
-    )
-    run = subprocess.run(
-        [sys.executable, "-c", script],
-        env=os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert run.stdout.split() == ["False", "True"]

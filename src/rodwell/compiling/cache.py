@@ -1,0 +1,237 @@
+"""Machine code on disk: fresh, whole, or compiled again.
+
+Numba keeps the machine code of a kernel for the next start. Left alone it notices changes of the kernel's own file
+only, not of what the kernel calls; it runs whatever the file holds; and where the file cannot be written it ends the
+run. So files are read and written here, one for each kernel and types of arguments, and Numba is handed what is
+
+fresh
+    The *stamp* in the file is the one of today's sources: of the file of the kernel and of the model that it is
+    compiled for, and of every file that these import, directly or not. What a kernel calls, what is called when it is
+    compiled, and the constants that it freezes all reach it by imports.
+whole
+    The checksum in the file is that of its content. Damage is thrown away, told once, and compiled again.
+
+A file is written beside its place and moved there, so processes that read and write at a time see a whole file or none.
+"""
+
+from __future__ import annotations
+
+import pickle
+import re
+import sys
+import uuid
+import warnings
+import zlib
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+from numba.core.caching import FunctionCache
+from numba.core.serialize import dumps
+
+from rodwell.errors import CacheWarning
+
+ROOM = Path(__file__).resolve().parent
+SOURCE = ROOM.parent
+STAMP_SIZE, CHECKSUM_SIZE = 16, 4
+
+_IMPORT = re.compile(
+    r"^[ \t]*(?:from[ \t]+(rodwell[\w.]*)[ \t]+import[ \t]*(\([^)]*\)|[^\n]*)|import[ \t]+(rodwell[\w.]*))",
+    re.MULTILINE,
+)
+
+
+def keep(kernel: Any) -> Any:
+    """Give a kernel that Numba has made its files on disk, and return it."""
+    if not hasattr(kernel, "enable_caching"):  # NUMBA_DISABLE_JIT: a plain function
+        return kernel
+    try:
+        kernel._cache = KernelCache(kernel.py_func)
+    except RuntimeError:  # Numba: "no locator available"
+        _tell(
+            "no place",
+            "compiled kernels are not kept: no folder for them can be written, so they are compiled at each start. "
+            "The environment variable NUMBA_CACHE_DIR names another folder",
+        )
+    except AttributeError:  # another Numba, with other insides: its own cache
+        kernel.enable_caching()
+    return kernel
+
+
+def on_disk(kernel: Any, arguments: tuple[Any, ...]) -> bool:
+    """Whether machine code of a kernel for types of arguments lies on disk, fresh and whole."""
+    kept = kernel._cache
+    return isinstance(kept, KernelCache) and kept.holds(arguments, kernel.targetctx.codegen())
+
+
+class KernelCache(FunctionCache):
+    """Numba's cache of one kernel, with our files."""
+
+    def __init__(self, function: Any) -> None:
+        super().__init__(function)
+        files: Any = _Files(Path(self.cache_path), self._impl.filename_base, function.__module__)
+        self._cache_file = files
+
+    def save_overload(self, signature: Any, compiled: Any) -> None:
+        """Put machine code on disk; where that fails it stays in memory."""
+        try:
+            super().save_overload(signature, compiled)
+        except OSError as problem:  # disk full, folder that can no longer be written
+            _tell(
+                "no place",
+                f"compiled kernels cannot be kept in {self.cache_path} ({problem.strerror or problem}), so they are "
+                "compiled at each start. The environment variable NUMBA_CACHE_DIR names another folder",
+            )
+
+    def holds(self, signature: Any, codegen: Any) -> bool:
+        """Whether machine code for a signature lies on disk, fresh and whole."""
+        return self._cache_file.load(self._index_key(signature, codegen)) is not None
+
+
+class _Files:
+    """The files of one kernel; ``load``, ``save`` and ``flush`` are what Numba's cache asks for.
+
+    A *key* is Numba's: the types of the arguments, the processor, and hashes of the bytecode.
+    """
+
+    def __init__(self, folder: Path, name: str, module: str) -> None:
+        self.folder, self.name, self.module = folder, name, module
+
+    def load(self, key: Any) -> Any:
+        path = self._path(key)
+        try:
+            content = path.read_bytes()
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        except OSError:  # an unreadable part of the disk is damage too
+            content = b""
+        checksum, stamped = content[:CHECKSUM_SIZE], content[CHECKSUM_SIZE:]
+        if checksum != _checksum(stamped):
+            self._throw_away(path)
+            return None
+        if stamped[:STAMP_SIZE] != stamp(self.module, *_models(key)):
+            return None
+        try:
+            stored, data = pickle.loads(memoryview(stamped)[STAMP_SIZE:])
+        except Exception:  # what it names is no longer there
+            return None
+        return data if stored == key else None
+
+    def save(self, key: Any, data: Any) -> None:
+        stamped = stamp(self.module, *_models(key)) + dumps((key, data))
+        path = self._path(key)
+        beside = path.with_name(f"{path.name}.tmp.{uuid.uuid4().hex[:16]}")
+        try:
+            beside.write_bytes(_checksum(stamped) + stamped)
+            beside.replace(path)
+        finally:
+            beside.unlink(missing_ok=True)
+
+    def flush(self) -> None:
+        for path in self.folder.iterdir():
+            if path.name.startswith(f"{self.name}.") and path.suffix == ".nbc":
+                path.unlink(missing_ok=True)
+
+    def _path(self, key: Any) -> Path:
+        models = [f"{model.__module__}.{model.__qualname__}" for model in _models(key)]  # types tell no modules
+        return self.folder / f"{self.name}.{blake2b(repr((key, models)).encode(), digest_size=8).hexdigest()}.nbc"
+
+    def _throw_away(self, path: Path) -> None:
+        # Another process may have put a whole file there in between: it is compiled once more, no harm is done.
+        with suppress(OSError):  # then it is written over, or stays
+            path.unlink(missing_ok=True)
+        _tell("damage", f"compiled kernels in {self.folder} were damaged; they are compiled again")
+
+
+def _checksum(content: bytes) -> bytes:
+    return zlib.crc32(content).to_bytes(CHECKSUM_SIZE, "big")
+
+
+def _models(key: Any) -> list[type]:
+    """Classes of the models among the arguments: their formulas are compiled into the kernel."""
+    signature = key[0]
+    arguments = getattr(signature, "args", signature)
+    return [argument.instance_class for argument in arguments if hasattr(argument, "instance_class")]
+
+
+def stamp(module: str, *models: type) -> bytes:
+    """Hash of all that machine code depends on: the compiler, and the sources behind a module and models."""
+    found = blake2b(f"{numba.__version__} {llvmlite.__version__}".encode(), digest_size=STAMP_SIZE)
+    for name in (module, *(model.__module__ for model in models)):
+        found.update(_hash_of(name))
+    return found.digest()
+
+
+@cache
+def _hash_of(module: str) -> bytes:
+    """Hash of the file of a module and of all files of rodwell that it imports, directly or not."""
+    found = blake2b()
+    for path in sorted(sources(module)):
+        found.update(blake2b(_read(path)).digest())
+    return found.digest()
+
+
+def sources(module: str) -> set[Path]:
+    """Files of a module, and of all modules of rodwell that it imports, directly or not."""
+    first = _file(module) or getattr(sys.modules.get(module), "__file__", None)  # the latter: a model of somebody else
+    found: set[Path] = set()
+    ahead = [Path(first)] if first else []
+    while ahead:
+        path = ahead.pop()
+        if path not in found:
+            found.add(path)
+            ahead += () if path.parent == ROOM else imported(path)  # what this room needs shapes no machine code
+    return found
+
+
+@cache
+def imported(path: Path) -> list[Path]:
+    """Files of rodwell that a file imports, wherever in it.
+
+    Read with a regular expression, for speed: a line of a docstring that looks like an import counts as one.
+    """
+    return [file for name in _names(_read(path).decode(errors="replace")) if (file := _file(name))]
+
+
+def _names(text: str) -> Iterator[str]:
+    for package, names, module in _IMPORT.findall(text):
+        if module:
+            yield module
+            continue
+        yield package
+        yield from (f"{package}.{word}" for word in re.findall(r"\w+", names))  # some may be modules, others are not
+
+
+@cache
+def _file(module: str) -> Path | None:
+    top, *parts = module.split(".")
+    if top != "rodwell":
+        return None
+    base = SOURCE.joinpath(*parts)
+    for path in (base / "__init__.py", base.with_suffix(".py")):
+        if path.is_file():
+            return path
+    return None
+
+
+@cache
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError:  # no sources in this installation: they do not change either
+        return b""
+
+
+_told: set[str] = set()
+
+
+def _tell(cause: str, message: str) -> None:
+    """Warn, of each cause once in a process: many kernels suffer from one."""
+    if cause not in _told:
+        _told.add(cause)
+        warnings.warn(message, CacheWarning, stacklevel=2)

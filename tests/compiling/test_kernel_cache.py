@@ -1,0 +1,364 @@
+"""Machine code on disk: compiled again after an edit of anything behind it, and after damage; in memory if need be."""
+
+from __future__ import annotations
+
+import ast
+import errno
+import os
+import shutil
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numba
+import pytest
+from numba.core.caching import CacheImpl
+from numba.core.dispatcher import Dispatcher
+
+from rodwell.cli import main as command_line
+from rodwell.compiling import cache
+from rodwell.compiling.kernels import kernel
+from rodwell.errors import CacheWarning
+from rodwell.physics.model import RodOnCylinder
+
+FLOAT = (numba.types.float64,)
+WITH_KERNELS = ("assembly", "banded", "bsplines", "corrector", "ends", "extrema", "ladder", "prediction", "watch")
+
+
+def tripled(x):
+    return 3.0 * x
+
+
+def opened(model, x):
+    return model.y + x
+
+
+class Other(NamedTuple):
+    """A model of somebody else, with the name of ours."""
+
+    y: int = 0
+
+
+Other.__name__ = RodOnCylinder.__name__
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder for machine code, and a process that has not warned yet."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "kernels"))
+    monkeypatch.setattr(cache, "_told", set())
+    return tmp_path / "kernels"
+
+
+def files(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob("*") if path.is_file()]
+
+
+def compilations(compiled: Any) -> int:
+    return sum(compiled.stats.cache_misses.values())
+
+
+def flipped(content: bytes, at: int) -> bytes:
+    return content[:at] + bytes([content[at] ^ 0x10]) + content[at + 1 :]
+
+
+DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _content: b"",
+    "cut in the checksum": lambda content: content[:2],
+    "cut in the stamp": lambda content: content[:9],
+    "cut in the machine code": lambda content: content[: len(content) // 2],
+    "last byte missing": lambda content: content[:-1],
+    "junk": lambda content: bytes(range(256)) * (len(content) // 256),
+    "text": lambda _content: b"not machine code\n",
+    "nought": lambda content: bytes(len(content)),
+    "flipped in the checksum": lambda content: flipped(content, 1),
+    "flipped in the stamp": lambda content: flipped(content, 7),
+    "flipped in the key": lambda content: flipped(content, 60),
+    "flipped in the machine code": lambda content: flipped(content, len(content) // 2),
+    "flipped at the end": lambda content: flipped(content, -1 % len(content)),
+    "something behind it": lambda content: content + b"\0",
+}
+
+
+@pytest.mark.parametrize("kind", DAMAGE)
+def test_damage_is_told_and_compiled_again(kind, folder):
+    kernel(tripled)(1.0)
+    (path,) = files(folder)
+    whole = path.read_bytes()
+    path.write_bytes(DAMAGE[kind](whole))
+    again = kernel(tripled)
+    with pytest.warns(CacheWarning, match="were damaged; they are compiled again") as told:
+        assert again(2.0) == 6.0
+    assert (len(told), compilations(again)) == (1, 1)
+    assert str(path.parent) in str(told[0].message)
+    later = kernel(tripled)
+    assert (later(2.0), compilations(later)) == (6.0, 0)  # what is on disk is whole again
+
+
+def test_a_file_that_cannot_be_read_is_damage(folder):
+    kernel(tripled)(1.0)
+    (path,) = files(folder)
+    path.unlink()
+    path.mkdir()
+    with pytest.warns(CacheWarning) as told:
+        assert kernel(tripled)(2.0) == 6.0
+    assert ["damaged" in str(one.message) for one in told] == [True, False]  # the second: nor be written there
+
+
+def test_several_damaged_files_are_told_once(folder):
+    kernel(tripled)(1.0)
+    kernel(tripled)(1)
+    assert len(files(folder)) == 2
+    for path in files(folder):
+        path.write_bytes(b"")
+    again = kernel(tripled)
+    with pytest.warns(CacheWarning) as told:
+        assert (again(2.0), again(2)) == (6.0, 6.0)
+    assert (len(told), compilations(again)) == (1, 2)
+
+
+def test_machine_code_on_disk_is_seen(folder):
+    compiled = kernel(tripled)
+    assert not cache.on_disk(compiled, FLOAT)
+    compiled(1.0)
+    assert cache.on_disk(compiled, FLOAT)
+    assert not cache.on_disk(compiled, (numba.types.int64,))
+    compiled._cache.flush()
+    assert files(folder) == []
+    assert not cache.on_disk(compiled, FLOAT)
+
+
+def test_code_of_other_sources_is_not_loaded(folder, monkeypatch):
+    kernel(tripled)(1.0)
+    monkeypatch.setattr(cache, "stamp", lambda *_names: b"s" * cache.STAMP_SIZE)
+    edited = kernel(tripled)
+    assert (edited(2.0), compilations(edited)) == (6.0, 1)  # without a warning
+    assert len(files(folder)) == 1
+    later = kernel(tripled)
+    assert (later(2.0), compilations(later)) == (6.0, 0)
+
+
+def test_models_of_one_name_do_not_take_each_others_place(folder):
+    models = (RodOnCylinder(2), Other(2))
+    assert repr(numba.typeof(models[0])) == repr(numba.typeof(models[1]))
+    for misses in (1, 0):
+        for model in models:
+            compiled = kernel(opened)
+            assert (compiled(model, 1), compilations(compiled)) == (3, misses)
+    assert len(files(folder)) == 2
+
+
+@pytest.mark.parametrize("problem", [OSError(errno.ENOSPC, "No space left on device"), PermissionError(13, "denied")])
+def test_on_a_full_disk_kernels_stay_in_memory(problem, folder, monkeypatch):
+    def full(path: Path, content: bytes) -> None:
+        with path.open("wb") as file:  # a part of it is written, and must go
+            file.write(content[:100])
+        raise problem
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    compiled = kernel(tripled)
+    with pytest.warns(CacheWarning, match="NUMBA_CACHE_DIR") as told:
+        assert (compiled(2.0), compiled(2)) == (6.0, 6)
+    assert len(told) == 1
+    assert str(compiled.stats.cache_path) in str(told[0].message)
+    assert problem.strerror in str(told[0].message)
+    assert files(folder) == []
+
+
+def test_a_folder_that_went_away_is_told_when_it_cannot_be_made_again(folder):
+    compiled = kernel(tripled)
+    shutil.rmtree(folder)
+    folder.write_text("in the way")
+    with pytest.warns(CacheWarning, match="NUMBA_CACHE_DIR"):
+        assert compiled(2.0) == 6.0
+
+
+def test_without_any_folder_kernels_are_compiled_in_each_process(monkeypatch):
+    monkeypatch.setattr(CacheImpl, "_locator_classes", [])
+    with pytest.warns(CacheWarning, match="NUMBA_CACHE_DIR") as told:
+        one, two = kernel(tripled), kernel(opened)
+    assert len(told) == 1
+    assert (one(2.0), two(RodOnCylinder(2), 1)) == (6.0, 3)
+    assert not cache.on_disk(one, FLOAT)
+
+
+def test_with_another_numba_its_own_cache_serves(monkeypatch, folder):
+    def changed(_function: Any) -> None:
+        raise AttributeError("_impl")
+
+    monkeypatch.setattr(cache, "KernelCache", changed)
+    assert kernel(tripled)(2.0) == 6.0
+    assert sorted(path.suffix for path in files(folder)) == [".nbc", ".nbi"]
+
+
+def test_what_numba_does_not_compile_is_left_alone():
+    assert cache.keep(tripled) is tripled
+
+
+# What the stamp covers.
+
+
+def imports(path: Path) -> Iterator[str]:
+    """Modules that a file imports, read with Python's parser."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: a relative import is not seen by the stamp"
+            yield from (str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names))
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+
+
+def test_every_import_is_seen():
+    for path in cache.SOURCE.rglob("*.py"):
+        wanted = {file for name in imports(path) if (file := cache._file(name))}
+        assert wanted <= set(cache.imported(path)), path
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "from rodwell.physics.model import RodOnCylinder\n",
+        "from rodwell.physics import linear as straight, model\n",
+        "def f():\n    from rodwell.physics import (\n        linear,  # the straight rod\n        model,\n    )\n",
+        "import rodwell.physics.model\n",
+        "import rodwell.physics.model as ours  # ours\n",
+    ],
+)
+def test_imports_are_seen_in_all_their_forms(text):
+    assert cache.SOURCE / "physics" / "model.py" in {cache._file(name) for name in cache._names(text)}
+
+
+def reached(function: Any, seen: set[Any]) -> set[Any]:
+    """Functions of rodwell that are compiled with a function: what its code names, and what they name in turn."""
+    function = getattr(function, "py_func", function)
+    function = getattr(function, "_defn", function)  # an intrinsic
+    if function not in seen and getattr(function, "__module__", "").startswith("rodwell."):
+        seen.add(function)
+        for name in getattr(function, "__code__", compile("", "", "exec")).co_names:
+            value = function.__globals__.get(name)
+            if callable(value) and not isinstance(value, type):
+                reached(value, seen)
+    return seen
+
+
+def test_the_stamp_covers_all_that_is_compiled_together():
+    modules = [f"rodwell.numerics.{name}" for name in WITH_KERNELS] + ["rodwell.analysis.measures"]
+    count = 0
+    for module in modules:
+        for value in vars(import_module(module)).values():
+            if isinstance(value, Dispatcher) and value.py_func.__module__ == module:
+                for function in reached(value, set()):
+                    count += 1
+                    assert Path(function.__code__.co_filename) in cache.sources(module), function
+    assert count > 60
+    formulas = reached(RodOnCylinder.density, set()) | reached(RodOnCylinder.contact, set())
+    assert len(formulas) > 4
+    for function in formulas:
+        assert Path(function.__code__.co_filename) in cache.sources(RodOnCylinder.__module__), function
+
+
+def test_every_kernel_is_known_here():
+    listed = {f"numerics/{name}.py" for name in WITH_KERNELS} | {"analysis/measures.py"}
+    holding = {
+        path.relative_to(cache.SOURCE).as_posix()
+        for path in cache.SOURCE.rglob("*.py")
+        if "import kernel" in (text := path.read_text(encoding="utf-8")) or "import formula, kernel" in text
+    }
+    assert holding == listed
+
+
+def test_the_stamp_tells_the_model_and_leaves_out_what_shapes_no_code():
+    module = "rodwell.numerics.corrector"
+    assert cache.stamp(module) != cache.stamp(module, RodOnCylinder)
+    assert cache.stamp(module) == cache.stamp(module)
+    assert Path(__file__) in cache.sources(Other.__module__)  # a model of somebody else
+    assert cache.SOURCE / "physics" / "_density.py" in cache.sources(RodOnCylinder.__module__)
+    for unrelated in ("errors.py", "numerics/location.py", "analysis/follow.py"):
+        assert cache.SOURCE / unrelated not in cache.sources(module)
+
+
+SOLVE = """
+import numpy as np
+from rodwell.numerics.corrector import solve_within
+x, none = np.array([2.0, 4.0]), np.zeros(2)
+solve_within(np.array([[2.0], [2.0]]), x, 0, 2, False, False, 0, none, none)
+print(x.tolist(), sum(solve_within.stats.cache_hits.values()))
+"""
+
+
+def test_an_edit_of_an_inner_kernel_is_compiled_into_what_calls_it(tmp_path):
+    shutil.copytree(cache.SOURCE, tmp_path / "rodwell", ignore=shutil.ignore_patterns("__pycache__"))
+    environment = os.environ | {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "kernels")}
+
+    def run() -> str:
+        done = subprocess.run(
+            [sys.executable, "-c", SOLVE], env=environment, capture_output=True, text=True, check=True
+        )
+        return done.stdout.strip()
+
+    assert (run(), run()) == ("[1.0, 2.0] 0", "[1.0, 2.0] 1")
+    inner = tmp_path / "rodwell" / "numerics" / "banded.py"
+    before = inner.read_text(encoding="utf-8")
+    after = before.replace("total = x[j] / factors[j, 0]", "total = x[j] * factors[j, 0]")
+    assert after != before
+    inner.write_text(after, encoding="utf-8")
+    assert (run(), run()) == ("[4.0, 8.0] 0", "[4.0, 8.0] 1")
+    with (tmp_path / "rodwell" / "numerics" / "location.py").open("a") as unrelated:
+        unrelated.write("\n")
+    assert run() == "[4.0, 8.0] 1"
+
+
+# The command line.
+
+
+def critical(folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "rodwell", "critical", "--weight", "15", "--alpha", "90"],
+        env=os.environ | {"NUMBA_CACHE_DIR": str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_a_command_with_damaged_kernels_says_so_in_one_line_and_goes_on(folder):
+    first = critical(folder)
+    assert (first.returncode, first.stderr) == (0, "")
+    kinds = list(DAMAGE.values())
+    kept = files(folder)
+    assert len(kept) > 3
+    for i, path in enumerate(kept):
+        path.write_bytes(kinds[i % len(kinds)](path.read_bytes()))
+    again = critical(folder)
+    assert (again.returncode, again.stdout) == (0, first.stdout)
+    (line,) = again.stderr.splitlines()
+    assert line.startswith("rodwell: warning: compiled kernels in ")
+    assert line.endswith(" were damaged; they are compiled again")
+    last = critical(folder)
+    assert (last.returncode, last.stdout, last.stderr) == (0, first.stdout, "")
+
+
+def test_warnings_of_others_are_shown_as_python_does(capsys, monkeypatch):
+    monkeypatch.setattr(command_line, "_show_warning", lambda message, *_where: print(f"shown: {message}"))
+    command_line._warned(UserWarning("theirs"), UserWarning, "file.py", 1)
+    command_line._warned(CacheWarning("ours"), CacheWarning, "file.py", 1)
+    shown = capsys.readouterr()
+    assert (shown.out, shown.err) == ("shown: theirs\n", "rodwell: warning: ours\n")
+
+
+@pytest.mark.parametrize("cause", [EOFError("ran out of input"), KeyboardInterrupt()])
+def test_only_an_interruption_is_told_as_one(cause, capsys, monkeypatch):
+    def broken(**_options: Any) -> None:
+        raise cause
+
+    monkeypatch.setattr(command_line.critical, "callback", broken)
+    monkeypatch.setattr(sys, "argv", ["rodwell", "critical", "--weight", "15", "--alpha", "90"])
+    with warnings.catch_warnings(), pytest.raises((EOFError, SystemExit)) as left:
+        command_line.main()
+    interrupted = isinstance(cause, KeyboardInterrupt)
+    assert isinstance(left.value, SystemExit) is interrupted
+    assert ("nothing was written" in capsys.readouterr().err) is interrupted
