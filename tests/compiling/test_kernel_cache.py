@@ -19,14 +19,20 @@ import pytest
 from numba.core.caching import CacheImpl
 from numba.core.dispatcher import Dispatcher
 
+from rodwell.analysis.discrete import first_run
 from rodwell.cli import main as command_line
 from rodwell.compiling import cache
 from rodwell.compiling.kernels import kernel
 from rodwell.errors import CacheWarning
-from rodwell.physics.model import RodOnCylinder
+from rodwell.physics.on_wall.model import RodOnCylinder
 
 FLOAT = (numba.types.float64,)
-WITH_KERNELS = ("assembly", "banded", "bsplines", "corrector", "ends", "extrema", "ladder", "prediction", "watch")
+WITH_KERNELS = (
+    *("numerics/splines/basis", "numerics/splines/held", "numerics/splines/assembly", "numerics/splines/banded"),
+    *("numerics/equilibria/newton", "numerics/equilibria/maxima"),
+    *("numerics/equilibria/two_meshes", "numerics/continuation/prediction", "numerics/continuation/softest"),
+    "analysis/discrete/measures",
+)
 
 
 def tripled(x):
@@ -221,15 +227,15 @@ def test_every_import_is_seen():
 @pytest.mark.parametrize(
     "text",
     [
-        "from rodwell.physics.model import RodOnCylinder\n",
-        "from rodwell.physics import linear as straight, model\n",
-        "def f():\n    from rodwell.physics import (\n        linear,  # the straight rod\n        model,\n    )\n",
-        "import rodwell.physics.model\n",
-        "import rodwell.physics.model as ours  # ours\n",
+        "from rodwell.physics.on_wall.model import RodOnCylinder\n",
+        "from rodwell.physics.on_wall import linear as straight, model\n",
+        "def f():\n    from rodwell.physics.on_wall import (\n        linear,  # straight rod\n        model,\n    )\n",
+        "import rodwell.physics.on_wall.model\n",
+        "import rodwell.physics.on_wall.model as ours  # ours\n",
     ],
 )
 def test_imports_are_seen_in_all_their_forms(text):
-    assert cache.SOURCE / "physics" / "model.py" in {cache._file(name) for name in cache._names(text)}
+    assert cache.SOURCE / "physics" / "on_wall" / "model.py" in {cache._file(name) for name in cache._names(text)}
 
 
 def reached(function: Any, seen: set[Any]) -> set[Any]:
@@ -246,7 +252,7 @@ def reached(function: Any, seen: set[Any]) -> set[Any]:
 
 
 def test_the_stamp_covers_all_that_is_compiled_together():
-    modules = [f"rodwell.numerics.{name}" for name in WITH_KERNELS] + ["rodwell.analysis.measures"]
+    modules = [f"rodwell.{name}".replace("/", ".") for name in WITH_KERNELS]
     count = 0
     for module in modules:
         for value in vars(import_module(module)).values():
@@ -255,14 +261,21 @@ def test_the_stamp_covers_all_that_is_compiled_together():
                     count += 1
                     assert Path(function.__code__.co_filename) in cache.sources(module), function
     assert count > 60
-    formulas = reached(RodOnCylinder.density, set()) | reached(RodOnCylinder.contact, set())
+    formulas = reached(RodOnCylinder.density, set()) | reached(RodOnCylinder.observed, set())
     assert len(formulas) > 4
     for function in formulas:
         assert Path(function.__code__.co_filename) in cache.sources(RodOnCylinder.__module__), function
 
 
+def test_a_model_within_a_record_is_seen():
+    """The kernels take the model in the record of the mesh."""
+    newton, arguments = first_run.KERNELS[1]
+    assert newton.py_func.__name__ == "newton"
+    assert RodOnCylinder in cache._models((arguments,))
+
+
 def test_every_kernel_is_known_here():
-    listed = {f"numerics/{name}.py" for name in WITH_KERNELS} | {"analysis/measures.py"}
+    listed = {f"{name}.py" for name in WITH_KERNELS}
     holding = {
         path.relative_to(cache.SOURCE).as_posix()
         for path in cache.SOURCE.rglob("*.py")
@@ -272,21 +285,21 @@ def test_every_kernel_is_known_here():
 
 
 def test_the_stamp_tells_the_model_and_leaves_out_what_shapes_no_code():
-    module = "rodwell.numerics.corrector"
+    module = "rodwell.numerics.equilibria.newton"
     assert cache.stamp(module) != cache.stamp(module, RodOnCylinder)
     assert cache.stamp(module) == cache.stamp(module)
     assert Path(__file__) in cache.sources(Other.__module__)  # a model of somebody else
-    assert cache.SOURCE / "physics" / "_density.py" in cache.sources(RodOnCylinder.__module__)
-    for unrelated in ("errors.py", "numerics/location.py", "analysis/follow.py"):
+    assert cache.SOURCE / "physics" / "on_wall" / "_density.py" in cache.sources(RodOnCylinder.__module__)
+    for unrelated in ("errors.py", "numerics/continuation/location.py", "analysis/branch/follow.py"):
         assert cache.SOURCE / unrelated not in cache.sources(module)
 
 
 SOLVE = """
 import numpy as np
-from rodwell.numerics.corrector import solve_within
-x, none = np.array([2.0, 4.0]), np.zeros(2)
-solve_within(np.array([[2.0], [2.0]]), x, 0, 2, False, False, 0, none, none)
-print(x.tolist(), sum(solve_within.stats.cache_hits.values()))
+from rodwell.numerics.equilibria.newton import hyperplane
+x, row = np.array([3.0, 4.0]), np.empty(2)
+hyperplane(np.array([[1.0], [1.0]]), 1.0, 1.0, x, 0.0, row)
+print((5.0 * x).tolist(), sum(hyperplane.stats.cache_hits.values()))
 """
 
 
@@ -300,16 +313,16 @@ def test_an_edit_of_an_inner_kernel_is_compiled_into_what_calls_it(tmp_path):
         )
         return done.stdout.strip()
 
-    assert (run(), run()) == ("[1.0, 2.0] 0", "[1.0, 2.0] 1")
-    inner = tmp_path / "rodwell" / "numerics" / "banded.py"
+    assert (run(), run()) == ("[3.0, 4.0] 0", "[3.0, 4.0] 1")
+    inner = tmp_path / "rodwell" / "numerics" / "splines" / "banded.py"
     before = inner.read_text(encoding="utf-8")
-    after = before.replace("total = x[j] / factors[j, 0]", "total = x[j] * factors[j, 0]")
+    after = before.replace("out[j] += band[j, 0] * x[j]", "out[j] += 4.0 * band[j, 0] * x[j]")
     assert after != before
     inner.write_text(after, encoding="utf-8")
-    assert (run(), run()) == ("[4.0, 8.0] 0", "[4.0, 8.0] 1")
-    with (tmp_path / "rodwell" / "numerics" / "location.py").open("a") as unrelated:
+    assert (run(), run()) == ("[1.5, 2.0] 0", "[1.5, 2.0] 1")
+    with (tmp_path / "rodwell" / "numerics" / "continuation" / "location.py").open("a") as unrelated:
         unrelated.write("\n")
-    assert run() == "[4.0, 8.0] 1"
+    assert run() == "[1.5, 2.0] 1"
 
 
 # The command line.

@@ -153,10 +153,15 @@ def _checksum(content: bytes) -> bytes:
 
 
 def _models(key: Any) -> list[type]:
-    """Classes of the models among the arguments: their formulas are compiled into the kernel."""
+    """Classes of the named tuples among the arguments, and in them: formulas of models are compiled into the kernel."""
     signature = key[0]
-    arguments = getattr(signature, "args", signature)
-    return [argument.instance_class for argument in arguments if hasattr(argument, "instance_class")]
+    found, ahead = [], list(getattr(signature, "args", signature))
+    while ahead:
+        argument = ahead.pop(0)
+        if hasattr(argument, "instance_class"):
+            found.append(argument.instance_class)
+            ahead += getattr(argument, "types", ())
+    return found
 
 
 def stamp(module: str, *models: type) -> bytes:
