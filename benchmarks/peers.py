@@ -29,7 +29,7 @@ PROBLEM = rodwell.Problem(15.0)
 
 def on_elements(solution: rodwell.Solution, least_elements: int) -> tuple[Family, State]:
     """The state on its finer mesh, halved until it has ``least_elements``."""
-    family, state = solution.ladder.fine, solution.point.fine
+    family, state = solution.meshes.fine, solution.point.fine
     while family.space.elements < least_elements:
         old, family = family.space, family.on(family.space.refined())
         start = family.space.project(old.evaluate(state.c, family.space.points, 1)[0], family.ends)

@@ -19,11 +19,11 @@ from rodwell import Problem
 from rodwell.analysis.discrete.choices import DEGREE
 from rodwell.analysis.discrete.family import family as equilibria
 from rodwell.analysis.discrete.family import spline_ends
-from rodwell.analysis.discrete.measures import Measured, measure, measured_ladder
+from rodwell.analysis.discrete.measures import Measured, measure, measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight import critical
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.two_meshes import Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.physics.exact import pair_loads
 from rodwell.physics.on_wall.strand import contact_pressure
@@ -164,7 +164,7 @@ def _one(problem: Problem, mode: Any, force: float) -> list[tuple[float, ...]]:
     return rows
 
 
-def _on_share(problem: Problem, mode: Any, family: Family, best: State, share: float) -> Point | None:
+def _on_share(problem: Problem, mode: Any, family: Family, best: State, share: float) -> MeshedState | None:
     """The state on both meshes, the first with a share of the elements that the program would take."""
     base = first_space(problem, min(best.lam, mode.force), max(best.lam, mode.force)).breaks
     elements = 2 * max(4, round(0.5 * share * (base.size - 1)))
@@ -174,9 +174,9 @@ def _on_share(problem: Problem, mode: Any, family: Family, best: State, share: f
     _, coarse, _ = rough.at(c, best.lam)
     if coarse is None:
         return None
-    ladder = measured_ladder(rough, 1e-6, 4000)
-    fine = replace(coarse, space=ladder.fine.space, c=ladder.up(coarse.c))
-    return ladder.at(Point(coarse, fine, np.empty(0), np.empty(0), 0.0), best.lam)
+    meshes = measured_meshes(rough, 1e-6, 4000)
+    fine = replace(coarse, space=meshes.fine.space, c=meshes.up(coarse.c))
+    return meshes.at(MeshedState(coarse, fine, np.empty(0), np.empty(0), 0.0), best.lam)
 
 
 @cache

@@ -61,7 +61,7 @@ def test_index_is_the_count_of_negative_eigenvalues(fig3c: dict[int, Branch]) ->
     from rodwell.numerics.splines import assembly
 
     for state in (fig3c[1][20], fig3c[2][6], fig3c[1][-1]):
-        family, fine = state.ladder.fine, state.point.fine
+        family, fine = state.meshes.fine, state.point.fine
         space, n = fine.space, fine.space.size
         band = np.empty((n, space.degree + 1))
         at_state = family.parameters(fine.lam), family.rates(fine.lam)
@@ -76,7 +76,7 @@ def test_index_is_the_count_of_negative_eigenvalues(fig3c: dict[int, Branch]) ->
 def test_energy_is_that_of_the_coefficients_and_of_exact_quadrature(fig3c: dict[int, Branch]) -> None:
     """The energy is carried over the last Newton step; the meshes of branches have two Gauss points less than exact."""
     for state in (fig3c[1][3], fig3c[1][-1], fig3c[2][6]):
-        family, fine = state.ladder.fine, state.point.fine
+        family, fine = state.meshes.fine, state.point.fine
         assert family.assemble(fine.c, fine.lam)[0] == pytest.approx(fine.energy, rel=1e-11)
         exact = SplineSpace(fine.space.breaks, fine.space.degree)
         assert exact.per_element == fine.space.per_element + 2
@@ -305,7 +305,7 @@ def test_an_index_change_in_the_first_step_from_a_state_is_found() -> None:
 
 def test_a_start_takes_its_own_tolerance_and_no_mode() -> None:
     start = follow(Problem(15.0), until=-150.0, rtol=1e-5)[-1]
-    assert follow(Problem(15.0), start=start, until=-160.0, rtol=1e-9)[-1].ladder.rtol == 1e-9
+    assert follow(Problem(15.0), start=start, until=-160.0, rtol=1e-9)[-1].meshes.rtol == 1e-9
     assert follow(Problem(15.0), start=start, until=-160.0, rtol=1e-9).converged
     for wrong in ({"mode": 1}, {"mirror": True}):
         with pytest.raises(InputError, match="neither mode nor mirror"):

@@ -76,7 +76,7 @@ def test_index_chain_of_every_branch_is_closed(whole: Diagram) -> None:
 
 def test_images_of_a_branch_solve_the_problem_too(whole: Diagram) -> None:
     state = whole["secondary 1"][10]
-    family, c = state.ladder.fine, state.point.fine.c
+    family, c = state.meshes.fine, state.point.fine.c
     assert {image.name for image in whole.images(whole["secondary 1"])} == {"y(s)", "−y(s)", "y(1−s)", "−y(1−s)"}
     for image in (MIRROR, TURNED, TURNED_MIRROR):
         mirrored = image.sign * (c[::-1] if image.turned else c)
@@ -88,11 +88,11 @@ def test_images_of_a_branch_solve_the_problem_too(whole: Diagram) -> None:
 
 def test_numbers_of_an_image_are_those_measured_on_it(whole: Diagram) -> None:
     state = whole["secondary 1"][10]
-    family, fine = state.ladder.fine, state.point.fine
+    family, fine = state.meshes.fine, state.point.fine
     numbers = {which: np.array([state.number(which)[0]]) for which in Measured}
     for image in (MIRROR, TURNED, TURNED_MIRROR):
         mirrored = dataclasses.replace(fine, c=image.sign * (fine.c[::-1] if image.turned else fine.c))
-        measured, scales, _ = state.ladder.measure(family, mirrored)
+        measured, scales, _ = state.meshes.measure(family, mirrored)
         for which, value in image.numbers(numbers).items():
             if which != Measured.ENERGY:  # a state carries its energy, which no reflection changes
                 assert value[0] == pytest.approx(measured[which], abs=1e-9 * scales[which]), (image.name, which.name)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rodwell import Problem, follow
 from rodwell.numerics.continuation.crossings import _bisect
-from rodwell.numerics.continuation.location import Span, bracketed_root
+from rodwell.numerics.continuation.location import Segment, bracketed_root
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.splines.held import Ends
@@ -33,7 +33,7 @@ def test_root_of_a_function_with_a_kink() -> None:
 
 
 class Staircase:
-    """A span whose index jumps at given places."""
+    """A segment whose index jumps at given places."""
 
     def __init__(self, jumps: dict[float, int]) -> None:
         self.jumps, self.family = jumps, self
@@ -50,8 +50,8 @@ class Staircase:
 
 @pytest.mark.parametrize("jumps", [{0.3: 1}, {0.3: 1, 0.3000001: 1}, {0.2: 1, 0.7: -1, 0.9: 2}, {0.5: 2}], ids=str)
 def test_every_change_of_the_index_is_resolved(jumps: dict[float, int]) -> None:
-    span = Staircase(jumps)
-    found = _bisect(span, 0.0, 1.0, span(0.0).index, span(1.0).index)  # type: ignore[arg-type, attr-defined]
+    segment = Staircase(jumps)
+    found = _bisect(segment, 0.0, 1.0, segment(0.0).index, segment(1.0).index)  # type: ignore[arg-type, attr-defined]
     changes = {round(low, 9): after - before for low, _, before, after in found}
     total = sum(jumps.values())
     assert sum(changes.values()) == total
@@ -110,23 +110,23 @@ def test_a_root_is_not_sought_below_the_noise() -> None:
 def test_a_value_of_the_parameter_is_met_exactly_where_it_does_not_turn_back() -> None:
     problem = Problem(15.0)
     branch = follow(problem, until=-160.0)
-    _, (coarse, fine) = branch._spans(5)
+    _, (coarse, fine) = branch._segments(5)
     between = 0.4 * fine.first.lam + 0.6 * fine.last.lam
-    for span in (coarse, fine):
-        found = span.exactly(between)
+    for segment in (coarse, fine):
+        found = segment.exactly(between)
         assert found is not None
         t, state = found
         assert state.lam == between
         assert 0.5 < t < 0.7
-        assert state.tangent_lam * span.first.tangent_lam > 0.0  # in the direction of travel
-        other = span(span.first.along(state) / span.first.along(span.last))  # the same by way of arclength
+        assert state.tangent_lam * segment.first.tangent_lam > 0.0  # in the direction of travel
+        other = segment(segment.first.along(state) / segment.first.along(segment.last))  # the same by way of arclength
         np.testing.assert_allclose(other.c, state.c, rtol=0.0, atol=1e-12)
         assert other.lam == pytest.approx(between, abs=1e-9)
 
 
 def test_a_value_of_the_parameter_is_not_met_beyond_the_span_or_at_a_fold() -> None:
     branch = follow(Problem(15.0), until=-160.0)
-    _, (coarse, _) = branch._spans(5)
+    _, (coarse, _) = branch._segments(5)
     assert coarse.exactly(coarse.last.lam - 0.5 * abs(coarse.last.lam - coarse.first.lam)) is None
-    folded = Span(coarse.family, coarse.first, coarse.last.reversed())
+    folded = Segment(coarse.family, coarse.first, coarse.last.reversed())
     assert folded.exactly(0.5 * (coarse.first.lam + coarse.last.lam)) is None

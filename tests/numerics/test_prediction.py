@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rodwell import Problem, critical_loads, follow
-from rodwell.numerics.continuation.prediction import MOST_POINTS, Course
+from rodwell.numerics.continuation.prediction import MOST_POINTS, Predictor
 from rodwell.numerics.equilibria.family import State
 from rodwell.numerics.splines.spaces import SplineSpace
 
@@ -27,7 +27,7 @@ def on_ellipse(angle: float) -> State:
 def missed(count: int, step: float, growth: float = 1.0) -> tuple[float, float]:
     """Distance of a prediction from the curve, and from the hyperplane that it should lie on."""
     angles = 0.4 + np.concatenate([[0.0], np.cumsum(step * growth ** np.arange(count))])
-    course = Course(on_ellipse(angles[0]))
+    course = Predictor(on_ellipse(angles[0]))
     for angle in angles[1:count]:
         course.add(on_ellipse(angle))
     last, there = on_ellipse(angles[count - 1]), on_ellipse(angles[count])
@@ -54,14 +54,14 @@ def test_places_are_those_of_arclength() -> None:
         tangent = np.array([-np.sin(angle), np.cos(angle), 0.0, 0.0])
         return State(SPACE, np.array([np.cos(angle), np.sin(angle), 0.0, 0.0]), 0.0, tangent, 0.0, tangent, 0.0, 0, 0.0)
 
-    course = Course(at(0.0))
+    course = Predictor(at(0.0))
     for angle in (0.2, 0.4, 0.6):
         course.add(at(angle))
     np.testing.assert_allclose(course.places[-4:], [-0.6, -0.4, -0.2, 0.0], rtol=1e-4)
 
 
 def test_only_the_last_points_count() -> None:
-    course, short = Course(on_ellipse(-3.0)), Course(on_ellipse(0.0))
+    course, short = Predictor(on_ellipse(-3.0)), Predictor(on_ellipse(0.0))
     for angle in (-2.0, -1.0):
         course.add(on_ellipse(angle))
     course.add(on_ellipse(0.0))

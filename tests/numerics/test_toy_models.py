@@ -17,12 +17,12 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipe, ellipk
 
-from rodwell.numerics.continuation.events import INDEX, TURN, Event, Found
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import newton
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
@@ -86,22 +86,22 @@ def measure(_: Family, state: State) -> FloatArray:
     return np.array([[u[1], slope[0], state.energy], [1.0] * 3, [0.0] * 3])
 
 
-def ladder_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELEMENTS) -> Ladder:
+def meshes_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELEMENTS) -> TwoMeshes:
     """Equilibria in λ, the only parameter; u' = π and λ = 10 count as one unit of arclength."""
     space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree, degree + 1)
     path = np.array([[0.0], [1.0], [0.0], [0.0]])
-    return Ladder(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
+    return TwoMeshes(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
 
 
-def followed(ladder: Ladder, start: Point, loads: Sequence[float], *, switched: bool = False) -> Trace:
+def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, switched: bool = False) -> Trace:
     """The branch from a point to where λ falls below the first of ``loads``, or rises above the last."""
     events = [Event.at(f"{load}", load) for load in loads]
     names = f"{loads[0]}", f"{loads[-1]}"
 
-    def stop(found: Found) -> str:
+    def stop(found: LocatedEvent) -> str:
         return END if found.name in names and found.rising == (found.name == names[1]) else ""
 
-    result = trace(ladder, start, Stepping(0.05, 0.3), events, stop=stop, switched=switched)
+    result = trace(meshes, start, Stepping(0.05, 0.3), events, stop=stop, switched=switched)
     assert result.end == END
     assert all(point.accurate for point in result.points)
     return result
@@ -113,9 +113,9 @@ def followed(ladder: Ladder, start: Point, loads: Sequence[float], *, switched: 
 @pytest.fixture(scope="module")
 def straight() -> Trace:
     """The straight state, from λ = 1 past four pitchforks."""
-    ladder = ladder_of(Pendulum(), 0)
-    zeros = [(family, np.zeros(family.space.size)) for family in (ladder.coarse, ladder.fine)]
-    return followed(ladder, ladder.point(*(f.state(zero, 1.0, zero, 1.0, 0) for f, zero in zeros)), (0.0, 170.0))
+    meshes = meshes_of(Pendulum(), 0)
+    zeros = [(family, np.zeros(family.space.size)) for family in (meshes.coarse, meshes.fine)]
+    return followed(meshes, meshes.point(*(f.state(zero, 1.0, zero, 1.0, 0) for f, zero in zeros)), (0.0, 170.0))
 
 
 LOADS = (10.0, 12.0, 15.0, 20.0, 30.0)
@@ -124,14 +124,14 @@ LOADS = (10.0, 12.0, 15.0, 20.0, 30.0)
 @pytest.fixture(scope="module")
 def buckled(straight: Trace) -> Trace:
     """What leaves the straight state at the first pitchfork, in the direction in which the Hessian is singular."""
-    ladder, point = straight.found[0].ladder, straight.found[0].point
+    meshes, point = straight.found[0].meshes, straight.found[0].point
     states = []
-    for family, state in ((ladder.coarse, point.coarse), (ladder.fine, point.fine)):
+    for family, state in ((meshes.coarse, point.coarse), (meshes.fine, point.fine)):
         direction = np.ones(state.c.size)
         family.nearest_curvature(state, direction, 8)
         upwards = direction * np.sign(np.sum(direction))
         states.append(family.state(state.c, state.lam, upwards, 0.0, 0))
-    return followed(ladder, ladder.point(*states), (0.0, *LOADS), switched=True)
+    return followed(meshes, meshes.point(*states), (0.0, *LOADS), switched=True)
 
 
 def test_pitchforks_of_the_straight_pendulum(straight: Trace) -> None:
@@ -159,7 +159,7 @@ def test_buckled_pendulum_at_given_loads(buckled: Trace, load: float) -> None:
 
 def test_highest_point_of_the_buckled_pendulum(buckled: Trace) -> None:
     """It lies in the middle; what is maximised is what the model observes."""
-    family, state = buckled.ladders[-1].fine, buckled.points[-1].fine
+    family, state = buckled.meshes[-1].fine, buckled.points[-1].fine
     samples, parameters = state.space.samples, family.parameters(state.lam)
     places, values, _ = maxima(family.mesh, state.space.knots, *samples, state.c, parameters, 0.05)
     assert places == pytest.approx([0.5], abs=1e-6)
@@ -168,8 +168,8 @@ def test_highest_point_of_the_buckled_pendulum(buckled: Trace) -> None:
 
 def test_buckled_pendulum_turns_back_at_the_straight_one(buckled: Trace) -> None:
     """It passes into its mirror image there: λ turns back, and the index is the same on either side."""
-    ladder, last = buckled.ladders[-1], buckled.points[-1]
-    result = followed(ladder, ladder.point(last.coarse.reversed(), last.fine.reversed()), (0.0, 12.0))
+    meshes, last = buckled.meshes[-1], buckled.points[-1]
+    result = followed(meshes, meshes.point(last.coarse.reversed(), last.fine.reversed()), (0.0, 12.0))
     (turn,) = (f for f in result.found if f.name in (TURN, INDEX))
     assert (turn.name, turn.index_before, turn.index_after) == (TURN, 0, 0)
     assert turn.point.lam == pytest.approx(np.pi**2, rel=1e-9)
@@ -206,19 +206,19 @@ FOLD_TOP, FOLD_LOAD = float(HIGHEST.x), -float(HIGHEST.fun)
 """Where λ is largest: its value is known to the square of the error of the place."""
 
 
-def from_nothing(ladder: Ladder) -> Point:
+def from_nothing(meshes: TwoMeshes) -> MeshedState:
     """The point u = 0 at λ = 0, from where λ grows."""
-    states = [family.at(np.zeros(family.space.size), 0.0)[1] for family in (ladder.coarse, ladder.fine)]
+    states = [family.at(np.zeros(family.space.size), 0.0)[1] for family in (meshes.coarse, meshes.fine)]
     assert states[0] is not None
     assert states[1] is not None
-    return ladder.point(states[0], states[1])
+    return meshes.point(states[0], states[1])
 
 
 @pytest.fixture(scope="module", params=[1, 0], ids=["kept even", "free"])
 def folding(request: pytest.FixtureRequest) -> Trace:
     """The branch from λ = 0 over the fold and back to λ = 1."""
-    ladder = ladder_of(Folding(), request.param)
-    return followed(ladder, from_nothing(ladder), (1.0, 10.0))
+    meshes = meshes_of(Folding(), request.param)
+    return followed(meshes, from_nothing(meshes), (1.0, 10.0))
 
 
 def test_load_of_the_fold_by_other_means() -> None:
@@ -254,9 +254,9 @@ def test_both_arms_of_the_fold(folding: Trace) -> None:
 @pytest.mark.parametrize("elements", [16, 32])
 def test_order_of_the_load_at_the_fold(elements: int) -> None:
     """It is that of the energy, twice the degree: halving the elements takes off a factor of 2⁶."""
-    ladder = ladder_of(Folding(), 1, degree=3, elements=elements)
-    ladder.rtol = 1.0  # the meshes stay as they are
-    (fold,) = (f.point for f in followed(ladder, from_nothing(ladder), (4.0, 10.0)).found if f.fold)
+    meshes = meshes_of(Folding(), 1, degree=3, elements=elements)
+    meshes.rtol = 1.0  # the meshes stay as they are
+    (fold,) = (f.point for f in followed(meshes, from_nothing(meshes), (4.0, 10.0)).found if f.fold)
     order = np.log2((fold.coarse.lam - FOLD_LOAD) / (fold.fine.lam - FOLD_LOAD))
     assert order == pytest.approx(6.0, abs=0.05)
 

@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 from rodwell import Problem, diagram, follow
 from rodwell.numerics.continuation import walk
-from rodwell.numerics.continuation.softest import Watch, _dips, hidden_change
+from rodwell.numerics.continuation.softest import SoftestEigenvalues, _dips, hidden_change
 
 PLACE = np.array([-1.0, 0.0, 1.0])
 
@@ -37,11 +37,11 @@ def dense(band: np.ndarray) -> np.ndarray:
 
 def test_softest_eigenvalues_against_dense_ones() -> None:
     branch = follow(Problem(15.0), until=-340.0)
-    ladder, point = branch.last
-    watch = Watch()
+    meshes, point = branch.last
+    watch = SoftestEigenvalues()
     for _ in range(12):
-        watch.add(ladder, point, 0.0)
-    family = ladder.coarse
+        watch.add(meshes, point, 0.0)
+    family = meshes.coarse
     hessian = dense(family.held.free_part(family.assemble(point.coarse.c, point.coarse.lam)[2]))
     values, vectors = eigh(hessian, dense(family.held.free_part(family.space.slope_gram)))
     parity = np.array([np.sign(v @ v[::-1]) for v in vectors.T])

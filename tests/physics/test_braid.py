@@ -135,14 +135,14 @@ def test_certificate_sees_a_wrong_state() -> None:
 
 
 def _reweighted(state: rodwell.Solution) -> object:
-    """The ladder of a state with another weight: its fields then belong to no equilibrium."""
+    """The meshes of a state with another weight: its fields then belong to no equilibrium."""
     import dataclasses
 
     from rodwell.analysis.discrete.family import path
-    from rodwell.numerics.equilibria.two_meshes import Ladder
+    from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 
-    family = dataclasses.replace(state.ladder.coarse, path=path(state.problem.but(weight=41.0), "force"))
-    return Ladder(family, state.ladder.measure, state.ladder.rtol)
+    family = dataclasses.replace(state.meshes.coarse, path=path(state.problem.but(weight=41.0), "force"))
+    return TwoMeshes(family, state.meshes.measure, state.meshes.rtol)
 
 
 def test_end_reactions_by_virtual_work_agree_with_the_fields(state: rodwell.Solution) -> None:

@@ -95,7 +95,7 @@ def test_state_that_fails_it_does_not_count_as_converged(
 ) -> None:
     monkeypatch.setattr(certificate, "LIMIT", 1e-20)
     monkeypatch.setattr(certificate, "SLACK", 0.0)
-    state = rodwell.Solution(buckled.problem, buckled.point, buckled.ladder)
+    state = rodwell.Solution(buckled.problem, buckled.point, buckled.meshes)
     assert state.accurate
     assert not state.converged
 

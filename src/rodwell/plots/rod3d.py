@@ -43,7 +43,7 @@ def plot_rod(
     points down. Arguments as in :meth:`rodwell.Solution.geometry`; with ``scales`` of a case that gives the rod's
     diameter, that is drawn, otherwise a radius of 0.2 Δ.
     """
-    places = min(max(PLACES, 2 * solution.ladder.fine.space.breaks.size), 4 * PLACES)
+    places = min(max(PLACES, 2 * solution.meshes.fine.space.breaks.size), 4 * PLACES)
     rod = drawn(solution, scales, places, rod_radius, radial_scale)
     with mpl.rc_context(RC):
         if ax is None:

@@ -110,7 +110,7 @@ def branch_attributes(branch: Branch) -> dict[str, Any]:
         "name": branch.name,
         "parameter": branch.parameter,
         "mode": branch.mode.number if branch.mode else 0,
-        "rtol": branch[0].ladder.rtol,
+        "rtol": branch[0].meshes.rtol,
         "ended_because": branch.ended_because,
         "reached_end": int(branch.reached_end),
         "rodwell_version": __version__,
@@ -227,7 +227,7 @@ def _solution_attributes(solution: Solution) -> dict[str, Any]:
         "stability_index": solution.stability_index,
         "converged": int(solution.converged),
         "certificate": solution.certificate.worst,
-        "rtol": solution.ladder.rtol,
+        "rtol": solution.meshes.rtol,
         "rodwell_version": __version__,
     }
 

@@ -36,7 +36,7 @@ NEAR = 0.9
 LOOKS = 17
 """Forces at which the straight rod is looked at for one that it bears."""
 
-ROUND_OFF = 1e-12
+LIMIT_NOISE = 1e-12
 """Relative error of a load found for the straight rod."""
 
 
@@ -152,7 +152,7 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
         return None
     least, at_least = float(forces[int(np.argmin(parts))]), min(parts) - 1.0
     force = least + bracketed_root(over, 0.0, 1.0, at_least, excess) * (critical - least)
-    error = ROUND_OFF * (abs(least) + abs(critical))
+    error = LIMIT_NOISE * (abs(least) + abs(critical))
     return Limit(use.kind, force, error, use.of(LoadedRod("", problem, force))[1], buckled=False)
 
 

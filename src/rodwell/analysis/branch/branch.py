@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution, solution_of
-from rodwell.analysis.branch.special import LIFT_OFF, ROUND_OFF, Origin, SpecialPoint, index_at_start
+from rodwell.analysis.branch.special import LIFT_OFF, LOCATED_NOISE, Origin, SpecialPoint, index_at_start
 from rodwell.analysis.branch.symmetry import Reflection, images
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import EULER, Mode
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.faces import Shown, drawn, face
-from rodwell.numerics.continuation.location import LocationError, Span, locate
+from rodwell.numerics.continuation.location import LocationError, Segment, locate
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -45,7 +45,7 @@ class Branch(Shown):
     special_points
         In order of travel.
     trace
-        Points and ladders as continuation left them: for what goes on from here.
+        Points and meshes_along as continuation left them: for what goes on from here.
     reached_end
         Whether it was followed to where it was asked to end.
     ended_because
@@ -74,7 +74,7 @@ class Branch(Shown):
     def __getitem__(self, i: int) -> Solution:
         i = range(len(self))[i]  # refuses what lies outside
         if i not in self._solutions:  # kept: with it the certificate, once asked for
-            self._solutions[i] = self.solution(self.trace.points[i], self.trace.ladders[i])
+            self._solutions[i] = self.solution(self.trace.points[i], self.trace.meshes[i])
         return self._solutions[i]
 
     def __iter__(self) -> Iterator[Solution]:
@@ -102,8 +102,8 @@ class Branch(Shown):
     @cached_property
     def force(self) -> FloatArray:
         """End force F at s = 1 in B/L², tension positive, (n,)."""
-        pairs = zip(self.trace.points, self.trace.ladders, strict=True)
-        return np.array([ladder.fine.parameters(p.lam)[FORCE] for p, ladder in pairs])
+        pairs = zip(self.trace.points, self.trace.meshes, strict=True)
+        return np.array([meshes.fine.parameters(p.lam)[FORCE] for p, meshes in pairs])
 
     @cached_property
     def stability_index(self) -> FloatArray:
@@ -126,9 +126,9 @@ class Branch(Shown):
         return float(min(values)), float(max(values))
 
     @property
-    def last(self) -> tuple[Ladder, Point]:
-        """Ladder and state of the last point, from which the branch can be continued."""
-        return self.trace.ladders[-1], self.trace.points[-1]
+    def last(self) -> tuple[TwoMeshes, MeshedState]:
+        """TwoMeshes and state of the last point, from which the branch can be continued."""
+        return self.trace.meshes[-1], self.trace.points[-1]
 
     def numbers(self, which: Measured) -> FloatArray:
         """Measured numbers of all points, (n,)."""
@@ -149,7 +149,7 @@ class Branch(Shown):
 
         Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
         """
-        rtol = self.trace.ladders[0].rtol
+        rtol = self.trace.meshes[0].rtol
         return all(solution.converged for solution in self) and all(
             p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
         )
@@ -216,27 +216,27 @@ class Branch(Shown):
             If no such state could be found.
         """
         try:
-            ladder, (coarse, fine) = self._spans(i)
+            meshes, (coarse, fine) = self._segments(i)
             ends = function(fine.family, fine.first), function(fine.family, fine.last)
-            place = locate(coarse, fine, lambda span, state: function(span.family, state), ends)
+            place = locate(coarse, fine, lambda segment, state: function(segment.family, state), ends)
         except LocationError as problem:
             raise NotConvergedError(f"no zero between points {i} and {i + 1}: {problem}") from None
-        point = ladder.point(place.coarse, place.fine)
-        return self.solution(point, ladder), place.gap / CLAIMED_GAIN + ROUND_OFF * abs(point.lam)
+        point = meshes.point(place.coarse, place.fine)
+        return self.solution(point, meshes), place.gap / CLAIMED_GAIN + LOCATED_NOISE * abs(point.lam)
 
-    def _spans(self, i: int) -> tuple[Ladder, tuple[Span, Span]]:
+    def _segments(self, i: int) -> tuple[TwoMeshes, tuple[Segment, Segment]]:
         """The stretch of the branch between points i and i+1 on both meshes."""
-        ladder, last = self.trace.ladders[i + 1], self.trace.points[i + 1]
-        _, first = ladder.adopt(self.trace.ladders[i], self.trace.points[i])
+        meshes, last = self.trace.meshes[i + 1], self.trace.points[i + 1]
+        _, first = meshes.adopt(self.trace.meshes[i], self.trace.points[i])
         if first is None:
             raise LocationError("the point before it could not be solved on a finer mesh")
-        return ladder, (Span(ladder.coarse, first.coarse, last.coarse), Span(ladder.fine, first.fine, last.fine))
+        return meshes, (Segment(meshes.coarse, first.coarse, last.coarse), Segment(meshes.fine, first.fine, last.fine))
 
     def _between(self, i: int, value: float) -> Solution:
         """State at ``value`` between points i and i+1, found along the branch and then solved exactly there."""
-        ladder, (coarse, fine) = self._spans(i)
-        near = ladder.point(coarse.at_lam(value), fine.at_lam(value))
-        return self.solution(near if near.at(value) else ladder.at(near, value) or near, ladder)
+        meshes, (coarse, fine) = self._segments(i)
+        near = meshes.point(coarse.at_lam(value), fine.at_lam(value))
+        return self.solution(near if near.at(value) else meshes.at(near, value) or near, meshes)
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -263,9 +263,9 @@ class Branch(Shown):
         """
         return drawn(self, ax, ordinate=ordinate, scales=scales)
 
-    def solution(self, point: Point, ladder: Ladder) -> Solution:
+    def solution(self, point: MeshedState, meshes: TwoMeshes) -> Solution:
         """Return the solution of a state of this branch, or of one between its points."""
-        return solution_of(self.problem, self.parameter, point, ladder)
+        return solution_of(self.problem, self.parameter, point, meshes)
 
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""

@@ -13,8 +13,8 @@ from rodwell.analysis.branch.special import (
     FOLD,
     KINDS,
     LIFT_OFF,
+    LOCATED_NOISE,
     REJOINS,
-    ROUND_OFF,
     STRAIGHT,
     TOUCH_DOWN,
     UNCERTAIN,
@@ -22,9 +22,9 @@ from rodwell.analysis.branch.special import (
     SpecialPoint,
     index_at_start,
 )
-from rodwell.numerics.continuation.events import INDEX, TURN, Found
+from rodwell.numerics.continuation.events import INDEX, TURN, LocatedEvent
 from rodwell.numerics.continuation.walk import Trace
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 
 
@@ -43,7 +43,7 @@ def continued(branch: Branch, trace: Trace, reached: bool, why: str) -> Branch:
     merged = replace(
         old,
         points=old.points[:-1] + trace.points,
-        ladders=old.ladders[:-1] + trace.ladders,
+        meshes=old.meshes[:-1] + trace.meshes,
         found=[f for f in old.found if f.name != END]
         + [replace(f, after=f.after + len(old.points) - 1) for f in trace.found],
         end=trace.end,
@@ -70,30 +70,30 @@ class _Finding:
                 out.append(self._special(found, met=any(found is m for m in met)))
         if not out or out[-1].kind != END:
             point, number = trace.points[-1], len(trace.points) - 1
-            last = self._solution(point, trace.ladders[-1])
+            last = self._solution(point, trace.meshes[-1])
             index = trace.found[-1].index_after if met else last.stability_index
             out.append(SpecialPoint(END, last.force, point.lam, 0.0, (), index, index, last, number, self.parameter))
         return tuple(out)
 
-    def _solution(self, point: Point, ladder: Ladder) -> Solution:
-        return solution_of(self.problem, self.parameter, point, ladder)
+    def _solution(self, point: MeshedState, meshes: TwoMeshes) -> Solution:
+        return solution_of(self.problem, self.parameter, point, meshes)
 
     def _start(self) -> SpecialPoint:
         """The point where the branch leaves another one, or the straight rod."""
         trace, mode = self.trace, self.origin.mode
         point = trace.points[0]
-        first, before = self._solution(point, trace.ladders[0]), point.fine.index
+        first, before = self._solution(point, trace.meshes[0]), point.fine.index
         kind, error = (BRANCH_POINT, float(point.lam_gap)) if mode is None else (CRITICAL, mode.error)
         index, places = before, tuple[float, ...]()
         if len(trace.points) > 1:
             index = int(index_at_start(trace))
             if self.problem.lateral_weight == 0.0 and mode is not None:  # it lifts off as it buckles
-                places = self._solution(trace.points[1], trace.ladders[1]).highest_pressure[2]
+                places = self._solution(trace.points[1], trace.meshes[1]).highest_pressure[2]
         return SpecialPoint(kind, first.force, point.lam, error, places, before, index, first, 0, self.parameter)
 
-    def _special(self, found: Found, *, met: bool) -> SpecialPoint:
+    def _special(self, found: LocatedEvent, *, met: bool) -> SpecialPoint:
         """What was found between two points; ``met``: the branch ends there, at another one."""
-        solution = self._solution(found.point, found.ladder)
+        solution = self._solution(found.point, found.meshes)
         kind = found.name
         if kind == INDEX:
             kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
@@ -102,7 +102,7 @@ class _Finding:
         elif kind == LIFT_OFF and not found.rising:
             kind = TOUCH_DOWN
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
-        error = found.lam_error + ROUND_OFF * abs(found.point.lam) if kind != END else 0.0
+        error = found.lam_error + LOCATED_NOISE * abs(found.point.lam) if kind != END else 0.0
         index = found.index_before, found.index_after
         return SpecialPoint(
             kind, solution.force, found.point.lam, error, places, *index, solution, found.after, self.parameter

@@ -8,7 +8,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family as equilibria
-from rodwell.analysis.discrete.measures import measured_ladder
+from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.family import Family, Outcome, State
@@ -55,12 +55,12 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     family, outcome, coarse = _odd_or_any(problem, force)
     if coarse is None:
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {family.advice(outcome)}")
-    outcome, ladder, point = measured_ladder(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+    outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
         raise NotConvergedError(
             f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}"
         )
-    return Solution(problem, ladder.at(point, force) or point, ladder)
+    return Solution(problem, meshes.at(point, force) or point, meshes)
 
 
 def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State | None]:

@@ -11,7 +11,7 @@ from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import GRID
 from rodwell.analysis.state.wall import WallLoads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 
 if TYPE_CHECKING:
@@ -121,8 +121,8 @@ class Solution(Equilibrium, Shown):
         return drawn_in_space(self, ax, scales=scales, rod_radius=rod_radius, radial_scale=radial_scale)
 
 
-def solution_of(problem: Problem, parameter: str, point: Point, ladder: Ladder) -> Solution:
+def solution_of(problem: Problem, parameter: str, point: MeshedState, meshes: TwoMeshes) -> Solution:
     """Return the solution of a state of a branch of ``problem`` in a parameter, whose value the state knows."""
     if parameter != "force":
         problem = problem.but(**{parameter: point.lam})
-    return Solution(problem, point, ladder)
+    return Solution(problem, point, meshes)

@@ -25,7 +25,7 @@ STRAIGHT = "it meets the straight rod"
 REJOINS = "it meets a symmetric branch, where it turns into its own mirror image"
 """Why a branch ends at another."""
 
-ROUND_OFF = 2e-13
+LOCATED_NOISE = 2e-13
 """Relative error that round-off in some hundred operations may leave in a located load."""
 
 

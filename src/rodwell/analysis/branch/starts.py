@@ -1,4 +1,4 @@
-"""Where branches start: ladder and first point, from a critical load, a known state, or a branch point."""
+"""Where branches start: meshes and first point, from a critical load, a known state, or a branch point."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family
-from rodwell.analysis.discrete.measures import measured_ladder
+from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.continuation.events import INDEX, NEARLY, Found, events_between
+from rodwell.numerics.continuation.events import INDEX, NEARLY, LocatedEvent, events_between
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.newton import symmetrise
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
-Start = tuple[Ladder, Point]
+Start = tuple[TwoMeshes, MeshedState]
 
 INVERSE_ITERATIONS = 8
 
@@ -38,7 +38,7 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
         wavenumber=mode.wavenumber,
         scale=max(abs(reach - mode.force), 0.1 * mode.wavenumber**2),
     )
-    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+    meshes = measured_meshes(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
 
     def straight(on: SplineSpace) -> FloatArray:
         shape = mode.space.evaluate(mode.coefficients, on.points, 1)[0]
@@ -47,14 +47,14 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
         return projected
 
     states = []
-    for f in (ladder.coarse, ladder.fine):
+    for f in (meshes.coarse, meshes.fine):
         zero = np.zeros(f.space.size)
         # the index just above the critical load: as many modes as have been met before this one
         trivial = f.state(zero, mode.force, zero, 1.0, mode.number - 1)
         shape = straight(f.space)
         rise = 0.0 if problem.twist == 0.0 else _share_of_tangent(f, trivial, shape) * trivial.tangent_lam
         states.append(f.state(zero, mode.force, shape, rise, mode.number - 1))
-    return ladder, ladder.point(*states)
+    return meshes, meshes.point(*states)
 
 
 def _wavenumber(problem: Problem, state: State) -> float:
@@ -86,14 +86,14 @@ def at_state(problem: Problem, start: Solution, parameter: str, until: float, rt
         parameter=parameter,
         force=start.force,
     )
-    ladder = measured_ladder(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
+    meshes = measured_meshes(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
     states = []
-    for level, c in ((ladder.coarse, old.coarse.c), (ladder.fine, old.fine.c)):
-        outcome, state, _ = level.sharp().at(c, here)
+    for level, c in ((meshes.coarse, old.coarse.c), (meshes.fine, old.fine.c)):
+        outcome, state, _ = level.with_exact_tangent().at(c, here)
         if state is None:
             raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
         states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
-    return ladder, ladder.point(*states)
+    return meshes, meshes.point(*states)
 
 
 def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
@@ -102,21 +102,21 @@ def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
     That is the null vector of the Hessian, normal to the branch: on a symmetric branch it breaks the symmetry.
     """
     solution = point.solution
-    old, parent = solution.ladder, solution.point
+    old, parent = solution.meshes, solution.point
     equilibria = replace(old.coarse, parity=0)
-    ladder = measured_ladder(equilibria, rtol, old.most_elements)
-    coarse = _null_vector(ladder.coarse, parent.coarse, np.random.default_rng(0).standard_normal(parent.coarse.c.size))
-    fine = _null_vector(ladder.fine, parent.fine, ladder.up(coarse))
+    meshes = measured_meshes(equilibria, rtol, old.most_elements)
+    coarse = _null_vector(meshes.coarse, parent.coarse, np.random.default_rng(0).standard_normal(parent.coarse.c.size))
+    fine = _null_vector(meshes.fine, parent.fine, meshes.up(coarse))
     if mirror:
         coarse, fine = -coarse, -fine
     states = []
-    for f, state, vector in ((ladder.coarse, parent.coarse, coarse), (ladder.fine, parent.fine, fine)):
+    for f, state, vector in ((meshes.coarse, parent.coarse, coarse), (meshes.fine, parent.fine, fine)):
         turn = 0.0 if state.symmetry != 0 else _share_of_tangent(f, state, vector)
         tangent, tangent_lam = vector + turn * state.tangent, turn * state.tangent_lam
         states.append(
             replace(f.state(state.c, state.lam, tangent, tangent_lam, point.index_before), energy=state.energy)
         )
-    return ladder, ladder.point(*states)
+    return meshes, meshes.point(*states)
 
 
 def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> float:
@@ -160,34 +160,34 @@ AROUND = (1e-4, 1e-3, 1e-2)
 """How far along the symmetric branch its branch point is sought, either way from the turning point."""
 
 
-def rejoined(problem: Problem, turn: Found) -> Found | None:
+def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
     """The branch point of a symmetric branch at which a branch without that symmetry turns back, if there is one.
 
     The turning point itself is hard to locate: the Hessian is singular there. On the symmetric branch, with its
     symmetry kept, the same point is a plain change of the stability index.
     """
-    old, state = turn.ladder, turn.point.fine
+    old, state = turn.meshes, turn.point.fine
     if old.coarse.parity != 0 or not state.space.symmetric:
         return None
     parity = kept_parity(problem, state.symmetry_within(NEARLY))
     if parity == 0:
         return None
-    ladder = measured_ladder(replace(old.coarse, parity=parity), old.rtol, old.most_elements)
-    pairs = ((ladder.coarse, turn.point.coarse), (ladder.fine, turn.point.fine))
-    middle = [_symmetric_state(f.sharp(), x, parity) for f, x in pairs]
+    meshes = measured_meshes(replace(old.coarse, parity=parity), old.rtol, old.most_elements)
+    pairs = ((meshes.coarse, turn.point.coarse), (meshes.fine, turn.point.fine))
+    middle = [_symmetric_state(f.with_exact_tangent(), x, parity) for f, x in pairs]
     for part in AROUND if middle[0] is not None and middle[1] is not None else ():
         points = []
         for backwards in (True, False):
             ends = [
-                f.sharp().step(x.reversed() if backwards else x, part)  # type: ignore[union-attr, arg-type]
-                for f, x in zip((ladder.coarse, ladder.fine), middle, strict=True)
+                f.with_exact_tangent().step(x.reversed() if backwards else x, part)  # type: ignore[union-attr, arg-type]
+                for f, x in zip((meshes.coarse, meshes.fine), middle, strict=True)
             ]
             if ends[0] is not None and ends[1] is not None:
                 turned = [x.reversed() if backwards else x for x in ends if x is not None]
-                points.append(ladder.point(turned[0], turned[1]))
+                points.append(meshes.point(turned[0], turned[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        found = events_between(ladder, points[0], points[1], (), opening=False, leaves=False)
+        found = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
         changes = [f for f in found if f.name == INDEX and not f.fold and f.certain]
         if len(changes) == 1:
             return changes[0]

@@ -10,9 +10,9 @@ import numpy as np
 from rodwell.analysis.branch.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_RANGE, REJOINS, STRAIGHT
 from rodwell.analysis.branch.starts import Start, rejoined
 from rodwell.analysis.discrete.measures import STEEPEST, Measured
-from rodwell.numerics.continuation.events import INDEX, TURN, Event, Found
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
 LARGEST_BRAID_ANGLE = 89.5
@@ -46,7 +46,7 @@ def traced(
     progress: Progress | None,
 ) -> Trace:
     """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
-    ladder, point = start
+    meshes, point = start
     stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
     events = [_ACROSS, Event.at(END, until)]
     if problem.lateral_weight > 0.0 or problem.turns != 0:
@@ -60,31 +60,31 @@ def traced(
             back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
         events.append(Event.at(LEFT, back))
 
-    meetings: dict[float, Found | None] = {}
+    meetings: dict[float, LocatedEvent | None] = {}
 
-    def meeting(found: Found) -> Found | None:
+    def meeting(found: LocatedEvent) -> LocatedEvent | None:
         if found.point.lam not in meetings:
             meetings[found.point.lam] = rejoined(problem, found)
         return meetings[found.point.lam]
 
-    def stop(found: Found) -> str:
-        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * ladder.coarse.scale_c:
+    def stop(found: LocatedEvent) -> str:
+        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * meshes.coarse.scale_c:
             return STRAIGHT
         if found.name == TURN and meeting(found) is not None:
             return REJOINS
         return found.name if found.name in stops else ""
 
     report = None if progress is None else lambda p: progress(p.lam)
-    result = trace(ladder, point, stepping, events, stop=stop, switched=switched, progress=report)
+    result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report)
     if result.end == REJOINS:
         return _ended_at(result, meeting(result.found[-1]))
     return _end_exactly(result, until)
 
 
-def _ended_at(result: Trace, meeting: Found | None) -> Trace:
+def _ended_at(result: Trace, meeting: LocatedEvent | None) -> Trace:
     """Put the end of a branch on the branch point at which it meets another."""
     if meeting is not None:
-        result.ladders[-1], result.points[-1] = meeting.ladder, meeting.point
+        result.meshes[-1], result.points[-1] = meeting.meshes, meeting.point
         last = result.found.pop()
         # next to the meeting the softest eigenvalue vanishes like the square of the distance: its sign is noise
         near = SAME * abs(meeting.point.lam)
@@ -93,7 +93,7 @@ def _ended_at(result: Trace, meeting: Found | None) -> Trace:
         index = changes[-1].index_after if changes else result.points[min(1, len(result.points) - 1)].fine.index
         result.found.append(
             replace(
-                last, ladder=meeting.ladder, point=meeting.point, lam_error=meeting.lam_error,
+                last, meshes=meeting.meshes, point=meeting.point, lam_error=meeting.lam_error,
                 index_before=index, index_after=index,
             )
         )  # fmt: skip
@@ -102,18 +102,18 @@ def _ended_at(result: Trace, meeting: Found | None) -> Trace:
 
 def _end_exactly(result: Trace, value: float) -> Trace:
     """Put the end of a branch that reached its end exactly there; that of one which reached the straight rod, on it."""
-    last: Point | None = None
+    last: MeshedState | None = None
     if result.end == END and not result.points[-1].at(value):
-        last = result.ladders[-1].at(result.points[-1], value)
+        last = result.meshes[-1].at(result.points[-1], value)
     elif result.end == STRAIGHT:
-        last = _flattened(result.ladders[-1], result.points[-1])
+        last = _flattened(result.meshes[-1], result.points[-1])
     if last is not None:
         result.points[-1] = last
         result.found[-1] = replace(result.found[-1], point=last)
     return result
 
 
-def _flattened(ladder: Ladder, point: Point) -> Point:
+def _flattened(meshes: TwoMeshes, point: MeshedState) -> MeshedState:
     """The straight rod where a branch reaches it."""
-    pairs = ((ladder.coarse, point.coarse), (ladder.fine, point.fine))
-    return ladder.point(*(f.state(np.zeros_like(x.c), x.lam, x.tangent, x.tangent_lam, x.index) for f, x in pairs))
+    pairs = ((meshes.coarse, point.coarse), (meshes.fine, point.fine))
+    return meshes.point(*(f.state(np.zeros_like(x.c), x.lam, x.tangent, x.tangent_lam, x.index) for f, x in pairs))

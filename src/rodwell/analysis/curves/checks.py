@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.curves.points import Guess, Solved
+from rodwell.analysis.curves.points import NearbyStates, SolvedPoint
 from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.quantities.arrays import FloatArray
 
@@ -16,12 +16,12 @@ CLEAR, TINY = 0.3, 1e-4
 """Cosine between tangents, and share of the load in them, from which their senses can be compared."""
 
 
-def on_meshes(guess: Guess, a: Solved, b: Solved) -> Guess:
+def on_meshes(guess: NearbyStates, a: SolvedPoint, b: SolvedPoint) -> NearbyStates:
     """Coefficients on the meshes of one point as those on the meshes of another, the same or finer ones."""
-    return Guess(carried(guess.coarse, a, b, 0), carried(guess.fine, a, b, 1))
+    return NearbyStates(carried(guess.coarse, a, b, 0), carried(guess.fine, a, b, 1))
 
 
-def carried(c: FloatArray, a: Solved, b: Solved, mesh: int) -> FloatArray:
+def carried(c: FloatArray, a: SolvedPoint, b: SolvedPoint, mesh: int) -> FloatArray:
     """Coefficients of a point on the meshes of another, the same or finer ones."""
     old, new = a.solution.levels[mesh][0].space, b.solution.levels[mesh][0].space
     return c if old.size == new.size else Prolongation(old, new)(c)
@@ -34,7 +34,7 @@ def vertex(three: list[tuple[float, float]]) -> float | None:
     return None if left == right else b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right)
 
 
-def bracket(points: list[tuple[float, Solved]]) -> list[tuple[float, Solved]]:
+def bracket(points: list[tuple[float, SolvedPoint]]) -> list[tuple[float, SolvedPoint]]:
     """Of points in order of place, the one with the extreme x and its neighbours."""
     points = sorted(points, key=lambda item: item[0])
     x = np.array([point.spot.x for _, point in points])
@@ -43,13 +43,13 @@ def bracket(points: list[tuple[float, Solved]]) -> list[tuple[float, Solved]]:
     return points[i - 1 : i + 2]
 
 
-def leapt(a: Solved, b: Solved) -> bool:
+def leapt(a: SolvedPoint, b: SolvedPoint) -> bool:
     """Whether a step leapt to another curve, where two modes exchange their roles and curves come close.
 
     At a fixed parameter the equilibria turn back in the load where one eigenvalue of the Hessian changes its sign, and
     nowhere else (but where a symmetry is lost, which is no matter here): the two must agree.
     """
-    family = b.solution.ladder.fine
+    family = b.solution.meshes.fine
     if family.parity != 0:
         return False
     one, other = a.solution.point.fine, b.solution.point.fine
@@ -60,7 +60,7 @@ def leapt(a: Solved, b: Solved) -> bool:
     return (-1.0) ** (other.index - one.index) * one.tangent_lam * other.tangent_lam * turned < 0.0
 
 
-def straightens(a: Solved, b: Solved) -> bool:
+def straightens(a: SolvedPoint, b: SolvedPoint) -> bool:
     """Whether the rod becomes straight on the way: nearly so, or buckled to the other side."""
     before, after = (np.max(np.abs(point.guess.fine)) / point.solution.problem.clearance for point in (a, b))
     turned = a.guess.fine.size == b.guess.fine.size and a.guess.fine @ b.guess.fine < 0.0

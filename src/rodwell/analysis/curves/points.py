@@ -15,7 +15,7 @@ from rodwell.analysis.discrete.measures import pressure_maxima
 from rodwell.analysis.straight.critical import EULER
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.quantities.arrays import FloatArray
 
@@ -27,7 +27,7 @@ NEAR = 0.03
 Function = Callable[[Family, State], float]
 
 
-class Guess(NamedTuple):
+class NearbyStates(NamedTuple):
     """Coefficients close to a point of the curve on both meshes, and states near it along the load."""
 
     coarse: FloatArray
@@ -40,7 +40,7 @@ class CurveLostError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Spot:
+class PlanePoint:
     """A place in the plane: parameter and load."""
 
     x: float
@@ -48,7 +48,7 @@ class Spot:
 
 
 @dataclass(frozen=True)
-class Travel:
+class CurveTangent:
     """Direction in which the curve is travelled: coefficients on both meshes, load and parameter x, and unit of x."""
 
     coarse: FloatArray
@@ -59,46 +59,46 @@ class Travel:
 
 
 @dataclass(frozen=True)
-class Seed:
+class CurveStart:
     """A known state on the curve."""
 
     x: float
     solution: Solution
 
     @property
-    def ladder(self) -> Ladder:
+    def meshes(self) -> TwoMeshes:
         """The meshes it stands on."""
-        return self.solution.ladder
+        return self.solution.meshes
 
     @property
-    def guess(self) -> Guess:
+    def guess(self) -> NearbyStates:
         """Coefficients on both meshes."""
-        return Guess(self.solution.point.coarse.c, self.solution.point.fine.c)
+        return NearbyStates(self.solution.point.coarse.c, self.solution.point.fine.c)
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedPoint:
     """A point of the curve: the curve passes within ``error`` in load and ``x_error`` in x of it.
 
     ``places`` are those that lift off, of curves of touching states.
     """
 
-    spot: Spot
+    spot: PlanePoint
     error: float
     x_error: float
     solution: Solution
     places: tuple[float, ...]
 
     @property
-    def guess(self) -> Guess:
+    def guess(self) -> NearbyStates:
         """Coefficients on both meshes, and the states."""
         point = self.solution.point
-        return Guess(point.coarse.c, point.fine.c, (point.coarse, point.fine))
+        return NearbyStates(point.coarse.c, point.fine.c, (point.coarse, point.fine))
 
     def as_point(self) -> CurvePoint:
         """The point as users see it."""
-        allowed = self.solution.ladder.rtol * (abs(self.spot.value) + EULER)
-        known = self.error <= allowed and self.x_error <= self.solution.ladder.rtol * abs(self.spot.x)
+        allowed = self.solution.meshes.rtol * (abs(self.spot.value) + EULER)
+        known = self.error <= allowed and self.x_error <= self.solution.meshes.rtol * abs(self.spot.x)
         return CurvePoint(
             self.spot.x,
             self.spot.value,
@@ -110,7 +110,7 @@ class Solved:
         )
 
 
-class Touching:
+class ContactMaximum:
     """The place that lifts off, followed along a curve: each maximum of the contact pressure is a function of its own.
 
     ``place`` is None as long as the highest one is meant. Of a symmetric state it lies in the first half.
@@ -166,66 +166,72 @@ class Zero(ABC):
     touch: bool
 
     def __init__(self, over: str, load: str) -> None:
-        self.over, self.load, self.touching = over, load, Touching()
+        self.over, self.load, self.touching = over, load, ContactMaximum()
 
     @abstractmethod
     def function(self, family: Family, state: State) -> float:
         """What vanishes on the curve."""
 
     @abstractmethod
-    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
-        """Return ``ladder`` with the equilibria along the load at the parameter of ``spot``."""
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        """Return ``meshes`` with the equilibria along the load at the parameter of ``spot``."""
 
     @abstractmethod
-    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """Return a point as a solution of the problem at ``spot``."""
 
     def value(self, solution: Solution) -> float:
         """Load of a solution."""
         return solution.force if self.load == "force" else solution.problem.twist
 
-    def solve(self, ladder: Ladder, guess: Guess, spot: Spot, travel: Travel | None = None) -> Solved:
+    def solve(
+        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent | None = None
+    ) -> SolvedPoint:
         """Return the zero at the parameter of ``spot``, from coefficients close to it.
 
         With ``travel``: the zero on the hyperplane through the guess normal to that direction, in the space of states
         and load. The parameter is then found too. So the curve can be followed where it turns back in the parameter.
         """
         for refinement in range(MOST_REFINEMENTS + 1):
-            line = self.ladder(ladder, spot)
+            line = self.meshes(meshes, spot)
             if travel is None:
                 coarse = _zero_at(line.coarse, guess.coarse, spot.value, guess.near[0], self.function)
                 fine = _zero_at(line.fine, guess.fine, coarse.lam, guess.near[1], self.function)
                 places = spot.x, spot.x
             else:
-                first, coarse = self._zero_across(ladder, guess, spot, travel, 0)
-                same = Guess(coarse.c, ladder.up(coarse.c))  # the same hyperplane, not another place along the curve
-                second, fine = self._zero_across(ladder, same, Spot(first, coarse.lam), travel, 1)
-                places, line = (first, second), self.ladder(ladder, Spot(second, fine.lam))
+                first, coarse = self._zero_across(meshes, guess, spot, travel, 0)
+                same = NearbyStates(
+                    coarse.c, meshes.up(coarse.c)
+                )  # the same hyperplane, not another place along the curve
+                second, fine = self._zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1)
+                places, line = (first, second), self.meshes(meshes, PlanePoint(second, fine.lam))
             point = line.point(coarse, fine)
             finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
             if finer is None:
                 break
-            ladder = finer
+            meshes = finer
             up, up_fine = (Prolongation(a.space, b.space) for a, b in zip(_meshes(line), _meshes(finer), strict=True))
-            guess = Guess(up(coarse.c), up_fine(fine.c))
-            spot = Spot(places[1], float(fine.lam))
+            guess = NearbyStates(up(coarse.c), up_fine(fine.c))
+            spot = PlanePoint(places[1], float(fine.lam))
             if travel is not None:
                 travel = replace(travel, coarse=up(travel.coarse), fine=up_fine(travel.fine))
-        there = Spot(places[1], float(fine.lam))
+        there = PlanePoint(places[1], float(fine.lam))
         error = float(point.lam_gap + 2e-13 * abs(fine.lam))
         solution = self.solution(line, point, there)
         touching = solution.highest_pressure[2] if self.touch else ()
-        return Solved(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
+        return SolvedPoint(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
 
-    def _zero_across(self, ladder: Ladder, guess: Guess, spot: Spot, travel: Travel, mesh: int) -> tuple[float, State]:
+    def _zero_across(
+        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
+    ) -> tuple[float, State]:
         """Zero on the hyperplane normal to ``travel``, by the secant method in the parameter, on one of both meshes."""
         c = (guess.coarse, guess.fine)[mesh]
-        family = _meshes(ladder)[mesh]
+        family = _meshes(meshes)[mesh]
         row, row_lam, _, _ = family.covector((travel.coarse, travel.fine)[mesh], travel.value)
         target = float(row @ c) + row_lam * spot.value
 
         def at(x: float, c: FloatArray, lam: float) -> tuple[State, float]:
-            family = _meshes(self.ladder(ladder, Spot(x, lam)))[mesh]
+            family = _meshes(self.meshes(meshes, PlanePoint(x, lam)))[mesh]
             outcome, state, _ = family.correct(c, lam, row, row_lam, target)
             if state is None:
                 raise CurveLostError(family.advice(outcome))
@@ -245,8 +251,8 @@ class Zero(ABC):
         raise CurveLostError("the secant method did not settle")
 
 
-def _meshes(ladder: Ladder) -> tuple[Family, Family]:
-    return ladder.coarse, ladder.fine
+def _meshes(meshes: TwoMeshes) -> tuple[Family, Family]:
+    return meshes.coarse, meshes.fine
 
 
 def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, function: Function) -> State:

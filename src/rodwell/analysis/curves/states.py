@@ -12,14 +12,14 @@ from rodwell.analysis.branch.special import BRANCH_POINT, LIFT_OFF, SpecialPoint
 from rodwell.analysis.branch.starts import kept_parity
 from rodwell.analysis.curves.checks import BECOMES_STRAIGHT
 from rodwell.analysis.curves.curve import SWITCH, TURN, Curve, CurvePoint, Mark, Progress, checked_range
-from rodwell.analysis.curves.points import Seed, Spot, Zero
+from rodwell.analysis.curves.points import CurveStart, PlanePoint, Zero
 from rodwell.analysis.curves.tracing import trace_curve
 from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.analysis.loads.torsion import torsion
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
@@ -77,7 +77,7 @@ def lift_off_curve(
     at_end = problem.but(**{over: end})
     vanishes = at_end.lateral_weight == 0.0
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
-    points, marks, why = trace_curve(zero, Seed(start, lift.solution), traced, progress)
+    points, marks, why = trace_curve(zero, CurveStart(start, lift.solution), traced, progress)
     if vanishes and why in ("end", BECOMES_STRAIGHT):
         last = min(critical_loads(at_end, mode + 3, rtol=rtol), key=lambda m: abs(m.force - points[-1].value))
         points, why = (*points, CurvePoint(end, last.force, last.error)), "end"
@@ -134,7 +134,7 @@ def secondary_curve(
         )
     point = found[number - 1]
     zero = _Branching(problem, over, point.solution)
-    points, marks, why = trace_curve(zero, Seed(start, point.solution), end, progress)
+    points, marks, why = trace_curve(zero, CurveStart(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
 
 
@@ -183,7 +183,7 @@ def twist_curve(
     zero = _TwistAtLiftOff(at_start, over, prepared.prepared.solution)
     points: list[CurvePoint] = []
     marks: list[Mark] = []
-    why, seed = "end", Seed(start, prepared.again.solution)
+    why, seed = "end", CurveStart(start, prepared.again.solution)
     for corner in (*corners, None):
         piece, more, why = trace_curve(zero, seed, end if corner is None else corner.x, progress)
         points += piece[1:] if points else piece
@@ -193,7 +193,7 @@ def twist_curve(
             break
         note = f"without twist, {corner.note}"
         marks.append(Mark(SWITCH, corner.x, corner.x_error, last.value, last.error, note))
-        seed = Seed(corner.x, last.solution)
+        seed = CurveStart(corner.x, last.solution)
     name = f"mode {mode}" + (", mirror arm" if mirror else "")
     return Curve("twist", name, at_start, over, tuple(points), tuple(marks), why)
 
@@ -201,7 +201,7 @@ def twist_curve(
 def _switches(problem: Problem, prepared: SpecialPoint, over: str, end: float) -> tuple[Mark, ...]:
     """Where the place that lifts off without twist changes: the prepared load, and so the twist, has a corner there."""
     start = float(getattr(problem, over))
-    _, marks, _ = trace_curve(_Touching(problem, over), Seed(start, prepared.solution), end, None)
+    _, marks, _ = trace_curve(_Touching(problem, over), CurveStart(start, prepared.solution), end, None)
     turns = [mark.x for mark in marks if mark.kind == TURN]
     ahead = [
         mark for mark in marks if mark.kind == SWITCH and (not turns or abs(mark.x - start) < abs(turns[0] - start))
@@ -218,11 +218,11 @@ class _Touching(Zero):
         super().__init__(over, load)
         self.problem = problem
 
-    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
-        return _along_force(self.problem, self.over, ladder, spot)
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        return _along_force(self.problem, self.over, meshes, spot)
 
-    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
 
     def function(self, family: Family, state: State) -> float:
         return self.touching.at(family, state)
@@ -235,16 +235,16 @@ class _TwistAtLiftOff(_Touching):
         super().__init__(problem, over, load="twist")
         self.first, self.lifting = _Touching(problem, over), lifting
 
-    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         if spot.x != getattr(self.lifting.problem, self.over):
-            near = Seed(spot.x, self.lifting)
-            self.lifting = self.first.solve(near.ladder, near.guess, Spot(spot.x, self.lifting.force)).solution
+            near = CurveStart(spot.x, self.lifting)
+            self.lifting = self.first.solve(near.meshes, near.guess, PlanePoint(spot.x, self.lifting.force)).solution
         problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, ladder.coarse.parity, "twist")
-        return ladder.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
+        parity = kept_parity(problem, meshes.coarse.parity, "twist")
+        return meshes.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
 
-    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, ladder)
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, meshes)
 
 
 class _Branching(Zero):
@@ -256,21 +256,21 @@ class _Branching(Zero):
         super().__init__(over, "force")
         self.problem, self.softest = problem, _Softest(branching)
 
-    def ladder(self, ladder: Ladder, spot: Spot) -> Ladder:
-        return _along_force(self.problem, self.over, ladder, spot)
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        return _along_force(self.problem, self.over, meshes, spot)
 
-    def solution(self, ladder: Ladder, point: Point, spot: Spot) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x}), point, ladder)
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
+        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
 
     def function(self, family: Family, state: State) -> float:
         return self.softest(family, state)
 
 
-def _along_force(problem: Problem, over: str, ladder: Ladder, spot: Spot) -> Ladder:
+def _along_force(problem: Problem, over: str, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
     """The same meshes with the equilibria along the end force at ``spot``."""
     problem = problem.but(**{over: spot.x})
-    parity = kept_parity(problem, ladder.coarse.parity, over)
-    return ladder.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
+    parity = kept_parity(problem, meshes.coarse.parity, over)
+    return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
 
 
 class _Softest:

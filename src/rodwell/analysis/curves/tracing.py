@@ -17,7 +17,16 @@ import numpy as np
 
 from rodwell.analysis.curves.checks import BECOMES_STRAIGHT, bracket, carried, leapt, on_meshes, straightens, vertex
 from rodwell.analysis.curves.curve import SWITCH, TURN, CurvePoint, Mark, Progress
-from rodwell.analysis.curves.points import NEAR, CurveLostError, Guess, Seed, Solved, Spot, Travel, Zero
+from rodwell.analysis.curves.points import (
+    NEAR,
+    CurveLostError,
+    CurveStart,
+    CurveTangent,
+    NearbyStates,
+    PlanePoint,
+    SolvedPoint,
+    Zero,
+)
 from rodwell.errors import InputError
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
@@ -51,39 +60,39 @@ MOST_VERTICES, STILL = 8, 1e-12
 
 
 def trace_curve(
-    zero: Zero, seed: Seed, end: float, progress: Progress | None
+    zero: Zero, seed: CurveStart, end: float, progress: Progress | None
 ) -> tuple[tuple[CurvePoint, ...], tuple[Mark, ...], str]:
     """Trace a curve from a state on it to x = ``end``: points, marks, and why it ended ("end": it got there)."""
     return _Tracer(zero, seed, end).run(progress or (lambda _part: None))
 
 
 @dataclass(frozen=True)
-class _Way:
+class _Direction:
     """From one point of the curve to another, on the meshes of the latter, and how long it is."""
 
-    travel: Travel
+    travel: CurveTangent
     length: float
 
-    def ahead(self, here: Solved, share: float) -> tuple[Guess, Spot]:
+    def ahead(self, here: SolvedPoint, share: float) -> tuple[NearbyStates, PlanePoint]:
         """What lies ``share`` times as far ahead of a point, extrapolated."""
         guess, by = here.guess, self.travel
-        spot = Spot(here.spot.x + share * by.x, here.spot.value + share * by.value)
-        return Guess(guess.coarse + share * by.coarse, guess.fine + share * by.fine, guess.near), spot
+        spot = PlanePoint(here.spot.x + share * by.x, here.spot.value + share * by.value)
+        return NearbyStates(guess.coarse + share * by.coarse, guess.fine + share * by.fine, guess.near), spot
 
 
 class _Tracer:
     """A curve in the making."""
 
-    def __init__(self, zero: Zero, seed: Seed, end: float) -> None:
+    def __init__(self, zero: Zero, seed: CurveStart, end: float) -> None:
         self.zero, self.end = zero, end
         self.range = abs(end - seed.x)
         self.sign = 1.0 if end > seed.x else -1.0
         fine = seed.solution.point.fine
         zero.touching.near = min(NEAR, NEAR * 10.0 * np.pi / fine.space.wavenumber(fine.c))
-        first = zero.solve(seed.ladder, seed.guess, Spot(seed.x, zero.value(seed.solution)))
+        first = zero.solve(seed.meshes, seed.guess, PlanePoint(seed.x, zero.value(seed.solution)))
         self.solved = [first]
         self.marks: list[Mark] = []
-        self.way: _Way | None = None  # not known yet
+        self.way: _Direction | None = None  # not known yet
         self._attend(first)
 
     def run(self, tell: Progress) -> tuple[tuple[CurvePoint, ...], tuple[Mark, ...], str]:
@@ -100,34 +109,34 @@ class _Tracer:
             tell(min(1.0, abs(self.solved[-1].spot.x - self.solved[0].spot.x) / self.range))
         return tuple(s.as_point() for s in self.solved), tuple(self.marks), why
 
-    def _attend(self, solved: Solved) -> None:
+    def _attend(self, solved: SolvedPoint) -> None:
         """Let the maximum of the contact pressure that is followed be where it is at a point."""
         if self.zero.touch:
             self.zero.touching.place = self.zero.touching.moved(solved.solution)
 
-    def _step(self, step: float) -> Solved:
+    def _step(self, step: float) -> SolvedPoint:
         """Solve for the next point."""
         last = self.solved[-1]
         left = self.end - last.spot.x
         if self.way is None:
             x = last.spot.x + self.sign * min(step * self.range, abs(left))
-            return self._solve(last, last.guess, Spot(x, last.spot.value))
+            return self._solve(last, last.guess, PlanePoint(x, last.spot.value))
         share, dx = step / self.way.length, self.way.travel.x
         if dx * self.sign > 0.0 and abs(dx) * share >= abs(left):
             guess, spot = self.way.ahead(last, left / dx)
-            new = self._solve(last, guess, Spot(self.end, spot.value))
+            new = self._solve(last, guess, PlanePoint(self.end, spot.value))
         else:
             guess, spot = self.way.ahead(last, share)
             new = self._solve(last, guess, spot, self.way.travel if self._along_equilibria(last) else None)
             if (new.spot.x - self.end) * self.sign > 0.0:
-                return self._solve(last, new.guess, Spot(self.end, new.spot.value))
+                return self._solve(last, new.guess, PlanePoint(self.end, new.spot.value))
         missed = self._length(on_meshes(guess, last, new), spot, new)
         if missed > BENT * self._way(last, new).length + 1e-9 and not straightens(last, new):
             self.way = self._tangent(last, GLANCE * step)
             raise CurveLostError("the curve bends too sharply")
         return new
 
-    def _tangent(self, last: Solved, step: float) -> _Way:
+    def _tangent(self, last: SolvedPoint, step: float) -> _Direction:
         """The way to a point very close ahead: nearer to the tangent than the way from the point before."""
         old = _known(self.way)
         new = self._solve(last, *old.ahead(last, step / old.length), old.travel)
@@ -136,33 +145,35 @@ class _Tracer:
             return old
         return found
 
-    def _solve(self, last: Solved, guess: Guess, spot: Spot, travel: Travel | None = None) -> Solved:
+    def _solve(
+        self, last: SolvedPoint, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent | None = None
+    ) -> SolvedPoint:
         try:
-            return self.zero.solve(last.solution.ladder, guess, spot, travel)
+            return self.zero.solve(last.solution.meshes, guess, spot, travel)
         except InputError as problem:
             raise CurveLostError(f"the curve leaves the range of {self.zero.over}") from problem
 
-    def _along_equilibria(self, last: Solved) -> bool:
+    def _along_equilibria(self, last: SolvedPoint) -> bool:
         """Whether the curve runs along the equilibria at a fixed parameter, as it does where it turns back."""
         family, state = last.solution.levels[1]
         travel = _known(self.way).travel
         row, row_lam, _, _ = family.covector(travel.fine, travel.value)
         return bool(abs(float(row @ state.tangent) + row_lam * state.tangent_lam) > ALONG)
 
-    def _way(self, a: Solved, b: Solved) -> _Way:
+    def _way(self, a: SolvedPoint, b: SolvedPoint) -> _Direction:
         """The way from a point to another on the same or on finer meshes."""
         before = on_meshes(a.guess, a, b)
         coarse, fine = b.guess.coarse - before.coarse, b.guess.fine - before.fine
         dx, dv = b.spot.x - a.spot.x, b.spot.value - a.spot.value
-        return _Way(Travel(coarse, fine, dv, dx, UNIT * self.range), self._length(before, a.spot, b))
+        return _Direction(CurveTangent(coarse, fine, dv, dx, UNIT * self.range), self._length(before, a.spot, b))
 
-    def _length(self, guess: Guess, spot: Spot, b: Solved) -> float:
+    def _length(self, guess: NearbyStates, spot: PlanePoint, b: SolvedPoint) -> float:
         """Distance between a guess and a point on the same meshes, in the space of states, load and parameter."""
-        shape = AMPLITUDE * b.solution.ladder.fine.distance(b.guess.fine - guess.fine, 0.0)
+        shape = AMPLITUDE * b.solution.meshes.fine.distance(b.guess.fine - guess.fine, 0.0)
         load = (b.spot.value - spot.value) / max(abs(b.spot.value), 1.0)
         return float(np.linalg.norm([(b.spot.x - spot.x) / self.range, load, shape]))
 
-    def _accept(self, new: Solved, step: float) -> str:
+    def _accept(self, new: SolvedPoint, step: float) -> str:
         """Add a point, with what is special between it and the last; returns why the curve ends there, or ""."""
         last = self.solved[-1]
         if straightens(last, new):
@@ -181,7 +192,7 @@ class _Tracer:
             return "the curve came back to the start of the range"
         return "" if len(self.solved) < MOST_POINTS else f"the limit of {MOST_POINTS} points was reached"
 
-    def _add(self, new: Solved) -> None:
+    def _add(self, new: SolvedPoint) -> None:
         """Add a point of the same smooth piece of the curve, and the place where it turned back on the way."""
         last = self.solved[-1]
         way = self._way(last, new)
@@ -195,13 +206,13 @@ class _Tracer:
         self.solved.append(new)
         self._attend(new)
 
-    def _turn_corner(self, last: Solved, new: Solved) -> None:
+    def _turn_corner(self, last: SolvedPoint, new: SolvedPoint) -> None:
         """Add the point between two at which another place lifts off too, and the first point beyond, on its curve."""
         touching, way = self.zero.touching, self._way(last, new)
         place = touching.place
         across = way.travel if self.way is not None and self._along_equilibria(last) else None
 
-        def at(share: float) -> Solved:
+        def at(share: float) -> SolvedPoint:
             return self._solve(new, *way.ahead(new, share - 1.0), across)
 
         ends = touching.rival(last.solution)[0], touching.rival(new.solution)[0]
@@ -229,12 +240,12 @@ class _Tracer:
         touching.place = other
         self._attend(beyond)
 
-    def _beyond(self, corner: Solved) -> Solved:
+    def _beyond(self, corner: SolvedPoint) -> SolvedPoint:
         """The first point on the curve of another place, on the side where the place left behind is pressed."""
         for part in BESIDE:
             for side in (self.sign, -self.sign):
                 try:
-                    spot = Spot(corner.spot.x + side * part * self.range, corner.spot.value)
+                    spot = PlanePoint(corner.spot.x + side * part * self.range, corner.spot.value)
                     found = self._solve(corner, corner.guess, spot)
                 except CurveLostError:
                     continue
@@ -242,13 +253,13 @@ class _Tracer:
                     return found
         raise CurveLostError("beyond a corner the curve was lost")
 
-    def _mark_turn(self, a: Solved, b: Solved, c: Solved) -> None:
+    def _mark_turn(self, a: SolvedPoint, b: SolvedPoint, c: SolvedPoint) -> None:
         """Locate the place near the middle one of three points where x is largest or smallest; add it to the curve."""
         way = self._way(b, c)
-        family = c.solution.ladder.fine
+        family = c.solution.meshes.fine
         row, row_lam, _, _ = family.covector(way.travel.fine, way.travel.value)
 
-        def along(point: Solved) -> float:
+        def along(point: SolvedPoint) -> float:
             return float(row @ carried(point.guess.fine, point, c, 1)) + row_lam * point.spot.value
 
         start, whole = along(b), along(c) - along(b)
@@ -275,6 +286,6 @@ class _Tracer:
 MOST_POINTS = 2000
 
 
-def _known(way: _Way | None) -> _Way:
+def _known(way: _Direction | None) -> _Direction:
     assert way is not None
     return way

@@ -12,7 +12,7 @@ from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.maxima import maxima
-from rodwell.numerics.equilibria.two_meshes import Ladder
+from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.lanes import on_lanes
@@ -112,7 +112,7 @@ def _numbers(mesh, landmarks, marks, c, parameters, energy, highest, lowest, sma
     return out
 
 
-KIN = ((int(Measured.OMEGA2_0), int(Measured.OMEGA2_1)),)
+GROUPS = ((int(Measured.OMEGA2_0), int(Measured.OMEGA2_1)),)
 """Measured numbers of one kind: the end curvatures."""
 
 
@@ -126,9 +126,9 @@ def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArra
     return out
 
 
-def measured_ladder(family: Family, rtol: float, most_elements: int) -> Ladder:
-    """Return the ladder on which states of ``family`` are measured to a tolerance."""
-    return Ladder(family, measure, rtol, most_elements, KIN)
+def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshes:
+    """Return the meshes on which states of ``family`` are measured to a tolerance."""
+    return TwoMeshes(family, measure, rtol, most_elements, GROUPS)
 
 
 def measure(family: Family, state: State) -> FloatArray:

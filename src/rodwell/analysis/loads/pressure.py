@@ -27,7 +27,7 @@ def pressure_rates(
     here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size
-    ladder, point = at_state(solution.problem, solution, parameter, here + size, solution.ladder.rtol)
+    meshes, point = at_state(solution.problem, solution, parameter, here + size, solution.meshes.rtol)
     at = np.array(places)
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:
@@ -35,9 +35,9 @@ def pressure_rates(
         p = {k: _pressure(family, state, state.c + k * h * direction, state.lam + k * h, at) for k in (-2, -1, 1, 2)}
         return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
 
-    fine = rate(ladder.fine, point.fine, step)
-    errors = estimated_error(fine, rate(ladder.coarse, point.coarse, step))
-    errors = errors + np.abs(rate(ladder.fine, point.fine, 2.0 * step) - fine)
+    fine = rate(meshes.fine, point.fine, step)
+    errors = estimated_error(fine, rate(meshes.coarse, point.coarse, step))
+    errors = errors + np.abs(rate(meshes.fine, point.fine, 2.0 * step) - fine)
     return tuple(map(float, fine)), tuple(map(float, errors))
 
 

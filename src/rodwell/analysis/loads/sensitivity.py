@@ -22,7 +22,7 @@ from rodwell.analysis.loads.pressure import pressure_rates
 from rodwell.analysis.straight.critical import Mode, critical_loads
 from rodwell.analysis.straight.slopes import load_slope, weight_rates
 from rodwell.errors import InputError, checked_whole
-from rodwell.numerics.equilibria.error import ROUND_OFF
+from rodwell.numerics.equilibria.error import NUMBER_NOISE
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -130,7 +130,7 @@ def of_critical_load(mode: Mode) -> Sensitivity:
     scales = {"weight": mode.problem.weight or 1.0, "alpha": 90.0, "clearance": mode.problem.clearance}
     found = {}
     for name, scale in scales.items():
-        round_off = ROUND_OFF * (abs(fine[name]) + abs(mode.force) / scale)
+        round_off = NUMBER_NOISE * (abs(fine[name]) + abs(mode.force) / scale)
         found[name] = (fine[name], abs(fine[name] - coarse[name]) + round_off)
     return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, found)
 

@@ -174,7 +174,7 @@ def checked_radius(solution: Equilibrium, given: float | None, fields: dict[str,
 def _places(solution: Equilibrium, places: int | None) -> int:
     if places is not None:
         return checked_whole("places", places, FEWEST_PLACES, MOST_PLACES)
-    elements = solution.ladder.fine.space.breaks.size - 1
+    elements = solution.meshes.fine.space.breaks.size - 1
     return min(max(USUAL_PLACES[0], 4 * elements + 1), USUAL_PLACES[1])
 
 

@@ -103,7 +103,7 @@ def load_of(problem: Problem, force: float) -> Load:
 
 def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
-    half, fields = element_fields(solution.problem, solution.ladder.fine, solution.point.fine)
+    half, fields = element_fields(solution.problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]
     load = load_of(solution.problem, solution.force)
     fields["xi2"] = fields["y"] / load.clearance
@@ -132,7 +132,7 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     out["T₂ by two routes"] = _torque(fields, solution.problem)
     out["h by two routes"] = _scaled((fields["tangential_balance"],), (fields["rod_F1"],))
     out["work and energy"] = _work_and_energy(solution, load)
-    return Certificate(out, max(LIMIT, SLACK * solution.ladder.rtol))
+    return Certificate(out, max(LIMIT, SLACK * solution.meshes.rtol))
 
 
 def _scaled(terms: tuple[Any, ...], sizes: tuple[FloatArray, ...] = ()) -> float:
@@ -173,7 +173,7 @@ def _work_and_energy(solution: Equilibrium, load: Load) -> float:
     """
     state = solution.point.fine
     space = state.space
-    y, y1, y2 = shape(solution.ladder.fine, state, space.points, 3)
+    y, y1, y2 = shape(solution.meshes.fine, state, space.points, 3)
     u, u1, u2 = space.evaluate(state.tangent, space.points, 3)
     cos, D, angle = np.sqrt(1.0 - y1**2), load.clearance, y / load.clearance
     turn = u1 / cos  # δη

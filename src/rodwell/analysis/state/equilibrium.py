@@ -11,7 +11,7 @@ from rodwell.analysis.discrete.measures import Measured, pressure_maxima
 from rodwell.analysis.state.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -27,13 +27,13 @@ class Equilibrium:
         The problem.
     point
         The state on both meshes, with the measured numbers and their errors.
-    ladder
+    meshes
         Its equations on both meshes.
     """
 
     problem: Problem
-    point: Point
-    ladder: Ladder
+    point: MeshedState
+    meshes: TwoMeshes
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} at F = {self.force:.10g} B/L², stability index {self.stability_index}>"
@@ -41,7 +41,7 @@ class Equilibrium:
     @property
     def force(self) -> float:
         """End force F at s = 1 in B/L², tension positive."""
-        return float(self.ladder.fine.parameters(self.point.lam)[FORCE])
+        return float(self.meshes.fine.parameters(self.point.lam)[FORCE])
 
     @property
     def stability_index(self) -> int:
@@ -61,8 +61,8 @@ class Equilibrium:
     @property
     def levels(self) -> tuple[tuple[Family, State], tuple[Family, State]]:
         """Equations and state on the coarse and on the fine mesh."""
-        ladder, point = self.ladder, self.point
-        return (ladder.coarse, point.coarse), (ladder.fine, point.fine)
+        meshes, point = self.meshes, self.point
+        return (meshes.coarse, point.coarse), (meshes.fine, point.fine)
 
     def value_of(self, parameter: str) -> float:
         """Value of a parameter of :data:`rodwell.analysis.discrete.family.PATHS`."""
@@ -78,7 +78,7 @@ class Equilibrium:
 
         More than one place if they agree to within the error (or to eight digits).
         """
-        places, values, lowest = pressure_maxima(self.ladder.fine, self.point.fine)
+        places, values, lowest = pressure_maxima(self.meshes.fine, self.point.fine)
         top, error = self.number(Measured.P_MAX)
         within = max(2.0 * error, 1e-8 * max(abs(top), abs(lowest)))
         return top, error, tuple(float(s) for s in places[values >= top - within])
@@ -86,7 +86,7 @@ class Equilibrium:
     def fields(self, s: FloatArray | int = GRID) -> dict[str, FloatArray]:
         """Fields along the rod at ``s`` (m,), or at that many evenly spaced places; names as in nomenclature."""
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
-        return fields_at(self.problem, self.ladder.fine, self.point.fine, places)
+        return fields_at(self.problem, self.meshes.fine, self.point.fine, places)
 
     def field_errors(self, s: FloatArray | int = GRID) -> dict[str, float]:
         """Error estimate of each field, the largest over ``s``: from the two nested meshes."""

@@ -30,7 +30,7 @@ NEAR, MOST_PEAKS = 0.05, 12
 EQUAL = 1e-10
 """Peaks that differ by less than this part count as equal: the largest value is then at the first of them."""
 
-ROUND_OFF = 1e-13
+EQUAL_PEAKS = 1e-13
 """Values that differ by less than this part count as equal: the largest value is then at the first of their places."""
 
 PLACES = 10
@@ -122,7 +122,7 @@ def largest_of(
         left, right = s[rows, np.maximum(peaks - 1, 0)], s[rows, np.minimum(peaks + 1, s.shape[1] - 1)]
         s = np.linspace(left, right, CLOSER, axis=1)
         sizes = size(s.ravel()).reshape(s.shape)
-        peaks = np.argmax(sizes >= (1.0 - ROUND_OFF) * np.max(sizes, axis=1, keepdims=True), axis=1)
+        peaks = np.argmax(sizes >= (1.0 - EQUAL_PEAKS) * np.max(sizes, axis=1, keepdims=True), axis=1)
     values = np.max(sizes, axis=1)
     first = int(np.argmax(values >= (1.0 - EQUAL) * np.max(values)))
     return float(np.max(values)), float(s[first, peaks[first]])

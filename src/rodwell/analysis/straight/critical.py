@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 MOST_MODES = 200
 
-ROUND_OFF = 64.0 * np.finfo(float).eps
+LOAD_NOISE = 64.0 * np.finfo(float).eps
 """Relative to the size of the terms that make up a load; certified enclosures show up to half of it."""
 
 EULER = 4.0 * np.pi**2
@@ -133,7 +133,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         start = np.array([up(v) for v in vectors])
         better, shapes = _solve(problem, finer, count, (values, start))
         size = np.abs(better[:count]) + problem.axial_weight + EULER
-        error = np.abs(better[:count] - values[:count]) + ROUND_OFF * size
+        error = np.abs(better[:count] - values[:count]) + LOAD_NOISE * size
         if np.all(error <= rtol * size):
             break
         if 2 * finer.elements > MOST_ELEMENTS:

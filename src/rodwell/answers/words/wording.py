@@ -46,5 +46,5 @@ def places_text(answer: Answer, point: SpecialPoint) -> str:
     """The places of a special point; their errors from the places of the largest pressure on the coarser mesh."""
     from rodwell.analysis.discrete.measures import pressure_maxima  # noqa: PLC0415
 
-    maxima, _, _ = pressure_maxima(point.solution.ladder.coarse, point.solution.point.coarse)
+    maxima, _, _ = pressure_maxima(point.solution.meshes.coarse, point.solution.point.coarse)
     return " and ".join(place_text(answer, s, min(abs(float(t) - s) for t in maxima)) for s in point.s)

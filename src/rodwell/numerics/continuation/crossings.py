@@ -10,9 +10,9 @@ import numpy as np
 
 from rodwell.numerics.continuation.location import (
     PLACE_TOLERANCE,
+    LocatedZero,
     LocationError,
-    Place,
-    Span,
+    Segment,
     bracketed_root,
     near_root,
 )
@@ -26,17 +26,17 @@ class Crossing:
     of a long rod is exponentially small), so its sign means nothing.
     """
 
-    place: Place | None
+    place: LocatedZero | None
     t: float
     before: int
     after: int
     fold: bool
 
 
-def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
+def index_crossings(coarse: Segment, fine: Segment, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
     """All places up to ``end`` where the stability index changes, each stretch with a change resolved by bisection.
 
-    The span is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
+    The segment is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
     back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
     crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
     """
@@ -51,19 +51,21 @@ def index_crossings(coarse: Span, fine: Span, turns: Sequence[float] = (), end: 
 
 
 ALONE = 0.1
-"""Width of a bracket, as a part of the span, in which a single change of the index is taken to stand alone."""
+"""Width of a bracket, as a part of the segment, in which a single change of the index is taken to stand alone."""
 
 CLOSE = 3e-3
 """Width of a bracket in which Newton's method may be kept off a direction: the error left goes with its 4th power."""
 
 FOLD_OFFSET = 1e-3
-"""How far from a turning point, as a part of the span, the index is compared."""
+"""How far from a turning point, as a part of the segment, the index is compared."""
 
 CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
 
 
-def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> list[tuple[float, float, int, int]]:
+def _bisect(
+    segment: Segment, low: float, high: float, at_low: int, at_high: int
+) -> list[tuple[float, float, int, int]]:
     """Brackets of the changes of the index in [low, high]: (low, high, before, after)."""
     if at_low == at_high:
         return []
@@ -71,35 +73,35 @@ def _bisect(span: Span, low: float, high: float, at_low: int, at_high: int) -> l
     if width < PLACE_TOLERANCE:
         middle = 0.5 * (low + high)
         return [(middle, middle, at_low, at_high)]
-    if abs(at_high - at_low) == 1 and width < ALONE and _changes_sign(span, low, high):
+    if abs(at_high - at_low) == 1 and width < ALONE and _changes_sign(segment, low, high):
         return [(low, high, at_low, at_high)]
-    middle, here = _cut(span, low, high)
-    return _bisect(span, low, middle, at_low, here) + _bisect(span, middle, high, here, at_high)
+    middle, here = _cut(segment, low, high)
+    return _bisect(segment, low, middle, at_low, here) + _bisect(segment, middle, high, here, at_high)
 
 
-def _cut(span: Span, low: float, high: float) -> tuple[float, int]:
+def _cut(segment: Segment, low: float, high: float) -> tuple[float, int]:
     """A place inside an interval, near its middle, and the index there."""
     for part in CUTS:
         middle = low + part * (high - low)
         try:
-            return middle, span(middle).index
+            return middle, segment(middle).index
         except LocationError:
             if part == CUTS[-1]:
                 raise
     raise AssertionError
 
 
-def _changes_sign(span: Span, low: float, high: float) -> bool:
-    eigenvalue = _Eigenvalue(span, low)
+def _changes_sign(segment: Segment, low: float, high: float) -> bool:
+    eigenvalue = _Eigenvalue(segment, low)
     return eigenvalue(low) * eigenvalue(high) < 0.0
 
 
 def _located(
-    coarse: Span, fine: Span, turns: Sequence[float], low: float, high: float, before: int, after: int
+    coarse: Segment, fine: Segment, turns: Sequence[float], low: float, high: float, before: int, after: int
 ) -> Crossing:
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
     if low == high:
-        return Crossing(Place(low, coarse(low), fine(low)), low, before, after, fold=False)
+        return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
     fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
     steady = fine.family.parity == 0 and not fold
     if steady:
@@ -117,7 +119,7 @@ def _located(
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     return Crossing(
-        Place(low + t * (high - low), parts[1].sharp(other), parts[0].sharp(t)),
+        LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t)),
         low + t * (high - low),
         before,
         after,
@@ -125,28 +127,28 @@ def _located(
     )
 
 
-def _shrunk(span: Span, low: float, high: float, before: int) -> tuple[float, float]:
+def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:
     """Halve a bracket of one change of the index until the cubic between its ends is as good as the solution."""
     while high - low > CLOSE:
-        middle, index = _cut(span, low, high)
+        middle, index = _cut(segment, low, high)
         low, high = (middle, high) if index == before else (low, middle)
     return low, high
 
 
-def _steadied(span: Span) -> Span:
-    """The span with Newton's method kept off the direction in which the Hessian becomes singular."""
-    eigenvalue = _Eigenvalue(span, 0.0)
-    return replace(span, frozen=eigenvalue.vector)
+def _steadied(segment: Segment) -> Segment:
+    """The segment with Newton's method kept off the direction in which the Hessian becomes singular."""
+    eigenvalue = _Eigenvalue(segment, 0.0)
+    return replace(segment, frozen=eigenvalue.vector)
 
 
 class _Eigenvalue:
     """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``."""
 
-    def __init__(self, span: Span, near: float) -> None:
-        self.span = span
-        state = span(near)
+    def __init__(self, segment: Segment, near: float) -> None:
+        self.segment = segment
+        state = segment(near)
         self.vector = np.random.default_rng(0).standard_normal(state.c.size)
-        _, self.noise = span.family.nearest_curvature(state, self.vector, 8)
+        _, self.noise = segment.family.nearest_curvature(state, self.vector, 8)
 
     def __call__(self, t: float) -> float:
-        return self.span.family.nearest_curvature(self.span(t), self.vector, 3)[0]
+        return self.segment.family.nearest_curvature(self.segment(t), self.vector, 3)[0]

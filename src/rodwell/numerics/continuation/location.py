@@ -10,13 +10,13 @@ from rodwell.numerics.equilibria.family import Family, State
 from rodwell.quantities.arrays import FloatArray
 
 PLACE_TOLERANCE = 1e-12
-"""Width, as a part of the span, to which a zero is bracketed."""
+"""Width, as a part of the segment, to which a zero is bracketed."""
 
 INSIDE = 0.02
 """The first place looked at lies at least this part of the bracket from its ends."""
 
 BESIDE = 0.01
-"""How far, as a part of the span, a solution at given λ may lie from where it was expected."""
+"""How far, as a part of the segment, a solution at given λ may lie from where it was expected."""
 
 
 class LocationError(RuntimeError):
@@ -24,7 +24,7 @@ class LocationError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Span:
+class Segment:
     """The stretch of a branch between two states of one family, in t from 0 to 1 along the first's tangent."""
 
     family: Family
@@ -74,18 +74,18 @@ class Span:
         h0, h1, s0, s1 = self._shares(t)
         return h0 * a.lam + h1 * b.lam + s0 * a.tangent_lam + s1 * b.tangent_lam
 
-    def sharp(self, t: float) -> State:
+    def with_exact_tangent(self, t: float) -> State:
         """Return the equilibrium at ``t`` with its tangent and index taken at the solution itself."""
-        return replace(self, family=self.family.sharp())(t)
+        return replace(self, family=self.family.with_exact_tangent())(t)
 
     @property
-    def quick(self) -> Span:
-        """The same span without the step that makes tangents and index sharp."""
+    def quick(self) -> Segment:
+        """The same segment without the step that makes tangents and index sharp."""
         return replace(self, family=replace(self.family, extra_steps=0))
 
-    def narrowed(self, low: float, high: float) -> Span:
+    def narrowed(self, low: float, high: float) -> Segment:
         """Return the stretch between two places of this one."""
-        return Span(self.family, self(low), self(high))
+        return Segment(self.family, self(low), self(high))
 
     def at_lam(self, lam: float) -> State:
         """Return the equilibrium at a λ that lies between those of the ends."""
@@ -153,7 +153,7 @@ def bracketed_root(
 
 
 @dataclass(frozen=True)
-class Place:
+class LocatedZero:
     """A zero found on both meshes: t on the fine one, and the states at the zero of each mesh.
 
     The two states differ by what the zero's place is uncertain too, so what is measured of them has errors that
@@ -171,13 +171,13 @@ class Place:
 
 
 def locate(
-    coarse: Span,
-    fine: Span,
-    function: Callable[[Span, State], float],
+    coarse: Segment,
+    fine: Segment,
+    function: Callable[[Segment, State], float],
     ends: tuple[float, float],
     tolerance: float = PLACE_TOLERANCE,
-) -> Place:
-    """Zero of a function of a state on both meshes; ``ends`` are its values at the ends of the fine span."""
+) -> LocatedZero:
+    """Zero of a function of a state on both meshes; ``ends`` are its values at the ends of the fine segment."""
     quick = coarse.quick, fine.quick
     near = (function(quick[0], coarse.first), function(quick[0], coarse.last))
     if (near[0] < 0.0) == (near[1] < 0.0):  # not seen on the coarse mesh: begin with the fine one
@@ -186,7 +186,7 @@ def locate(
     else:
         other = bracketed_root(lambda t: function(quick[0], quick[0](t)), 0.0, 1.0, *near, tolerance)
         place = near_root(lambda t: function(quick[1], quick[1](t)), other, ends[1] > ends[0], tolerance=tolerance)
-    return Place(place, coarse(other), fine(place))
+    return LocatedZero(place, coarse(other), fine(place))
 
 
 def near_root(

@@ -19,7 +19,7 @@ PROJECTIONS = 3
 """Corrections that put the predicted point on the hyperplane: each leaves some hundredths of the gap."""
 
 
-class Course:
+class Predictor:
     """The last points of a branch, all on one mesh, and the arclength at which they lie, that of the last being 0."""
 
     def __init__(self, state: State) -> None:

@@ -13,10 +13,10 @@ import numpy as np
 
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics.continuation.location import LocationError, Span
+from rodwell.numerics.continuation.location import LocationError, Segment
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.newton import dot, symmetrise
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.banded import factorise, multiply, solve
 from rodwell.numerics.splines.held import gather, spread
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -31,7 +31,7 @@ BETWEEN = (0.2, 0.4, 0.6, 0.8)
 
 
 @dataclass
-class Watch:
+class SoftestEigenvalues:
     """Softest eigenvalues of even and odd variations (the two softest, on a mesh without symmetry) at each point."""
 
     vectors: FloatArray | None = None
@@ -39,12 +39,12 @@ class Watch:
     values: list[tuple[float, float]] = field(default_factory=list)
     places: list[float] = field(default_factory=list)
 
-    def add(self, ladder: Ladder, point: Point, travelled: float, factors: FloatArray | None = None) -> None:
+    def add(self, meshes: TwoMeshes, point: MeshedState, travelled: float, factors: FloatArray | None = None) -> None:
         """Take in the next point of the branch, ``travelled`` from the last.
 
         ``factors`` are those of the Hessian there on the coarse mesh, if they are known.
         """
-        self.values.append(self._softest(ladder.coarse, point.coarse, factors))
+        self.values.append(self._softest(meshes.coarse, point.coarse, factors))
         self.places.append((self.places[-1] if self.places else 0.0) + travelled)
 
     def forget(self, count: int) -> None:
@@ -117,17 +117,17 @@ def _dips(place: Sequence[float], values: Sequence[float]) -> bool:
     return bend > 0.0 and middle - slope * slope / (4.0 * bend) < DEEP * middle
 
 
-def hidden_change(ladders: list[Ladder], points: list[Point]) -> bool:
+def hidden_change(meshes_along: list[TwoMeshes], points: list[MeshedState]) -> bool:
     """Whether the index changes and changes back between the last three points of a branch."""
     for k in (-3, -2):
-        ladder, last = ladders[k + 1], points[k + 1]
-        first = points[k] if ladders[k] is ladder else ladder.adopt(ladders[k], points[k])[1]
+        meshes, last = meshes_along[k + 1], points[k + 1]
+        first = points[k] if meshes_along[k] is meshes else meshes.adopt(meshes_along[k], points[k])[1]
         if first is None or first.fine.index != last.fine.index:
             continue
-        span = Span(ladder.coarse.sharp(), first.coarse, last.coarse)
+        segment = Segment(meshes.coarse.with_exact_tangent(), first.coarse, last.coarse)
         for t in BETWEEN:
             try:
-                if span(t).index != last.fine.index:
+                if segment(t).index != last.fine.index:
                     return True
             except LocationError:
                 return True

@@ -13,15 +13,15 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rodwell.numerics.continuation.events import Event, Found, events_between
+from rodwell.numerics.continuation.events import Event, LocatedEvent, events_between
 from rodwell.numerics.continuation.location import LocationError
-from rodwell.numerics.continuation.prediction import Course
-from rodwell.numerics.continuation.softest import Watch, hidden_change
+from rodwell.numerics.continuation.prediction import Predictor
+from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
 from rodwell.numerics.equilibria.family import Outcome, State
-from rodwell.numerics.equilibria.two_meshes import Ladder, Point
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
 
-STRAYED = 0.2
+LARGEST_PREDICTION_ERROR = 0.2
 """A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""
 
 
@@ -39,30 +39,30 @@ class Stepping:
 
 @dataclass
 class Trace:
-    """What continuation found: points in order, the ladder each stands on, located events, why it ended."""
+    """What continuation found: points in order, the meshes each stands on, located events, why it ended."""
 
-    points: list[Point] = field(default_factory=list)
-    ladders: list[Ladder] = field(default_factory=list)
-    found: list[Found] = field(default_factory=list)
+    points: list[MeshedState] = field(default_factory=list)
+    meshes: list[TwoMeshes] = field(default_factory=list)
+    found: list[LocatedEvent] = field(default_factory=list)
     end: str = ""
 
     def step_back(self, count: int) -> float:
         """Take the last points back; returns how far apart the next and the one after it were."""
         gap = self.points[-count - 1].coarse.space is self.points[-count].coarse.space
         apart = self.points[-count - 1].coarse.along(self.points[-count].coarse) if gap else np.inf
-        del self.points[-count:], self.ladders[-count:]
+        del self.points[-count:], self.meshes[-count:]
         self.found = [item for item in self.found if item.after < len(self.points) - 1]
         return float(abs(apart))
 
 
-Progress = Callable[[Point], None]
-Stop = Callable[[Found], str]
+Progress = Callable[[MeshedState], None]
+Stop = Callable[[LocatedEvent], str]
 """Why the branch ends at something located, or "" if it goes on."""
 
 
 def trace(
-    ladder: Ladder,
-    start: Point,
+    meshes: TwoMeshes,
+    start: MeshedState,
     stepping: Stepping,
     events: Sequence[Event],
     *,
@@ -78,7 +78,7 @@ def trace(
     ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
     branch point, whose stability index is that of the branch left.
     """
-    walk = _Walk(stepping, events, stop, switched, Trace([start], [ladder]), Course(start.coarse))
+    walk = _Walk(stepping, events, stop, switched, Trace([start], [meshes]), Predictor(start.coarse))
     walk.to_the_end(progress)
     return walk.trace
 
@@ -92,8 +92,8 @@ class _Walk:
     stop: Stop
     switched: bool
     trace: Trace
-    course: Course
-    watch: Watch = field(default_factory=Watch)
+    predictor: Predictor
+    softest: SoftestEigenvalues = field(default_factory=SoftestEigenvalues)
     work: float = 0.0
 
     def to_the_end(self, progress: Progress | None) -> None:
@@ -101,20 +101,20 @@ class _Walk:
         trace, stepping = self.trace, self.stepping
         length = stepping.first
         while not trace.end:
-            self.work += 4.0 * trace.ladders[-1].fine.space.elements  # about that many solves a step
+            self.work += 4.0 * trace.meshes[-1].fine.space.elements  # about that many solves a step
             trace.end = self._limit()
             turn = trace.end or self._advance(length)
             if trace.end:
                 return
             if isinstance(turn, str):
                 length = 0.5 * length
-                self.course.restart(trace.points[-1].coarse)
+                self.predictor.restart(trace.points[-1].coarse)
                 trace.end = turn if length < stepping.smallest else ""
                 continue
-            if length > stepping.smallest and self.watch.may_dip() and hidden_change(trace.ladders, trace.points):
+            if length > stepping.smallest and self.softest.may_dip() and hidden_change(trace.meshes, trace.points):
                 length = 0.25 * min(length, trace.step_back(2))
-                self.course.restart(trace.points[-1].coarse)
-                self.watch.forget(2)
+                self.predictor.restart(trace.points[-1].coarse)
+                self.softest.forget(2)
                 continue
             if progress is not None:
                 progress(trace.points[-1])
@@ -131,50 +131,52 @@ class _Walk:
     def _advance(self, length: float) -> float | str:
         """Make one step and add it to the trace with its events; return the turn of the tangent, or what went wrong."""
         trace = self.trace
-        last, ladder = trace.points[-1], trace.ladders[-1]
-        why, new_ladder, point, turn, factors = self._step(ladder, last.coarse, length)
+        last, meshes = trace.points[-1], trace.meshes[-1]
+        why, new_meshes, point, turn, factors = self._step(meshes, last.coarse, length)
         if point is None:
             return why
         base = last
-        if new_ladder is not ladder:
-            outcome, adopted = new_ladder.adopt(ladder, last)
+        if new_meshes is not meshes:
+            outcome, adopted = new_meshes.adopt(meshes, last)
             if adopted is None:
-                return new_ladder.coarse.advice(outcome)
+                return new_meshes.coarse.advice(outcome)
             base, factors = adopted, None
         try:
             opening = len(trace.points) == 1
             leaves = opening and self.switched
-            found = events_between(new_ladder, base, point, self.events, opening=opening, leaves=leaves)
+            found = events_between(new_meshes, base, point, self.events, opening=opening, leaves=leaves)
         except LocationError as problem:
             return str(problem)
-        trace.points[-1], trace.ladders[-1] = base, new_ladder
+        trace.points[-1], trace.meshes[-1] = base, new_meshes
         end = next((i for i, item in enumerate(found) if self.stop(item)), None)
         if end is not None:
             found = found[: end + 1]
-            trace.end, point, new_ladder = self.stop(found[end]), found[end].point, found[end].ladder
+            trace.end, point, new_meshes = self.stop(found[end]), found[end].point, found[end].meshes
         trace.found += [replace(item, after=len(trace.points) - 1) for item in found]
         trace.points.append(point)
-        trace.ladders.append(new_ladder)
+        trace.meshes.append(new_meshes)
         if end is None:
-            if new_ladder is not ladder:
-                self.course.restart(base.coarse)
-            self.course.add(point.coarse)
-            self.watch.add(new_ladder, point, length, factors)
+            if new_meshes is not meshes:
+                self.predictor.restart(base.coarse)
+            self.predictor.add(point.coarse)
+            self.softest.add(new_meshes, point, length, factors)
         return turn
 
     def _step(
-        self, ladder: Ladder, state: State, length: float
-    ) -> tuple[str, Ladder, Point | None, float, FloatArray | None]:
-        """Try one step: what went wrong (or ""), ladder, point or None, turn of the tangent, coarse factors."""
-        expected = self.course.ahead(length)
-        outcome, coarse, strayed, factors = ladder.coarse.step_to(state, length, *expected, ladder.loose)
+        self, meshes: TwoMeshes, state: State, length: float
+    ) -> tuple[str, TwoMeshes, MeshedState | None, float, FloatArray | None]:
+        """Try one step: what went wrong (or ""), meshes, point or None, turn of the tangent, coarse factors."""
+        expected = self.predictor.ahead(length)
+        outcome, coarse, prediction_error, factors = meshes.coarse.step_to(
+            state, length, *expected, meshes.coarse_tolerance
+        )
         if coarse is None:
-            return ladder.coarse.advice(outcome), ladder, None, 0.0, None
+            return meshes.coarse.advice(outcome), meshes, None, 0.0, None
         cosine = float(state.row @ coarse.tangent) + state.row_lam * coarse.tangent_lam
         turn = math.acos(min(1.0, cosine))
         if turn > self.stepping.sharpest_turn:
-            return "the branch turns too sharply to be followed", ladder, None, turn, None
-        if strayed > STRAYED * length:
-            return "the steps stray from the branch", ladder, None, turn, None
-        outcome, ladder, point = ladder.resolve(coarse)
-        return (ladder.coarse.advice(outcome) if outcome is not Outcome.CONVERGED else ""), ladder, point, turn, factors
+            return "the branch turns too sharply to be followed", meshes, None, turn, None
+        if prediction_error > LARGEST_PREDICTION_ERROR * length:
+            return "the steps stray from the branch", meshes, None, turn, None
+        outcome, meshes, point = meshes.resolve(coarse)
+        return (meshes.coarse.advice(outcome) if outcome is not Outcome.CONVERGED else ""), meshes, point, turn, factors

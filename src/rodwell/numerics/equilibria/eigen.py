@@ -36,7 +36,7 @@ BELOW = 0.05
 GAP = 1e-2
 """Part of the block's spread from which a distance between neighbours counts as a gap."""
 
-SMALL, ROUND_OFF = 1e-13, 1e-11
+SMALL, EQUAL_VALUES = 1e-13, 1e-11
 """Relative changes of the eigenvalues from one iteration to the next that count as none."""
 
 
@@ -126,7 +126,7 @@ def lowest(
         history.append(float(np.max(changes)))
         if _settled(history) and _confirmed(stiffness, gram, values, count):
             return values, block
-        if iteration % RESHIFT == 0 and history[-1] > max(ROUND_OFF, SLOW * history[-2]):
+        if iteration % RESHIFT == 0 and history[-1] > max(EQUAL_VALUES, SLOW * history[-2]):
             kept = _before_gap(values, int(np.argmax(changes > SMALL)))
             shift = _shift_above(stiffness, gram, values, kept) if kept > 0 else shift
             factors = _factors(stiffness, gram, shift)
@@ -151,7 +151,7 @@ def _factors(stiffness: FloatArray, gram: FloatArray, shift: float) -> FloatArra
 def _settled(history: list[float]) -> bool:
     """Whether the values no longer change: to the last digits, or to round-off, which does not fall any more."""
     change, before = history[-1], history[-2]
-    return change < SMALL or (change < ROUND_OFF and before < np.inf and change > 0.5 * before)
+    return change < SMALL or (change < EQUAL_VALUES and before < np.inf and change > 0.5 * before)
 
 
 def _shift_above(stiffness: FloatArray, gram: FloatArray, values: FloatArray, kept: int) -> float:

@@ -13,11 +13,11 @@ CLAIMED_GAIN = 8.0
 pressure at degree 9, gains 2⁷; where the gain is not seen (round-off), the point counts as not converged."""
 
 
-ROUND_OFF = 2e-12
+NUMBER_NOISE = 2e-12
 """Error that round-off leaves in a number even where both meshes agree, relative to its scale."""
 
 
 @formula
 def estimated_error(fine: Any, coarse: Any) -> Any:
     """Error estimate of numbers known on both meshes, arrays or single ones."""
-    return np.abs(fine - coarse) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine)
+    return np.abs(fine - coarse) / CLAIMED_GAIN + NUMBER_NOISE * np.abs(fine)

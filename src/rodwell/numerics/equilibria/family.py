@@ -37,13 +37,13 @@ class Outcome(Enum):
     OUT_OF_RANGE = "the state left the range of the model"
 
 
-ROUND_OFF = 1e-15
+EQUAL_COEFFICIENTS = 1e-15
 """Coefficients that differ by no more are equal: a state may be zero up to this."""
 
 SYMMETRIC = 1e-5
 """Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
 
-NOISE = 8.0 * float(np.finfo(float).eps)
+EIGENVALUE_NOISE = 8.0 * float(np.finfo(float).eps)
 """Round-off left in a second variation, as a part of the size of its terms."""
 
 Given = Callable[[FloatArray], FloatArray]
@@ -79,7 +79,7 @@ class State:
 
     def symmetry_within(self, tolerance: float) -> int:
         """Symmetry up to a part ``tolerance`` of the largest coefficient; the mesh must be symmetric."""
-        size = tolerance * float(np.max(np.abs(self.c))) + ROUND_OFF
+        size = tolerance * float(np.max(np.abs(self.c))) + EQUAL_COEFFICIENTS
         for parity in (1, -1):
             if np.max(np.abs(self.c - self.symmetrised(parity))) <= 0.5 * size:
                 return parity
@@ -134,7 +134,7 @@ class Family:
         """Return the same family on another space."""
         return replace(self, space=space)
 
-    def sharp(self) -> Family:
+    def with_exact_tangent(self) -> Family:
         """Return the same family with tangents and index taken at the converged state, at the cost of a step."""
         return replace(self, extra_steps=1)
 
@@ -264,7 +264,7 @@ class Family:
         banded.factorise(factors)
         newton.inverse_iteration(self.mesh, factors, iterations, vector)
         above, size, below = assembly.variation(self.mesh, state.c, *self._on_path(state.lam), vector)
-        return float(above / below), float(NOISE * size / below)
+        return float(above / below), float(EIGENVALUE_NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:
         """Newton from ``c`` at fixed λ."""

@@ -1,6 +1,6 @@
 """Two nested meshes: every state is solved on both, and the difference tells the error.
 
-A :class:`Ladder` pairs a family on a coarse mesh, which carries the continuation steps, with the same family
+A :class:`TwoMeshes` pairs a family on a coarse mesh, which carries the continuation steps, with the same family
 on the mesh with each element halved, which gives the values reported. The difference of the two, divided by
 :data:`CLAIMED_GAIN`, is the error estimate of the finer one: cautious, since the order of the method promises
 more. Where a measured number is not known to the tolerance, the meshes are refined where they resolve least;
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.equilibria.error import CLAIMED_GAIN, ROUND_OFF, estimated_error
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error
 from rodwell.numerics.equilibria.family import Family, Outcome, State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
@@ -30,7 +30,7 @@ Measure = Callable[[Family, State], FloatArray]
 round-off in the coefficients leaves in them, which grow with finer meshes."""
 
 
-LOOSE = 1e-2
+COARSE_TOLERANCE = 1e-2
 """Newton step, over the root of the tolerance, with which the coarse solve of a point may end: what is left is about
 its square, and counts as error, since the finer solve does not share it."""
 
@@ -42,18 +42,18 @@ def _larger(a, b):
 
 
 @kernel
-def _judged(fine, coarse, kin):
+def _judged(fine, coarse, groups):
     """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale.
 
-    ``kin`` (g, 2) is an array, not a tuple: its type is the same for any number of groups, and for none.
+    ``groups`` (g, 2) is an array, not a tuple: its type is the same for any number of groups, and for none.
     """
     error = np.empty(fine.shape[1])
     for i in range(error.size):
         scale = fine[1, i]
-        known = ROUND_OFF * scale if np.isfinite(scale) else 0.0
+        known = NUMBER_NOISE * scale if np.isfinite(scale) else 0.0
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
-    for group in range(kin.shape[0]):
-        first, last = kin[group, 0], kin[group, 1]
+    for group in range(groups.shape[0]):
+        first, last = groups[group, 0], groups[group, 1]
         for i in range(first, last + 1):
             error[first] = _larger(error[first], error[i])
         for i in range(first, last + 1):
@@ -65,7 +65,7 @@ def _judged(fine, coarse, kin):
 
 
 @dataclass(frozen=True)
-class Point:
+class MeshedState:
     """One equilibrium on both meshes, with the measured numbers and their errors.
 
     ``excess`` is the largest error in units of what the tolerance allows: at most 1 if the point is
@@ -98,7 +98,7 @@ class Point:
         return self.excess <= 1.0
 
 
-class Ladder:
+class TwoMeshes:
     """A family on a coarse mesh and on the mesh with each of its elements halved.
 
     Parameters
@@ -111,7 +111,7 @@ class Ladder:
         Relative tolerance.
     most_elements
         Limit to the elements of the finer mesh.
-    kin
+    groups
         First and last of groups of measured numbers of one kind, which share the largest error of the group: a single
         number may agree on both meshes by chance.
     """
@@ -122,18 +122,18 @@ class Ladder:
         measure: Measure,
         rtol: float,
         most_elements: int = 20_000,
-        kin: Sequence[tuple[int, int]] | IntArray = (),
+        groups: Sequence[tuple[int, int]] | IntArray = (),
     ) -> None:
         self.floor = 1.0  # excess below which refinement was found not to help (round-off)
-        self.kin = np.array(kin, dtype=np.int64).reshape(-1, 2)  # first and last number of each group
+        self.groups = np.array(groups, dtype=np.int64).reshape(-1, 2)  # first and last number of each group
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
         self.measure, self.rtol, self.most_elements = measure, rtol, most_elements
-        self.loose = max(family.tolerance, LOOSE * np.sqrt(rtol))
+        self.coarse_tolerance = max(family.tolerance, COARSE_TOLERANCE * np.sqrt(rtol))
 
-    def on_path(self, path: FloatArray, ends: Ends, parity: int) -> Ladder:
-        """Return the ladder on the same meshes, for another path in the parameters and a parity to keep."""
+    def on_path(self, path: FloatArray, ends: Ends, parity: int) -> TwoMeshes:
+        """Return the meshes on the same meshes, for another path in the parameters and a parity to keep."""
         other = copy(self)
         other.coarse, other.fine = (replace(f, path=path, ends=ends, parity=parity) for f in (self.coarse, self.fine))
         return other
@@ -142,64 +142,64 @@ class Ladder:
         """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent."""
         return _carry(coarse, self.up, self.fine)
 
-    def point(self, coarse: State, fine: State) -> Point:
+    def point(self, coarse: State, fine: State) -> MeshedState:
         """Measure a pair of states."""
         measured = self.measure(self.fine, fine)
-        error, worst = _judged(measured, self.measure(self.coarse, coarse), self.kin)
-        return Point(coarse, fine, measured[0], error, worst / self.rtol)
+        error, worst = _judged(measured, self.measure(self.coarse, coarse), self.groups)
+        return MeshedState(coarse, fine, measured[0], error, worst / self.rtol)
 
-    def _without_gain(self, point: Point) -> Point:
+    def _without_gain(self, point: MeshedState) -> MeshedState:
         """Return a point of which refinement is known not to help: no gain is claimed for its errors."""
         return replace(point, error=CLAIMED_GAIN * point.error, excess=CLAIMED_GAIN * point.excess)
 
-    def at(self, point: Point, lam: float) -> Point | None:
+    def at(self, point: MeshedState, lam: float) -> MeshedState | None:
         """Solve both meshes at exactly λ = ``lam``, from a point close to it; None if that fails."""
         _, coarse, _ = self.coarse.at(point.coarse.c, lam)
         _, fine, _ = self.fine.at(point.fine.c, lam)
         return None if coarse is None or fine is None else self.point(coarse, fine)
 
-    def resolve(self, coarse: State) -> tuple[Outcome, Ladder, Point | None]:
+    def resolve(self, coarse: State) -> tuple[Outcome, TwoMeshes, MeshedState | None]:
         """Complete a coarse state to a point within the tolerance, refining as often as that takes.
 
-        Returns the outcome, the ladder on which the point stands, and the point (None if a solve failed).
+        Returns the outcome, the meshes on which the point stands, and the point (None if a solve failed).
         """
         outcome, fine = self.lift(coarse)
         if fine is None:
             return outcome, self, None
-        ladder, point = self, self.point(coarse, fine)
-        while point.excess > ladder.floor:
-            finer = ladder.refined(point)
+        meshes, point = self, self.point(coarse, fine)
+        while point.excess > meshes.floor:
+            finer = meshes.refined(point)
             if finer is None:
                 break
-            outcome, better = finer.adopt(ladder, point)
+            outcome, better = finer.adopt(meshes, point)
             if better is None:
-                return outcome, ladder, None
+                return outcome, meshes, None
             if better.excess > 1.0 and better.excess > 0.25 * point.excess:
                 # round-off: a finer mesh does not help, and no gain may be claimed
-                ladder.floor = 10.0 * point.excess
+                meshes.floor = 10.0 * point.excess
                 break
-            ladder, point = finer, better
-        if 1.0 < point.excess <= ladder.floor:
+            meshes, point = finer, better
+        if 1.0 < point.excess <= meshes.floor:
             point = self._without_gain(point)
-        return Outcome.CONVERGED, ladder, point
+        return Outcome.CONVERGED, meshes, point
 
-    def adopt(self, other: Ladder, point: Point) -> tuple[Outcome, Point | None]:
-        """Solve a point of ``other``, a ladder on coarser nested meshes, on this one."""
+    def adopt(self, other: TwoMeshes, point: MeshedState) -> tuple[Outcome, MeshedState | None]:
+        """Solve a point of ``other``, a meshes on coarser nested meshes, on this one."""
         outcome, coarse = _carry(point.coarse, Prolongation(other.coarse.space, self.coarse.space), self.coarse)
         if coarse is None:
             return outcome, None
         outcome, fine = self.lift(coarse)
         return outcome, None if fine is None else self.point(coarse, fine)
 
-    def refined(self, point: Point) -> Ladder | None:
-        """Return a ladder with smaller elements where ``point`` is least resolved, or None at the limit."""
+    def refined(self, point: MeshedState) -> TwoMeshes | None:
+        """Return a meshes with smaller elements where ``point`` is least resolved, or None at the limit."""
         marked = _least_resolved(self.coarse.space, point.coarse, self.fine.space, point.fine)
         if self.coarse.space.symmetric:  # keeping a symmetry, or seeing one, takes a symmetric mesh
             marked |= marked[::-1]
         space = self.coarse.space.refined(marked)
         if 2 * space.elements > self.most_elements:
             return None
-        finer = Ladder(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.kin)
+        finer = TwoMeshes(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.groups)
         finer.floor = self.floor
         return finer
 

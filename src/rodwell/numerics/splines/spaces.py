@@ -12,7 +12,7 @@ from rodwell.numerics.splines.held import Ends
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES_PER_ELEMENT = 3
-ROUND_OFF = 1e-12
+MESH_SYMMETRY = 1e-12
 """How far a mesh may be from symmetric by round-off."""
 
 TINY = 1e-300
@@ -217,6 +217,6 @@ def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, l
     mesh = np.interp(np.linspace(0.0, phase[-1], count + 1), phase, places)
     mesh[0], mesh[-1] = 0.0, 1.0
     mirrored = 1.0 - mesh[::-1]
-    if np.allclose(mesh, mirrored, rtol=0.0, atol=ROUND_OFF):
+    if np.allclose(mesh, mirrored, rtol=0.0, atol=MESH_SYMMETRY):
         mesh = 0.5 * (mesh + mirrored)
     return np.asarray(mesh)

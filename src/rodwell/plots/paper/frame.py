@@ -79,7 +79,7 @@ def insets(ax: Any, states: Sequence[Solution], places: Sequence[tuple[float, fl
 
 def circumferential(state: Solution, s: FloatArray) -> FloatArray:
     """y(s), from the line where the straight rod lies."""
-    space = state.ladder.fine.space
+    space = state.meshes.fine.space
     return np.asarray(space.evaluate(state.point.fine.c, s, 1)[0])
 
 

@@ -59,7 +59,7 @@ def view(solution: Solution, scales: Scales | None = None, rod: Geometry | None 
         Its geometry; None: the radius of the case, a scale that can be read.
     """
     if rod is None:
-        elements = solution.ladder.fine.space.breaks.size - 1
+        elements = solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
     return View(_data(solution, rod), _bar(rod, scales), caption(solution, rod, scales))
 

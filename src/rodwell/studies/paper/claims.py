@@ -13,7 +13,7 @@ from rodwell.studies.paper.work import Work
 DIGITS, INTERVAL, FORMULA = "digits", "interval", "formula"
 """How a claim is compared: with the digits printed, with "a ± b", or with what a printed formula gives."""
 
-ROUND_OFF = 1e-11
+FORMULA_NOISE = 1e-11
 """Relative to a formula's value: what its evaluation in double precision may leave."""
 
 AGREES, DOCUMENTED, UNEXPLAINED = "agrees", "differs, documented", "differs"
@@ -153,7 +153,7 @@ def matches(printed: str, found: Value, rule: str = DIGITS, formula: float | Non
         return False
     if rule == FORMULA:
         assert formula is not None
-        return abs(found.value - formula) <= found.error + ROUND_OFF * max(1.0, abs(formula))
+        return abs(found.value - formula) <= found.error + FORMULA_NOISE * max(1.0, abs(formula))
     if rule == INTERVAL:
         middle, width = (float(part) for part in printed.split("±"))
         return abs(found.value - middle) <= width + found.error and found.error < width
