@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from warnings import warn
 
 import numpy as np
 
@@ -34,6 +35,12 @@ class Equilibrium:
     problem: Problem
     point: MeshedState
     meshes: TwoMeshes
+
+    @property
+    def ladder(self) -> TwoMeshes:
+        """The old name of :attr:`meshes`."""
+        warn("Solution.ladder is now Solution.meshes", DeprecationWarning, stacklevel=2)
+        return self.meshes
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} at F = {self.force:.10g} B/L², stability index {self.stability_index}>"
