@@ -34,6 +34,7 @@ import numba
 from numba.core.caching import FunctionCache
 from numba.core.serialize import dumps
 
+from rodwell._version import __version__
 from rodwell.errors import CacheWarning
 
 ROOM = Path(__file__).resolve().parent
@@ -66,7 +67,9 @@ def keep(kernel: Any) -> Any:
 def on_disk(kernel: Any, arguments: tuple[Any, ...]) -> bool:
     """Whether machine code of a kernel for types of arguments lies on disk, fresh and whole."""
     kept = kernel._cache
-    return isinstance(kept, KernelCache) and kept.holds(arguments, kernel.targetctx.codegen())
+    if not isinstance(kept, KernelCache):  # Numba's own cache, which cannot be asked, or none
+        return kept.cache_path is not None
+    return kept.holds(arguments, kernel.targetctx.codegen())
 
 
 class KernelCache(FunctionCache):
@@ -90,7 +93,8 @@ class KernelCache(FunctionCache):
 
     def holds(self, signature: Any, codegen: Any) -> bool:
         """Whether machine code for a signature lies on disk, fresh and whole."""
-        return self._cache_file.load(self._index_key(signature, codegen)) is not None
+        files: Any = self._cache_file
+        return files.code(self._index_key(signature, codegen)) is not None
 
 
 class _Files:
@@ -103,6 +107,17 @@ class _Files:
         self.folder, self.name, self.module = folder, name, module
 
     def load(self, key: Any) -> Any:
+        code = self.code(key)
+        if code is None:
+            return None
+        try:
+            stored, data = pickle.loads(code)
+        except Exception:  # what it names is no longer there
+            return None
+        return data if stored == key else None
+
+    def code(self, key: Any) -> memoryview | None:
+        """What lies on disk for a key, if that is fresh and whole: key and data, pickled."""
         path = self._path(key)
         try:
             content = path.read_bytes()
@@ -114,13 +129,8 @@ class _Files:
         if checksum != _checksum(stamped):
             self._throw_away(path)
             return None
-        if stamped[:STAMP_SIZE] != stamp(self.module, *_models(key)):
-            return None
-        try:
-            stored, data = pickle.loads(memoryview(stamped)[STAMP_SIZE:])
-        except Exception:  # what it names is no longer there
-            return None
-        return data if stored == key else None
+        fresh = stamped[:STAMP_SIZE] == stamp(self.module, *_models(key))
+        return memoryview(stamped)[STAMP_SIZE:] if fresh else None
 
     def save(self, key: Any, data: Any) -> None:
         stamped = stamp(self.module, *_models(key)) + dumps((key, data))
@@ -166,7 +176,8 @@ def _models(key: Any) -> list[type]:
 
 def stamp(module: str, *models: type) -> bytes:
     """Hash of all that machine code depends on: the compiler, and the sources behind a module and models."""
-    found = blake2b(f"{numba.__version__} {llvmlite.__version__}".encode(), digest_size=STAMP_SIZE)
+    versions = (__version__, numba.__version__, llvmlite.__version__)  # the first for an installation without sources
+    found = blake2b(repr(versions).encode(), digest_size=STAMP_SIZE)
     for name in (module, *(model.__module__ for model in models)):
         found.update(_hash_of(name))
     return found.digest()
@@ -209,7 +220,9 @@ def _names(text: str) -> Iterator[str]:
             yield module
             continue
         yield package
-        yield from (f"{package}.{word}" for word in re.findall(r"\w+", names))  # some may be modules, others are not
+        home = _file(package)
+        if home is None or home.name == "__init__.py":  # of a package: names may be modules
+            yield from (f"{package}.{word}" for word in re.findall(r"\w+", names))
 
 
 @cache
@@ -228,7 +241,7 @@ def _file(module: str) -> Path | None:
 def _read(path: Path) -> bytes:
     try:
         return path.read_bytes()
-    except OSError:  # no sources in this installation: they do not change either
+    except OSError:
         return b""
 
 
