@@ -135,7 +135,7 @@ def test_certificate_sees_a_wrong_state() -> None:
 
 
 def _reweighted(state: rodwell.Solution) -> object:
-    """The meshes of a state with another weight: its fields then belong to no equilibrium."""
+    """Equations of a state with another weight: its fields then belong to no equilibrium."""
     import dataclasses
 
     from rodwell.analysis.discrete.family import path

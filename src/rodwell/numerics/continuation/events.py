@@ -76,7 +76,7 @@ _Placed = tuple[float, LocatedEvent]
 def events_between(
     meshes: TwoMeshes, before: MeshedState, after: MeshedState, events: Sequence[Event], *, opening: bool, leaves: bool
 ) -> list[LocatedEvent]:
-    """All that happens between two points on one meshes, in order.
+    """All that happens between two points on the same meshes, in order.
 
     ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
     that it is where the branch leaves another: its index and its sense in λ are not this branch's.
@@ -97,7 +97,7 @@ def events_between(
 
 
 class _Stretch:
-    """The stretch of a branch between two points on one meshes."""
+    """The stretch of a branch between two points on the same meshes."""
 
     def __init__(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> None:
         self.meshes, self.before, self.after = meshes, before, after

@@ -133,7 +133,7 @@ class TwoMeshes:
         self.coarse_tolerance = max(family.tolerance, COARSE_TOLERANCE * np.sqrt(rtol))
 
     def on_path(self, path: FloatArray, ends: Ends, parity: int) -> TwoMeshes:
-        """Return the meshes on the same meshes, for another path in the parameters and a parity to keep."""
+        """Return the same meshes for another path in the parameters and a parity to keep."""
         other = copy(self)
         other.coarse, other.fine = (replace(f, path=path, ends=ends, parity=parity) for f in (self.coarse, self.fine))
         return other
@@ -184,7 +184,7 @@ class TwoMeshes:
         return Outcome.CONVERGED, meshes, point
 
     def adopt(self, other: TwoMeshes, point: MeshedState) -> tuple[Outcome, MeshedState | None]:
-        """Solve a point of ``other``, a meshes on coarser nested meshes, on this one."""
+        """Solve a point of ``other``, coarser nested meshes, on these."""
         outcome, coarse = _carry(point.coarse, Prolongation(other.coarse.space, self.coarse.space), self.coarse)
         if coarse is None:
             return outcome, None
@@ -192,7 +192,7 @@ class TwoMeshes:
         return outcome, None if fine is None else self.point(coarse, fine)
 
     def refined(self, point: MeshedState) -> TwoMeshes | None:
-        """Return a meshes with smaller elements where ``point`` is least resolved, or None at the limit."""
+        """Return meshes with smaller elements where ``point`` is least resolved, or None at the limit."""
         marked = _least_resolved(self.coarse.space, point.coarse, self.fine.space, point.fine)
         if self.coarse.space.symmetric:  # keeping a symmetry, or seeing one, takes a symmetric mesh
             marked |= marked[::-1]
