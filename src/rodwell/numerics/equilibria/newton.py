@@ -194,10 +194,12 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
             status = DIVERGED
         elif step <= tolerances.step or settled > 0 or _settles(step, previous):
             settled += 1
-            status = CONVERGED if settled > tolerances.extra else NOT_CONVERGED
         elif iteration > 1 and step > previous:
-            at_round_off = tolerances.extra == 0 and max(step, previous) <= STAGNANT * tolerances.step
-            status = CONVERGED if at_round_off else DIVERGED
+            if max(step, previous) > STAGNANT * tolerances.step:
+                status = DIVERGED
+            settled += 1  # else round-off
+        if status == NOT_CONVERGED and settled > tolerances.extra:
+            status = CONVERGED
         previous = step
     sign = -1.0 if dot(row, b) <= row_lam else 1.0  # the tangent is (−b, 1), towards growing row·c + row_λ λ
     for i in range(n):
