@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from rodwell import Diagram, InputError, Problem, branch_off, coil, diagram, equilibrium, follow
+from rodwell import Branch, Diagram, InputError, Problem, branch_off, coil, diagram, equilibrium, follow
 from rodwell.analysis.branch.symmetry import MIRROR, TURNED, TURNED_MIRROR, images, reflections
 from rodwell.analysis.discrete.measures import Measured
 
@@ -19,7 +19,23 @@ FIG3C = {
     "secondary 1": "branch_point -362.629366 0 1, branch_point -164.784232 1 1",
     "secondary 2": "branch_point -403.730836 3 3",
 }
-"""AUTO-07p on the 15-dimensional system for the secondary bifurcations of the first two modes."""
+"""Special points with the stability index before and after. Loads, and the lower of two indices, are found by shooting
+too (test_shooting.py), and the secondary bifurcations of the first two modes by AUTO-07p on the 15-dimensional system.
+The index of a secondary branch follows by the exchange of stability: one more than that of the symmetric state at the
+same load."""
+
+HEAVIER = "fold -206.914026 1 2, branch_point -206.569125 2 1, fold -206.563442 1 0"
+"""The second mode at w = 22: likewise by shooting."""
+
+FAR = [-362.629366, -1442.295015, -2945.100569]
+"""Secondary bifurcations of the first mode at w = 15, by shooting; REGRESSION: the last, for which shooting is too
+sensitive (the end moves by 1e9 times what is changed in the middle)."""
+
+
+def special_points(line: str) -> list[tuple[str, float, int, int]]:
+    """Kind, end force, and stability index before and after."""
+    rows = [words.split() for words in line.split(", ")]
+    return [(kind, float(force), int(before), int(after)) for kind, force, before, after in rows]
 
 
 @pytest.fixture(scope="module")
@@ -27,15 +43,18 @@ def whole() -> Diagram:
     return diagram(Problem(15.0), until=-700.0)
 
 
+def check(branch: Branch, line: str, first: int = 0) -> None:
+    """The special points of a branch, but for its end, from the one with number ``first``."""
+    found = [p for p in branch.special_points if p.kind != "end"][first:]
+    expected = special_points(line)
+    assert [(p.kind, p.index_before, p.index_after) for p in found] == [(k, b, a) for k, _, b, a in expected]
+    assert [p.force for p in found] == pytest.approx([force for _, force, *_ in expected], abs=1e-6)
+
+
 def check_fig3c(result: Diagram) -> None:
     assert [branch.name for branch in result] == list(FIG3C)
     for branch, line in zip(result, FIG3C.values(), strict=True):
-        expected = [words.split() for words in line.split(", ")]
-        found = [p for p in branch.special_points if p.kind != "end"]
-        assert [[p.kind, str(p.index_before), str(p.index_after)] for p in found] == [
-            [k, b, a] for k, _, b, a in expected
-        ]
-        assert [p.force for p in found] == pytest.approx([float(row[1]) for row in expected], abs=1e-6)
+        check(branch, line)
     assert result.converged
     assert result.unexplored == ()
 
@@ -121,9 +140,7 @@ def test_with_twist_both_arms_are_followed_and_the_pitchforks_unfold() -> None:
 
 def test_a_fold_next_to_a_branch_point_is_told_from_it() -> None:
     """w = 22: index 1 → 2 → 1 → 0 within a change of load of 0.35, and in one step of the load."""
-    branch = follow(Problem(22.0), 2, until=-300.0)
-    found = [(p.kind, p.index_before, p.index_after) for p in branch.special_points[2:-1]]
-    assert found == [("fold", 1, 2), ("branch_point", 2, 1), ("fold", 1, 0)]
+    check(follow(Problem(22.0), 2, until=-300.0), HEAVIER, first=2)
 
 
 def test_branching_off_in_either_direction_gives_mirror_images() -> None:
@@ -151,7 +168,7 @@ def test_inclined_cylinder_unfolds_the_secondary_bifurcation() -> None:
     assert result.converged
 
 
-# Coiled states: energies from an independent minimisation off the wall (theory, section 5).
+# Coiled states: energies, and loads within bounds, from an independent minimisation off the wall (theory, section 5).
 
 
 def test_one_turn_coil_touches_between_two_loads_and_wins_against_the_straight_rod() -> None:
@@ -215,7 +232,10 @@ def test_a_secondary_branch_ends_next_to_a_fold_of_the_other(largest_step: float
 
 @pytest.mark.parametrize("largest_step", [0.04, 0.4])
 def test_two_changes_of_the_index_within_a_step_are_seen(largest_step: float) -> None:
-    """With twist, a fold and a branch point lie 0.006 apart, far less than a step."""
+    """With twist, a fold and a branch point lie 0.006 apart, far less than a step.
+
+    REGRESSION: their order and indices, which have no other source than that they do not depend on the step.
+    """
     result = diagram(Problem(15.0, twist=0.5), modes=1, until=-450.0, largest_step=largest_step)
     found = [(p.kind, p.index_before, p.index_after) for p in result["secondary 1"].special_points[1:-1]]
     assert found == [("branch_point", 1, 0), ("fold", 0, 1), ("branch_point", 1, 1)]
@@ -226,7 +246,7 @@ def test_far_out_no_spurious_branches() -> None:
     result = diagram(Problem(15.0), modes=1, until=-3000.0)
     assert [b.name for b in result] == ["mode 1", "secondary 1", "secondary 2"]
     forces = [p.force for p in result["mode 1"].special_points if p.kind == "branch_point"]
-    assert forces == pytest.approx([-362.629366, -1442.295015, -2945.100569], abs=1e-5)
+    assert forces == pytest.approx(FAR, abs=1e-5)
     ends = [result[name].force[[0, -1]] for name in ("secondary 1", "secondary 2")]
     assert ends == [pytest.approx([-362.629366, -164.784232], abs=1e-5), pytest.approx(forces[1:], abs=1e-5)]
 

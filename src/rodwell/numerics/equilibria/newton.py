@@ -190,15 +190,11 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         step = max(abs(dlam) / tolerances.size_lam, largest / tolerances.size_c)
         energy += rate * dlam + work
         lam += dlam
-        if not np.isfinite(step):
-            status = DIVERGED
-        elif step <= tolerances.step or settled > 0 or _settles(step, previous):
-            settled += 1
-        elif iteration > 1 and step > previous:
-            if max(step, previous) > STAGNANT * tolerances.step:
-                status = DIVERGED
-            settled += 1  # else round-off
-        if status == NOT_CONVERGED and settled > tolerances.extra:
+        grows = iteration > 1 and step > previous
+        settled += int(step <= tolerances.step or settled > 0 or _settles(step, previous) or grows)
+        if not np.isfinite(step) or (grows and settled == 1 and max(step, previous) > STAGNANT * tolerances.step):
+            status = DIVERGED  # a step that grows, and not in round-off
+        elif settled > tolerances.extra:
             status = CONVERGED
         previous = step
     sign = -1.0 if dot(row, b) <= row_lam else 1.0  # the tangent is (−b, 1), towards growing row·c + row_λ λ

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rodwell.numerics.equilibria.error import CLAIMED_GAIN, ROUND_OFF
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE
 from rodwell.numerics.equilibria.two_meshes import _judged
 
 
@@ -14,8 +14,8 @@ def test_errors_from_two_meshes() -> None:
     fine, coarse = rng.uniform(0.1, 1.0, (2, 3, 6))
     fine[1, 5] = np.inf  # a guard: it is not judged
     error, worst = _judged(fine, coarse, np.array([[2, 4]]))
-    expected = np.abs(fine[0] - coarse[0]) / CLAIMED_GAIN + ROUND_OFF * np.abs(fine[0]) + fine[2]
-    expected[:5] += ROUND_OFF * fine[1, :5]
+    expected = np.abs(fine[0] - coarse[0]) / CLAIMED_GAIN + NUMBER_NOISE * np.abs(fine[0]) + fine[2]
+    expected[:5] += NUMBER_NOISE * fine[1, :5]
     expected[2:5] = expected[2:5].max()  # numbers of one kind share the largest error
     np.testing.assert_allclose(error, expected, rtol=1e-14)
     assert worst == pytest.approx(np.max(expected[:5] / fine[1, :5]), rel=1e-14)
