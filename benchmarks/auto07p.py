@@ -67,11 +67,11 @@ def compare(ours: rodwell.Solution, theirs: State) -> tuple[dict[str, float], fl
     fields = ours.fields(theirs.s)
     size = {name: max(float(np.max(np.abs(theirs[name]))), 1e-6) for name in VARIABLES}
     numbers = {
-        "ω₂(1)": ours.number(Measured.OMEGA2_1)[0],
-        "ω₂(0)": ours.number(Measured.OMEGA2_0)[0],
-        "T₂(0)": ours.number(Measured.TORQUE_0)[0],
+        "ω₂(1)": ours.number(Measured.OMEGA2_1).value,
+        "ω₂(0)": ours.number(Measured.OMEGA2_0).value,
+        "T₂(0)": ours.number(Measured.TORQUE_0).value,
         "F₃(1)": float(fields["braid_F3"][-1]),
-        "1 − z(1)": ours.number(Measured.SHORTENING)[0],
+        "1 − z(1)": ours.number(Measured.SHORTENING).value,
         "max p": ours.highest_pressure[0],
     }
     sign = 1.0 if theirs["xi2"] @ fields["xi2"] > 0.0 else -1.0

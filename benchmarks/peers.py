@@ -73,7 +73,7 @@ def collocation() -> list[tuple[str, ...]]:
         rows.append(
             (f"solve_bvp, tolerance {tolerance:g}", f"{1e3 * spent:.0f} ms", f"{spent / own:.0f}", f"{worst:.0e}")
         )
-    error = state.number(Measured.P_MAX)[1] / abs(state.number(Measured.P_MAX)[0])
+    error = state.number(Measured.P_MAX).error / abs(state.number(Measured.P_MAX).value)
     rows.append(("rodwell, rtol 1e-8", f"{1e3 * own:.2f} ms", "1", f"{error:.0e} (estimate)"))
     return rows
 

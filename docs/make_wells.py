@@ -9,7 +9,7 @@ import numpy as np
 from make_howto import table
 
 import rodwell
-from rodwell.analysis.loads.long_rod import HALF_WAVES, String, critical_compression, lift_off_compression
+from rodwell.analysis.loads.long_rod import HALF_WAVES, PipeString, critical_compression, lift_off_compression
 
 COMMANDS = {
     "study": "run examples/study.toml",
@@ -17,7 +17,7 @@ COMMANDS = {
     "screen": "screen examples/well-survey.csv --case examples/well-string.toml --bit-force=-120kN",
 }
 
-PIPE = String(1.2283e6, 241.13, 0.04445)
+PIPE = PipeString(1.2283e6, 241.13, 0.04445)
 """5 in × 4.276 in pipe in 10 lb/gal mud, 8.5 in hole."""
 
 

@@ -202,7 +202,7 @@ def test_bad_string(tmp_path: Path, name: str, old: str, new: str, key: str, phr
     assert error.field == key
     assert f"{key}: " in str(error) or f"{key} = " in str(error)
     for phrase in phrases:
-        assert phrase in error.problem
+        assert phrase in error.reason
 
 
 @pytest.mark.parametrize(("name", "own", "section", "phrases"), CATALOGUES, ids=[name for name, *_ in CATALOGUES])
@@ -220,13 +220,13 @@ def test_what_has_no_meaning_without_dimensions(tmp_path: Path, name: str) -> No
     content = {"mud": MUD, "pressure": 'inside = "5 psi"', "catalogue": "files = []"}[name]
     error = refusal(tmp_path, f"[dimensionless]\nweight = 5\n[{name}]\n{content}\n")
     assert error.field == name
-    assert "needs [rod] and [hole]" in error.problem
+    assert "needs [rod] and [hole]" in error.reason
 
 
 def test_words_on_the_force_without_dimensions(tmp_path: Path) -> None:
     error = refusal(tmp_path, '[dimensionless]\nweight = 5\n[load]\nuntil = -5\nkind = "real"\n')
     assert error.field == "load.kind"
-    assert "needs [rod] and [hole]" in error.problem
+    assert "needs [rod] and [hole]" in error.reason
     error = refusal(tmp_path, 'units = "field"\n[dimensionless]\nweight = 5\n')
     assert error.field == "units"
-    assert "leave it out" in error.problem
+    assert "leave it out" in error.reason

@@ -72,7 +72,7 @@ def test_diagram_continued_in_the_inclination(place: Path) -> None:
     from rodwell import diagram
 
     state = diagram(Problem(15.0), modes=1, until=-140.0, then=("alpha", 75.0))["mode 1, in alpha"][-1]
-    assert state.number(Measured.ENERGY)[0] == pytest.approx(direct.number(Measured.ENERGY)[0], rel=1e-8)
+    assert state.number(Measured.ENERGY).value == pytest.approx(direct.number(Measured.ENERGY).value, rel=1e-8)
 
 
 def test_diagram_of_a_coil(place: Path) -> None:

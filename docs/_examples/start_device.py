@@ -14,7 +14,7 @@ for p in coil.special_points:
 
 state = coil.at(-10.0 / newton)  # 10 N of push
 total, error = (number * newton for number in state.total_wall_force)
-most = state.largest("contact_pressure")[0] * per_mm
+most = state.largest("contact_pressure").value * per_mm
 print(f"at 10 N the wall bears {total:.4f} ± {error:.0e} N, at most {most:.4f} N/mm")
 
 files = [f"results/wire/wire.{suffix}" for suffix in ("html", "glb", "csv")]

@@ -10,8 +10,8 @@ case = rodwell.Case.from_dict(
     }
 )
 answer = rodwell.answer(case)
-print(verdict(answer))
 a = answer.assessment
+print(verdict(a))
 for at in a.applied:
     stress = None if at.state is None else a.stress(at.state)
     print(
@@ -21,6 +21,6 @@ for at in a.applied:
     )
 unit = case.scales.factor("force")
 print(
-    f"window: {a.window.width[0] * unit:.0f} N, {a.window.percent:.1f} %; limits:",
+    f"window: {a.window.width.value * unit:.0f} N, {a.window.percent:.1f} %; limits:",
     *(limit.name for limit in a.window.limits),
 )

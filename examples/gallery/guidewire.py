@@ -32,7 +32,7 @@ def main():
         start = next(p for p in branch.special_points if p.kind == "touch_down")
         states = [start.solution, *(state for state in branch if state.force < start.force and state.stable)]
         push = np.array([-state.force for state in states])
-        force = np.array([state.total_wall_force[0] for state in states])
+        force = np.array([state.total_wall_force.value for state in states])
         closed = wall_force(-push, 2.0 * np.pi * turns, wire.clearance)
         ax.plot(push * newton, force * newton, color=color, lw=2.0, label=f"{turns} turn" + "s" * (turns > 1))
         ax.plot(push[::2] * newton, closed[::2] * newton, "o", color=color, ms=4)

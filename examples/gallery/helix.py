@@ -16,7 +16,7 @@ TURNS = 3
 def load_without_side_force(problem):
     """End force at s = 1 at which the circumferential reaction there vanishes: it is linear in the force."""
     forces = np.array([-100.0, -200.0])
-    shear = [rodwell.equilibrium(problem, force).end_reactions["shear"][0] for force in forces]
+    shear = [rodwell.equilibrium(problem, force).end_reactions["shear"].value for force in forces]
     return float(forces[0] - shear[0] * (forces[1] - forces[0]) / (shear[1] - shear[0]))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import warnings
 
 LONGEST_VALUE = 200
 
@@ -21,14 +22,20 @@ class InputError(RodwellError):
         Name of the input, as the user wrote it.
     value
         What was given.
-    problem
-        What is allowed, and what to do.
+    reason
+        Why it cannot be used: what is allowed, and what to do.
     """
 
-    def __init__(self, field: str, value: object, problem: str) -> None:
-        self.field, self.value, self.problem = field, value, problem
+    def __init__(self, field: str, value: object, reason: str) -> None:
+        self.field, self.value, self.reason = field, value, reason
         given = "" if value is None else f" = {_short(value)}"
-        super().__init__(f"{field}{given}: {problem}")
+        super().__init__(f"{field}{given}: {reason}")
+
+    @property
+    def problem(self) -> str:
+        """The old name of ``reason``: a problem is a :class:`rodwell.Problem`."""
+        warnings.warn("InputError.problem is now InputError.reason", DeprecationWarning, stacklevel=2)
+        return self.reason
 
 
 def _short(value: object) -> str:

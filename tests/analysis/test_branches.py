@@ -45,7 +45,7 @@ def test_a_zero_of_the_end_curvature_is_a_branch_point(fig3c: dict[int, Branch])
     """Translation along the cylinder solves the linearised equations where ω₂(0) = ω₂(1) = 0 (α = 90°)."""
     point = next(p for p in fig3c[2].special_points if p.kind == "branch_point")
     slope = np.polyfit(fig3c[2].force[5:], fig3c[2].numbers(Measured.OMEGA2_1)[5:], 3)
-    assert abs(point.solution.number(Measured.OMEGA2_1)[0]) < 1e-8 * abs(np.polyval(np.polyder(slope), point.force))
+    assert abs(point.solution.number(Measured.OMEGA2_1).value) < 1e-8 * abs(np.polyval(np.polyder(slope), point.force))
 
 
 @pytest.mark.parametrize("step", [0.01, 0.08, 0.3])
@@ -91,8 +91,11 @@ def test_load_does_the_work_that_the_energy_loses() -> None:
     branch = follow(Problem(40.0, alpha=55.0, twist=0.8), 1, until=-200.0)
     force = -170.0
     h = 1e-2
-    above, below = branch.at(force + h).number(Measured.ENERGY)[0], branch.at(force - h).number(Measured.ENERGY)[0]
-    assert (above - below) / (2 * h) == pytest.approx(branch.at(force).number(Measured.SHORTENING)[0], rel=1e-7)
+    above, below = (
+        branch.at(force + h).number(Measured.ENERGY).value,
+        branch.at(force - h).number(Measured.ENERGY).value,
+    )
+    assert (above - below) / (2 * h) == pytest.approx(branch.at(force).number(Measured.SHORTENING).value, rel=1e-7)
 
 
 @pytest.mark.parametrize("problem", [Problem(0.0), Problem(0.0, alpha=30.0), Problem(100.0, alpha=0.0)], ids=str)
@@ -123,7 +126,7 @@ def test_two_places_lift_off_at_once() -> None:
 def test_coiled_states_have_the_energy_that_ipopt_found(force: float, energy: float) -> None:
     """One turn at w = 15, relative to the straight rod: minimisation off the wall with an interior-point method."""
     state = equilibrium(Problem(15.0, turns=1), force)
-    assert state.number(Measured.ENERGY)[0] == pytest.approx(energy, abs=6e-7)
+    assert state.number(Measured.ENERGY).value == pytest.approx(energy, abs=6e-7)
     assert state.stable
     assert state.highest_pressure[0] < 0.0
     assert state.fields()["xi2"][-1] == pytest.approx(2.0 * np.pi)
@@ -138,7 +141,7 @@ def test_coiled_state_lifts_off_on_unloading() -> None:
 
 def test_opposite_turns_mirror_each_other() -> None:
     right, left = (equilibrium(Problem(15.0, alpha=60.0, twist=t, turns=n), -150.0) for n, t in ((2, 0.5), (-2, -0.5)))
-    assert right.number(Measured.ENERGY)[0] == pytest.approx(left.number(Measured.ENERGY)[0], rel=1e-11)
+    assert right.number(Measured.ENERGY).value == pytest.approx(left.number(Measured.ENERGY).value, rel=1e-11)
     assert right.fields()["xi2"] == pytest.approx(-left.fields()["xi2"], abs=1e-9)
 
 
@@ -346,7 +349,7 @@ def test_twist_reaches_the_state_of_the_twisted_rod() -> None:
     problem = Problem(15.0)
     along = follow(problem, start=follow(problem, until=-118.0)[-1], until=0.4, parameter="twist")
     direct = follow(problem.but(twist=0.4), until=-118.0)[-1]
-    assert along[-1].number(Measured.ENERGY)[0] == pytest.approx(direct.number(Measured.ENERGY)[0], rel=1e-8)
+    assert along[-1].number(Measured.ENERGY).value == pytest.approx(direct.number(Measured.ENERGY).value, rel=1e-8)
 
 
 def test_a_coiled_rod_keeps_its_symmetry_past_its_branch_point() -> None:

@@ -68,9 +68,9 @@ def test_slopes_are_those_of_the_loads(over: str) -> None:
     limits = {"weight": (20.0, 20.2), "alpha": (60.0, 60.2), "clearance": (0.01, 0.0101)}[over]
     problem = Problem(20.0, alpha=60.0)
     curves = critical_curves(problem, over, limits, modes=2)
-    from rodwell.analysis.curves.critical import _Table
+    from rodwell.analysis.curves.critical import _LoadsOverRange
 
-    node = _Table(problem, over, 2, 1e-8, split=False).node(0.5 * sum(limits))
+    node = _LoadsOverRange(problem, over, 2, 1e-8, split=False).node(0.5 * sum(limits))
     for k, curve in enumerate(curves, start=1):
         difference = (curve.values[-1] - curve.values[0]) / (curve.x[-1] - curve.x[0])
         assert node.loads[0, k].slope == pytest.approx(difference, rel=1e-3)
@@ -136,7 +136,7 @@ def test_the_touching_place_switches_where_both_places_touch() -> None:
 def crossings(weight: float, until: float) -> int:
     """How often the largest contact pressure changes its sign on the first branch at α = 60°, by following it in F."""
     branch = follow(Problem(weight, alpha=60.0), until=until)
-    return int(np.sum(np.diff(np.sign([state.number(Measured.P_MAX)[0] for state in branch])) != 0.0))
+    return int(np.sum(np.diff(np.sign([state.number(Measured.P_MAX).value for state in branch])) != 0.0))
 
 
 def test_lift_off_curve_turns_back_where_modes_exchange() -> None:
@@ -196,7 +196,7 @@ def test_the_second_mode_loses_its_symmetry_where_the_end_curvature_vanishes() -
     for point in curve.points[:: len(curve) // 3]:
         assert point.solution is not None
         size = np.max(np.abs(point.solution.fields()["omega2"]))
-        assert abs(point.solution.number(Measured.OMEGA2_1)[0]) < 1e-8 * size
+        assert abs(point.solution.number(Measured.OMEGA2_1).value) < 1e-8 * size
 
 
 def test_twist_curve_agrees_with_single_problems() -> None:

@@ -108,7 +108,7 @@ def test_images_of_a_branch_solve_the_problem_too(whole: Diagram) -> None:
 def test_numbers_of_an_image_are_those_measured_on_it(whole: Diagram) -> None:
     state = whole["secondary 1"][10]
     family, fine = state.meshes.fine, state.point.fine
-    numbers = {which: np.array([state.number(which)[0]]) for which in Measured}
+    numbers = {which: np.array([state.number(which).value]) for which in Measured}
     for image in (MIRROR, TURNED, TURNED_MIRROR):
         mirrored = dataclasses.replace(fine, c=image.sign * (fine.c[::-1] if image.turned else fine.c))
         measured, scales, _ = state.meshes.measure(family, mirrored)
@@ -179,8 +179,8 @@ def test_one_turn_coil_touches_between_two_loads_and_wins_against_the_straight_r
     assert kinds["lift_off"].force < -200.0
     assert branch.converged
     for force, energy in ((-140.0, -0.043325), (-160.0, -0.089700), (-200.0, -0.185518)):
-        assert branch.at(force).number(Measured.ENERGY)[0] == pytest.approx(energy, abs=1e-6)
-    assert kinds["equal_energy"].solution.number(Measured.ENERGY)[0] == pytest.approx(0.0, abs=1e-9)
+        assert branch.at(force).number(Measured.ENERGY).value == pytest.approx(energy, abs=1e-6)
+    assert kinds["equal_energy"].solution.number(Measured.ENERGY).value == pytest.approx(0.0, abs=1e-9)
 
 
 def test_turning_the_other_way_is_a_mirror_image() -> None:

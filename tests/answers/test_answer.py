@@ -17,6 +17,7 @@ import rodwell
 from rodwell.analysis.state.extent import buckled_to
 from rodwell.answers.words.meaning import sentences
 from rodwell.cli.main import main
+from rodwell.quantities.value import Value
 from rodwell.report.folders.case import FILES
 from rodwell.report.reports.texts import number
 
@@ -45,7 +46,7 @@ def test_answer_holds_the_numbers_of_the_engine(drill_string: rodwell.Answer) ->
     assert lift is not None
     assert drill_string.lift_off is not None
     assert drill_string.lift_off.force == pytest.approx(lift.force, abs=lift.error + drill_string.lift_off.error)
-    force, _, unit = drill_string.figures["lift_off_load"].physical(drill_string.case)  # type: ignore[misc]
+    force, _, unit = drill_string.key_numbers["lift_off_load"].physical(drill_string.case)  # type: ignore[misc]
     assert (force, unit) == (pytest.approx(lift.force * 2e11 * np.pi * 0.05**4 / 4.0 / 30.0**2), "N")
     assert drill_string.converged
     assert drill_string.worst_certificate.passed
@@ -183,7 +184,7 @@ def test_human_output_states_end_sign_and_error(
     [(-123.17307438, 4e-9, "−123.1730744"), (-123.17307438, 1e-3, "−123.173"), (0.0, 1e-9, "0"), (5.0, 4.0, "5")],
 )
 def test_numbers_show_the_digits_that_their_error_supports(value: float, error: float, text: str) -> None:
-    assert number(value, error) == text
+    assert number(Value(value, error)) == text
 
 
 def test_a_long_string_buckles_at_its_lower_end() -> None:

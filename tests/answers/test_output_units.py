@@ -103,13 +103,16 @@ def drill_string() -> Answer:
 
 def test_units_change_what_is_shown_and_nothing_else(drill_string: Answer) -> None:
     """Every row of the table says the same in all systems."""
-    kinds = {f.label: KINDS[f.dimension] for f in drill_string.figures.values()}
+    kinds = {f.label: KINDS[f.dimension] for f in drill_string.key_numbers.values()}
     shown = {}
     for system in SYSTEMS:
         case = drill_string.case.in_units(system)
         assert case.problem == drill_string.case.problem
         there = Answer(case, drill_string.critical, drill_string.branches, drill_string.until)
-        shown[system] = {row["label"]: to_si(row["physical"], kinds[row["label"]]) for row in rows(there)}
+        shown[system] = {
+            row["label"]: to_si(row["physical"], kinds[row["label"]])
+            for row in rows(there.key_numbers.values(), there.case)
+        }
         data = there.as_dict()["figures"]["critical_load_1"]
         unit = {"si": "N", "field": "lbf", "mm": "N"}[system]
         assert data[system]["unit"] == unit

@@ -11,11 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
-from rodwell.answers.result.figure import Figure
+from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import force_text, place_text, quantity
 from rodwell.quantities.text import amount, certain, percent
 from rodwell.quantities.units import System
+from rodwell.quantities.value import Value
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "drill-string.toml"
 CASE = {
@@ -29,7 +30,7 @@ CASE = {
 )  # fmt: skip
 def test_digits_shown_hide_more_than_the_error(size: float, sign: float, relative: float, digits: int) -> None:
     value, error = sign * size, size * relative
-    count = certain(value, error, digits)
+    count = certain(Value(value, error), digits)
     assert 0 <= count <= digits
     for shown, allowed in ((count, True), (count + 1, False)):  # by decimal arithmetic, not by logarithms
         if shown == 0 or shown > digits:
@@ -39,24 +40,24 @@ def test_digits_shown_hide_more_than_the_error(size: float, sign: float, relativ
 
 
 def test_numbers_as_text() -> None:
-    assert amount(123.456, 0.0, 5) == "123.46"
-    assert amount(-123.456, 0.3) == "−123"
-    assert amount(-123.456, 0.6) == "−120"
-    assert amount(1807450.007, 1e-6, 6) == "1807450"  # no exponent
-    assert amount(0.3, 0.7) == "0.3 ± 0.7"
-    assert percent(0.12006, 3e-12) == "12 %"
-    assert percent(0.12346, 2e-4) == "12.3 %"
-    assert percent(0.12346, 2e-3) == "12 %"
-    assert quantity(System("si"), 139582.0, 3.0, "force", 6) == "139.58 kN"
-    assert quantity(System("field"), 4448.2216, 44.0, "force") == "1000 lbf"
-    assert quantity(System("si"), 20.0, 30.0, "force") == "20 N ± 30 N"
+    assert amount(Value(123.456, 0.0), 5) == "123.46"
+    assert amount(Value(-123.456, 0.3)) == "−123"
+    assert amount(Value(-123.456, 0.6)) == "−120"
+    assert amount(Value(1807450.007, 1e-6), 6) == "1807450"  # no exponent
+    assert amount(Value(0.3, 0.7)) == "0.3 ± 0.7"
+    assert percent(Value(0.12006, 3e-12)) == "12 %"
+    assert percent(Value(0.12346, 2e-4)) == "12.3 %"
+    assert percent(Value(0.12346, 2e-3)) == "12 %"
+    assert quantity(System("si"), Value(139582.0, 3.0), "force", 6) == "139.58 kN"
+    assert quantity(System("field"), Value(4448.2216, 44.0), "force") == "1000 lbf"
+    assert quantity(System("si"), Value(20.0, 30.0), "force") == "20 N ± 30 N"
 
 
 def test_tables_keep_one_digit_in_doubt_and_no_more() -> None:
     case = rodwell.Case.from_dict(CASE)
     unit = case.scales.factor("force")
-    assert Figure("f", "f", -139582.4 / unit, 20.0 / unit, "force", 1.0).text(case) == "−139.58 kN"
-    assert Figure("f", "f", 1e-56, 3e-47, "force", 1.0).text(case) == "0 N"
+    assert KeyNumber("f", "f", Value(-139582.4 / unit, 20.0 / unit), "force", 1.0).text(case) == "−139.58 kN"
+    assert KeyNumber("f", "f", Value(1e-56, 3e-47), "force", 1.0).text(case) == "0 N"
 
 
 def test_sentences_follow_the_errors() -> None:
@@ -65,16 +66,16 @@ def test_sentences_follow_the_errors() -> None:
     assert "124.6 kN (114.243 B/L²)" in text
     assert "(12 %)" in text  # (127.9595 − 114.2430)/114.2430 = 0.12006
     first, second = found.critical[:2]
-    rough = replace(
-        found, critical=(replace(first, error=0.3), replace(second, force=first.force - 2.0), *found.critical[2:])
-    )
+    first = replace(first, load=Value(first.force, 0.3))
+    second = replace(second, load=Value(first.force - 2.0, second.error))
+    rough = replace(found, critical=(first, second, *found.critical[2:]))
     text = " ".join(sentences(rough))
     assert "reaches 125 kN (114 B/L²)" in text  # ± 0.3 B/L² is ± 0.33 kN
     assert "within 1.8 ± 0.3 %" not in text
     assert "follows within 2 %" in text  # 1.75 % ± 0.26 %
     assert "into about 2 half waves" in text  # the shape is known to √(0.3/2) only
-    assert force_text(found, -127.9595, 0.02) == "−139.6 kN (−128 B/L²)"
-    assert place_text(found, 0.32384, 2e-4) == "9.7 m from the end s = 0 (s/L = 0.324)"  # ± 0.006 m
+    assert force_text(found.case.scales, Value(-127.9595, 0.02)) == "−139.6 kN (−128 B/L²)"
+    assert place_text(found.case.scales, Value(0.32384, 2e-4)) == "9.7 m from the end s = 0 (s/L = 0.324)"  # ± 0.006 m
 
 
 def test_places_of_lift_off() -> None:
@@ -87,8 +88,8 @@ def test_places_of_lift_off() -> None:
 @pytest.mark.parametrize("error", [1e-9, 0.02, 0.5])
 def test_share_of_the_window(error: float) -> None:
     window = rodwell.answer(rodwell.Case.from_dict(CASE)).assessment.window
-    window = replace(window, buckling=(window.buckling[0], error))
+    window = replace(window, buckling=Value(window.buckling.value, error))
     part, spread = window.share
-    low, high = window.buckling[0] - error, window.buckling[0] + error  # both ways to be wrong
+    low, high = window.buckling.value - error, window.buckling.value + error  # both ways to be wrong
     ends = [(b - window.end.force) / -b for b in (low, high)]
     assert max(abs(end - part) for end in ends) <= 1.02 * spread + 1e-12

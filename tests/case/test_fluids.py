@@ -15,7 +15,7 @@ from scipy.special import jv
 
 from rodwell import Case, Problem, answer, critical_loads
 from rodwell.answers.comparison.beside import rod_of
-from rodwell.answers.result.figures import STANDING, critical_length
+from rodwell.answers.result.key_numbers import STANDING, critical_length
 from rodwell.formulas import FORMULAS
 from rodwell.studies.audit.audit import audit
 
@@ -154,13 +154,13 @@ def test_loads_as_real_forces() -> None:
         "hole": {"diameter": "4 in", "angle_from_vertical": "90 deg"},
         "analysis": {"modes": 1, "rtol": 1e-5},
     })  # fmt: skip
-    figures = answer(case).figures
+    figures = answer(case).key_numbers
     assert case.scales is not None
     less = (2500.0 * 1.688**2 - 1500.0 * 2.0**2) * math.pi / 4.0 * LBF / case.scales.factor("force")
     for name in ("critical_load_1", "lift_off_load"):
         assert figures[f"{name}_real"].value - figures[name].value == pytest.approx(less, rel=1e-9)
     plain = Case.from_dict({"dimensionless": {"weight": 5.0}, "analysis": {"modes": 1, "rtol": 1e-5}})
-    assert not any(name.endswith("_real") for name in answer(plain).figures)
+    assert not any(name.endswith("_real") for name in answer(plain).key_numbers)
 
 
 def test_audit_takes_section_and_strength_from_the_catalogue() -> None:

@@ -15,6 +15,6 @@ CASES = sorted(path for path in (Path(__file__).resolve().parents[2] / "examples
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_every_number_of_an_example_meets_its_tolerance(path: Path) -> None:
     found = rodwell.answer(rodwell.Case.read(path))
-    missed = [f.name for f in found.figures.values() if f.error > found.case.rtol * f.scale]
+    missed = [f.name for f in found.key_numbers.values() if f.error > found.case.rtol * f.scale]
     assert not missed
     assert found.converged

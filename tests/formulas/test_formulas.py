@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import rodwell
 from rodwell.errors import InputError
-from rodwell.formulas import FORMULAS, LEFT_OUT, SYMBOLS, Rod, helix, inclined, path, pushing, vertical
+from rodwell.formulas import FORMULAS, LEFT_OUT, SYMBOLS, FormulaInputs, helix, inclined, path, pushing, vertical
 
 # Steel case of Wicks et al. 2008: OD 14.0 cm, ID 11.6 cm, hole 22.2 cm, E 207 GPa, w 315 N/m, P 100 kN, horizontal
 STEEL = {"B": 207e9 * math.pi / 64.0 * (0.140**4 - 0.116**4), "w": 315.0, "alpha": 90.0, "r": 0.5 * (0.222 - 0.140)}
@@ -213,7 +213,7 @@ def test_small_angle_errors_are_those_of_the_exact_helix() -> None:
         exact = {"helical_contact": math.sin(eta) ** 4, "helix_curvature": math.sin(eta) ** 2,
                  "helix_rate": math.sin(eta), "helix_strain": 1.0 - math.cos(eta),
                  "lubinski_woods_pitch": 2.0 * math.pi / math.tan(eta)}  # fmt: skip
-        rod = Rod(1.0, 0.0, 90.0, 1.0, 1.0, more=(("F", force),))
+        rod = FormulaInputs(1.0, 0.0, 90.0, 1.0, 1.0, more=(("F", force),))
         for key, value in exact.items():
             error = helix.small_angle_error(key, 1.0, 1.0, force)
             assert error == pytest.approx(FORMULAS[key].of(rod) / value - 1.0, abs=1e-12)
@@ -335,23 +335,28 @@ def test_registry_is_complete_and_says_what_it_must() -> None:
 
 
 def test_validity() -> None:
-    long = Rod(**STEEL, L=1000.0)
+    long = FormulaInputs(**STEEL, L=1000.0)
     assert FORMULAS["dawson_paslay"].violations(long) == []
-    assert "not long" in FORMULAS["dawson_paslay"].violations(Rod(**STEEL, L=149.0))[0]
-    assert FORMULAS["dawson_paslay"].violations(Rod(**STEEL, L=151.0)) == []
-    steep = Rod(**{**STEEL, "alpha": 45.0}, L=1000.0)
+    assert "not long" in FORMULAS["dawson_paslay"].violations(FormulaInputs(**STEEL, L=149.0))[0]
+    assert FORMULAS["dawson_paslay"].violations(FormulaInputs(**STEEL, L=151.0)) == []
+    steep = FormulaInputs(**{**STEEL, "alpha": 45.0}, L=1000.0)
     assert any("axial weight" in reason for reason in FORMULAS["dawson_paslay"].violations(steep))
     assert any("horizontal" in reason for reason in FORMULAS["qiu"].violations(steep))
-    on_top = Rod(**STEEL, L=1000.0, pressed=False)
+    on_top = FormulaInputs(**STEEL, L=1000.0, pressed=False)
     assert any("press" in reason for reason in FORMULAS["dawson_paslay"].violations(on_top))
-    assert FORMULAS["dellinger"].violations(Rod(**{**STEEL, "alpha": 10.0}, L=1000.0)) == ["near vertical: α = 10°"]
-    pinned = Rod(1.0, 512.0, 0.0, 0.01, 1.0, ends=("pinned", "pinned"))
+    assert FORMULAS["dellinger"].violations(FormulaInputs(**{**STEEL, "alpha": 10.0}, L=1000.0)) == [
+        "near vertical: α = 10°"
+    ]
+    pinned = FormulaInputs(1.0, 512.0, 0.0, 0.01, 1.0, ends=("pinned", "pinned"))
     assert FORMULAS["lubinski"].violations(pinned) == []
-    assert "20" in FORMULAS["lubinski"].violations(Rod(1.0, 8000.0, 0.0, 0.01, 1.0, ends=("pinned", "pinned")))[0]
-    assert FORMULAS["euler_clamped"].violations(Rod(1.0, 0.0, 0.0, 0.01, 1.0)) == []
-    frictional = Rod(**STEEL, L=1000.0, more=(("mu", 0.5),))
+    assert (
+        "20"
+        in FORMULAS["lubinski"].violations(FormulaInputs(1.0, 8000.0, 0.0, 0.01, 1.0, ends=("pinned", "pinned")))[0]
+    )
+    assert FORMULAS["euler_clamped"].violations(FormulaInputs(1.0, 0.0, 0.0, 0.01, 1.0)) == []
+    frictional = FormulaInputs(**STEEL, L=1000.0, more=(("mu", 0.5),))
     assert "0.3" in FORMULAS["gao_miska"].violations(frictional)[0]
-    strong = Rod(1.0, 0.0, 90.0, 1.0, 1.0, more=(("F", 0.8),))
+    strong = FormulaInputs(1.0, 0.0, 90.0, 1.0, 1.0, more=(("F", 0.8),))
     assert "no weightless helix" in FORMULAS["helical_contact"].violations(strong)[0]
 
 

@@ -28,7 +28,7 @@ def branch(request: pytest.FixtureRequest) -> rodwell.Branch:
 def test_energies_add_up_to_the_stationary_one(branch: rodwell.Branch) -> None:
     e = {name: value for name, (value, _) in branch[-1].energies.items()}
     total = e["bending_energy"] + e["lateral_energy"] + e["axial_energy"] - e["end_work"]
-    assert total == pytest.approx(branch[-1].number(Measured.ENERGY)[0], rel=1e-11)
+    assert total == pytest.approx(branch[-1].number(Measured.ENERGY).value, rel=1e-11)
     twist = branch.problem.twist
     assert e["twist_energy"] == pytest.approx(0.5 * twist**2 * (1.0 + branch.problem.poisson))
 
@@ -40,8 +40,8 @@ def test_work_of_the_end_force_is_stored(branch: rodwell.Branch) -> None:
     middle, half = 0.5 * (first + last), 0.5 * (last - first)
     states = [branch.at(float(middle + half * x_i)) for x_i in x]
     ends = [branch.at(float(first)), branch.at(float(last))]
-    stored = [sum(s.energies[k][0] for k in ("bending_energy", "lateral_energy", "axial_energy")) for s in ends]
-    z = [1.0 - s.number(Measured.SHORTENING)[0] for s in (*ends, *states)]
+    stored = [sum(s.energies[k].value for k in ("bending_energy", "lateral_energy", "axial_energy")) for s in ends]
+    z = [1.0 - s.number(Measured.SHORTENING).value for s in (*ends, *states)]
     twist = branch.problem.twist
     turn = [float((s.fields(np.array([1.0]))["xi1"] + s.fields(np.array([1.0]))["xi2"])[0]) for s in ends]
     along = half * float(w @ np.array(z[2:]))  # ∫ z(1) dF

@@ -93,8 +93,8 @@ def test_state_as_a_table(branch: rodwell.Branch) -> None:
     assert values["max p"][4] == "B/L³"
     # approach of the ends of a branch of equilibria: dE/dF = −(1 − z(1)), by differences of the energy
     before, after = branch.at(-120.01), branch.at(-119.99)
-    slope = (after.number(rodwell.analysis.discrete.measures.Measured.ENERGY)[0]
-             - before.number(rodwell.analysis.discrete.measures.Measured.ENERGY)[0]) / 0.02  # fmt: skip
+    slope = (after.number(rodwell.analysis.discrete.measures.Measured.ENERGY).value
+             - before.number(rodwell.analysis.discrete.measures.Measured.ENERGY).value) / 0.02  # fmt: skip
     row = {row[1]: row for row in shown(branch.at(-120.0)).tables[0][1:]}["1 − z(1)"]
     assert float(row[2]) == pytest.approx(slope, rel=1e-5)
     assert "stable, under dead loads" in " ".join(page.words)

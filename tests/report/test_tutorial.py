@@ -46,7 +46,7 @@ def test_cells_of_the_tutorial_run(notebook: dict[str, Any], capsys: pytest.Capt
     assert "agree" in capsys.readouterr().out
     assert names["branch"].lift_off.s == pytest.approx((0.5,))
     # a rod without weight, clamped and pinned, buckles at 4.4934² B/L² = 20.19 B/L²: the wire is almost that
-    wire = names["study"].points[2].compression("critical")[0]
+    wire = names["study"].points[2].compression("critical").value
     assert wire == pytest.approx(4.493409**2 * 1400e-6 / 0.12**2, rel=0.01)
     # the stress by another way: curvature as the second derivative of the centreline in space, plus |F|/A
     state = names["answer"].first.at(names["case"].until)

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 import rodwell
 from rodwell.answers.comparison.beside import compare
-from rodwell.answers.comparison.exact_loads import PLACES, Load, critical, exact_loads
+from rodwell.answers.comparison.exact_loads import PLACES, ExactLoad, critical, exact_loads
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
 from rodwell.formulas import FORMULAS, LEFT_OUT
@@ -60,7 +60,7 @@ def test_dellinger_beside_the_exact_load() -> None:
 
 
 def test_verdicts_and_errors() -> None:
-    load = Load("critical", "", -90.0, 0.9, 20.0)
+    load = ExactLoad("critical", "", -90.0, 0.9, 20.0)
     found = compare(99.0, load, "top")
     assert found.percent == pytest.approx(10.0)
     assert found.percent_error == pytest.approx(1.1)
@@ -68,7 +68,7 @@ def test_verdicts_and_errors() -> None:
     assert compare(99.0, load, "middle").safe
     assert compare(99.0, load, "bottom").percent == pytest.approx(-10.0)
     assert compare(90.5, load, "top").safe  # within the error of the exact load
-    tension = compare(5.0, Load("critical", "", 30.0, 1e-9, 20.0), "bottom")
+    tension = compare(5.0, ExactLoad("critical", "", 30.0, 1e-9, 20.0), "bottom")
     assert tension.exact == -10.0
     assert tension.percent is None
     assert not tension.safe

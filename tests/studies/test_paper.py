@@ -15,9 +15,10 @@ from click.testing import CliRunner
 import rodwell
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
+from rodwell.quantities.value import Value
 from rodwell.studies.paper import items, linear, scorer
 from rodwell.studies.paper.agreement import Agreement, agreement
-from rodwell.studies.paper.claims import FORMULA, INTERVAL, Claim, Value, matches, typeset
+from rodwell.studies.paper.claims import FORMULA, INTERVAL, Claim, matches, typeset
 from rodwell.studies.paper.table1 import ROWS
 
 PAPER = {

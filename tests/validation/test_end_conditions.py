@@ -192,9 +192,9 @@ def test_natural_conditions_and_certificate(branch: Branch) -> None:
 def test_work_of_the_end_force(branch: Branch) -> None:
     """dE/dF = ∂E/∂F = 1 − z(1): by fourth-order central differences of the energy along the branch."""
     middle, step = branch.at(0.5 * (branch.force[0] + branch.force[-1])), 0.01 * abs(np.ptp(branch.force))
-    energy = {k: branch.at(middle.force + k * step).number(Measured.ENERGY)[0] for k in (-2, -1, 1, 2)}
+    energy = {k: branch.at(middle.force + k * step).number(Measured.ENERGY).value for k in (-2, -1, 1, 2)}
     slope = (energy[-2] - 8.0 * energy[-1] + 8.0 * energy[1] - energy[2]) / (12.0 * step)
-    shortening = middle.number(Measured.SHORTENING)[0]
+    shortening = middle.number(Measured.SHORTENING).value
     assert slope == pytest.approx(shortening, rel=1e-4)
     assert shortening == pytest.approx(1.0 - middle.fields()["z"][-1], rel=1e-9)
 

@@ -120,7 +120,7 @@ def test_certified_counts_find_no_mode_skipped(weight: float, alpha: float) -> N
     """Exactly k − ½ ± ½ critical loads lie above a load just before and just beyond the k-th, by Wittrick–Williams."""
     from flint import arb, ctx
 
-    from rodwell.analysis.proof.inertia import Rod, inertia
+    from rodwell.analysis.proof.inertia import EnclosedRod, inertia
 
     problem = Problem(weight, alpha=alpha)
     modes = critical_loads(problem, 8)
@@ -129,7 +129,7 @@ def test_certified_counts_find_no_mode_skipped(weight: float, alpha: float) -> N
     ctx.prec = 600
     try:
         axial, foundation = arb(problem.axial_weight), arb(problem.foundation / problem.clearance)
-        counts = [inertia(Rod(arb(f), axial, foundation, problem.ends)).negative for f in between]
+        counts = [inertia(EnclosedRod(arb(f), axial, foundation, problem.ends)).negative for f in between]
     finally:
         ctx.prec = before
     assert counts == [1, 2, 3, 4, 5, 6, 7, 0]

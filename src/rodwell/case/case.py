@@ -159,9 +159,9 @@ class Case(Shown):
             case = cls._certain(clean, source, text, Path(folder))
         except CaseError:
             raise
-        except InputError as problem:
-            value = _as_written(data, problem.field, problem.value)
-            raise CaseError(source, [(problem.field, value, problem.problem)]) from None
+        except InputError as error:
+            value = _as_written(data, error.field, error.value)
+            raise CaseError(source, [(error.field, value, error.reason)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
         return replace(case, uncertain=inputs, given=_given(data))
 
@@ -170,8 +170,8 @@ class Case(Shown):
         """A case from data without uncertainties."""
         try:
             parsed = schema.CaseFile.model_validate(dict(data))
-        except ValidationError as problem:
-            raise CaseError(source, explain(problem)) from None
+        except ValidationError as error:
+            raise CaseError(source, explain(error)) from None
         return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
 
 
@@ -225,7 +225,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "source": source,
         "text": text,
     }
-    if isinstance(load, schema.Load):
+    if isinstance(load, schema.LoadInput):
         found = physical(parsed, load, catalogue)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
@@ -244,9 +244,9 @@ def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
     return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)
 
 
-def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.Load | schema.DimensionlessLoad:
+def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.LoadInput | schema.DimensionlessLoad:
     """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
-    model = schema.Load if with_dimensions else schema.DimensionlessLoad
+    model = schema.LoadInput if with_dimensions else schema.DimensionlessLoad
     try:
         return model.model_validate(given)
     except ValidationError as error:
@@ -259,5 +259,5 @@ def _named(field: str, compute: Any) -> Any:
     """Run a check and give its error the name that the user wrote."""
     try:
         return compute()
-    except InputError as problem:
-        raise InputError(field, problem.value, problem.problem) from None
+    except InputError as error:
+        raise InputError(field, error.value, error.reason) from None

@@ -128,13 +128,13 @@ def read_catalogue(files: Sequence[str], folder: Path) -> Catalogue:
 def _read(path: Path, name: str) -> Raw:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError) as problem:
-        reason = getattr(problem, "strerror", None) or "is not text in UTF-8"
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "is not text in UTF-8"
         raise InputError(
             "catalogue.files", name, f"cannot be read ({reason}); give a TOML file, its path from the case file"
         ) from None
-    except (ValueError, RecursionError) as problem:
-        raise InputError("catalogue.files", name, f"is not valid TOML: {problem}") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError("catalogue.files", name, f"is not valid TOML: {error}") from None
 
 
 def _entries(data: Mapping[str, Any], file: str = "") -> Iterable[tuple[str, Raw]]:

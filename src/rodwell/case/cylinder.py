@@ -23,7 +23,7 @@ class Cylinder:
         return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
 
 
-def cylinder_of(given: schema.Cylinder, hole: schema.Hole) -> Cylinder:
+def cylinder_of(given: schema.CylinderInput, hole: schema.Hole) -> Cylinder:
     """Return the cylinder of a case.
 
     Raises

@@ -39,9 +39,9 @@ def dimensionless(
             twist=load.twist,
             ends=checked_ends(given.ends),
         )
-    except InputError as found:
-        section = "load" if found.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{found.field}", found.value, found.problem) from None
+    except InputError as error:
+        section = "load" if error.field == "twist" else "dimensionless"
+        raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"

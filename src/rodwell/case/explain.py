@@ -9,12 +9,12 @@ from pydantic import BaseModel, ValidationError
 from rodwell.case import schema
 
 SECTIONS: dict[str, type[BaseModel]] = {
-    "rod": schema.Rod,
+    "rod": schema.RodInput,
     "hole": schema.Hole,
-    "cylinder": schema.Cylinder,
+    "cylinder": schema.CylinderInput,
     "supports": schema.Supports,
     "dimensionless": schema.Dimensionless,
-    "load": schema.Load,
+    "load": schema.LoadInput,
     "analysis": schema.Analysis,
     "mud": schema.Mud,
     "pressure": schema.PressureAtEnd,

@@ -28,14 +28,14 @@ def read_toml(file: Path) -> tuple[dict[str, Any], str]:
         raise InputError("case file", str(file), "is a folder; name a TOML file in it") from None
     except UnicodeDecodeError:
         raise InputError("case file", str(file), "is not text in UTF-8; case files are TOML") from None
-    except (OSError, ValueError) as problem:
-        reason = getattr(problem, "strerror", None) or str(problem)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
         raise InputError("case file", str(file), f"cannot be read: {reason}") from None
     try:
         return tomllib.loads(text), text
-    except tomllib.TOMLDecodeError as problem:
+    except tomllib.TOMLDecodeError as error:
         hint = '; quantities and text stand in quotes, for example length = "30 m"'
-        raise InputError("case file", str(file), f"is not valid TOML: {problem}{hint}") from None
+        raise InputError("case file", str(file), f"is not valid TOML: {error}{hint}") from None
     except (ValueError, RecursionError):
         raise InputError("case file", str(file), "is not valid TOML: a number or a nesting too large") from None
 

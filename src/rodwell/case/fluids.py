@@ -18,7 +18,8 @@ from rodwell.quantities.arrays import FloatArray
 Drop = TypeVar("Drop", float, FloatArray)
 """A height in m, or heights (m,)."""
 
-EQUAL_DENSITIES = 1e-12
+NEUTRAL = 1e-12
+"""A weight in the fluid below this part of that in air is round-off: the fluid carries the rod."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ def fluids_of(mud: schema.Mud | None, pressure: schema.PressureAtEnd | None, rod
 def checked_weight(fluids: Fluids, rod: PhysicalRod, gravity: float) -> float:
     """Buoyed weight per length in N/m; raises InputError if the rod floats."""
     weight = fluids.buoyed_weight(rod, gravity)
-    if abs(weight) < EQUAL_DENSITIES * rod.weight_in_air:  # the fluid carries it
+    if abs(weight) < NEUTRAL * rod.weight_in_air:
         return 0.0
     if weight < 0.0:
         what = (

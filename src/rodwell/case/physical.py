@@ -32,7 +32,7 @@ class Physical:
     facts: tuple[Fact, ...]
 
 
-def physical(parsed: schema.CaseFile, load: schema.Load, catalogue: Catalogue) -> Physical:
+def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue) -> Physical:
     """Return the dimensionless problem of a case with dimensions, and what it was made from.
 
     Raises
@@ -77,7 +77,7 @@ def _problem(
             twist=twist / scales.factor("moment"),
             ends=checked_ends(ends),
         )
-    except InputError as found:
+    except InputError as error:
         names = {
             "weight": "rod.length",
             "poisson": "rod.poisson",
@@ -85,18 +85,18 @@ def _problem(
             "ends": "rod.ends",
             "clearance": "hole.diameter",
         }
-        name = names.get(found.field, found.field)
-        what = found.problem
-        if found.field == "weight":
+        name = names.get(error.field, error.field)
+        what = error.reason
+        if error.field == "weight":
             what = (
                 f"makes γ = mg L³/B = {weight / scales.factor('force_per_length'):g}, which {what}: check the units of "
             )
             what += "length, weight or density, stiffness or diameters, and gravity"
-        raise InputError(name, None if found.field == "weight" else found.value, what) from None
+        raise InputError(name, None if error.field == "weight" else error.value, what) from None
 
 
 def _end_force(
-    load: schema.Load,
+    load: schema.LoadInput,
     parsed: schema.CaseFile,
     problem: Problem,
     scales: Scales,
@@ -146,7 +146,7 @@ def check_reach(until: float | None, applied: tuple[AppliedLoad, ...]) -> None:
     raise InputError("load.until", None, "ends before load.applied: give one that is at least as compressive, or none")
 
 
-def check_force_words(load: schema.Load | schema.DimensionlessLoad) -> None:
+def check_force_words(load: schema.LoadInput | schema.DimensionlessLoad) -> None:
     """Refuse words on load.until where it is not given."""
     for key in ("at", "kind"):
         if getattr(load, key, None) is not None:

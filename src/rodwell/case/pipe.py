@@ -66,7 +66,7 @@ class PhysicalRod:
         return math.pi / 64.0 * ((self.outer_diameter or 0.0) ** 4 - self.inner_diameter**4)
 
 
-def physical_rod(given: schema.Rod, gravity: float, catalogue: Catalogue) -> PhysicalRod:
+def physical_rod(given: schema.RodInput, gravity: float, catalogue: Catalogue) -> PhysicalRod:
     """Return the rod that [rod] describes.
 
     Raises
@@ -97,7 +97,7 @@ def _only_one(key: str, value: object, other: str) -> InputError:
     return InputError(key, value, f"contradicts {other}: give only one of the two")
 
 
-def _diameters(rod: schema.Rod, pipe: schema.Pipe | None) -> tuple[float | None, float]:
+def _diameters(rod: schema.RodInput, pipe: schema.Pipe | None) -> tuple[float | None, float]:
     """Outer diameter, if known, and inner one."""
     outer, inner = rod.outer_diameter, rod.inner_diameter
     if pipe is not None:
@@ -117,7 +117,7 @@ def _diameters(rod: schema.Rod, pipe: schema.Pipe | None) -> tuple[float | None,
     return outer, inner or 0.0
 
 
-def _material(rod: schema.Rod, pipe: schema.Pipe | None, catalogue: Catalogue) -> schema.Material | None:
+def _material(rod: schema.RodInput, pipe: schema.Pipe | None, catalogue: Catalogue) -> schema.Material | None:
     """Material of [rod] or of its pipe."""
     own = None if pipe is None else pipe.material
     if rod.material is None:
@@ -143,7 +143,10 @@ def _is(material: schema.Material, name: str) -> bool:
 
 
 def _stiffness(
-    rod: schema.Rod, pipe: schema.Pipe | None, material: schema.Material | None, diameters: tuple[float | None, float]
+    rod: schema.RodInput,
+    pipe: schema.Pipe | None,
+    material: schema.Material | None,
+    diameters: tuple[float | None, float],
 ) -> float:
     """Bending stiffness: as given, or E I."""
     given, modulus = rod.bending_stiffness, rod.youngs_modulus
@@ -170,7 +173,7 @@ def _stiffness(
 
 
 def _weight(
-    rod: schema.Rod,
+    rod: schema.RodInput,
     pipe: schema.Pipe | None,
     density: float | None,
     diameters: tuple[float | None, float],
@@ -204,7 +207,7 @@ def _section(diameters: tuple[float | None, float], reason: str) -> tuple[float,
     return math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
 
 
-def _strength(rod: schema.Rod, material: schema.Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
+def _strength(rod: schema.RodInput, material: schema.Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
     """Yield strength and where it is from."""
     if rod.grade is None:
         return rod.yield_strength, "as given"

@@ -54,8 +54,8 @@ Number = Annotated[float, BeforeValidator(_plain)]
 def _ends(text: object) -> str:
     try:
         return "-".join(checked_ends(text))
-    except InputError as problem:
-        raise ValueError(problem.problem) from None
+    except InputError as error:
+        raise ValueError(error.reason) from None
 
 
 Ends = Annotated[str, BeforeValidator(_ends)]
@@ -97,13 +97,13 @@ Forces = Annotated[tuple[Force, ...], BeforeValidator(_several)]
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(_several)]
 
 
-class Section(BaseModel):
+class SectionInput(BaseModel):
     """Base of all sections: unknown keys are refused, values are not changed after reading."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Rod(Section):
+class RodInput(SectionInput):
     """[rod]: the pipe, rod or wire."""
 
     length: Length
@@ -121,7 +121,7 @@ class Rod(Section):
     yield_strength: Stress | None = None
 
 
-class Hole(Section):
+class Hole(SectionInput):
     """[hole]: the borehole, vessel or pipe around it."""
 
     diameter: Length | None = None
@@ -131,7 +131,7 @@ class Hole(Section):
     gravity: Acceleration = 9.80665
 
 
-class Cylinder(Section):
+class CylinderInput(SectionInput):
     """[cylinder]: section and strength of the pipe around it, for the check of its capacity."""
 
     outer_diameter: Length
@@ -139,7 +139,7 @@ class Cylinder(Section):
     yield_strength: Stress
 
 
-class Supports(Section):
+class Supports(SectionInput):
     """[supports]: what each support of the rod's ends and of the cylinder's ends can bear, for the check against it."""
 
     force: PositiveForce | None = None
@@ -153,7 +153,7 @@ class Supports(Section):
         return self
 
 
-class Mud(Section):
+class Mud(SectionInput):
     """[mud]: the fluids in and around the rod, whose weight and lift make its weight the buoyed one."""
 
     density: FluidDensity | None = None
@@ -161,20 +161,20 @@ class Mud(Section):
     outside: FluidDensity | None = None
 
 
-class PressureAtEnd(Section):
+class PressureAtEnd(SectionInput):
     """[pressure]: fluid pressures at the end s = 1, which make the force in the pipe wall the effective one."""
 
     inside: Pressure = 0.0
     outside: Pressure = 0.0
 
 
-class CatalogueFiles(Section):
+class CatalogueFiles(SectionInput):
     """[catalogue]: the user's own pipes, materials and grades."""
 
     files: list[str]
 
 
-class Dimensionless(Section):
+class Dimensionless(SectionInput):
     """[dimensionless]: instead of [rod] and [hole]."""
 
     weight: Number
@@ -184,7 +184,7 @@ class Dimensionless(Section):
     ends: Ends = "clamped-clamped"
 
 
-class Load(Section):
+class LoadInput(SectionInput):
     """[load]: what is applied at the ends (in physical units)."""
 
     until: Force | None = None
@@ -194,7 +194,7 @@ class Load(Section):
     kind: ForceKind | None = None
 
 
-class DimensionlessLoad(Section):
+class DimensionlessLoad(SectionInput):
     """[load] beside [dimensionless]."""
 
     until: Number | None = None
@@ -203,20 +203,20 @@ class DimensionlessLoad(Section):
     at: End | None = None
 
 
-class Analysis(Section):
+class Analysis(SectionInput):
     """[analysis]: what is computed, and how exactly."""
 
     modes: int = Field(default=4, strict=True, ge=1, le=MOST_MODES)
     rtol: Number = 1e-8
 
 
-class CaseFile(Section):
+class CaseFile(SectionInput):
     """The whole file."""
 
     title: str = "Untitled case"
-    rod: Rod | None = None
+    rod: RodInput | None = None
     hole: Hole | None = None
-    cylinder: Cylinder | None = None
+    cylinder: CylinderInput | None = None
     supports: Supports | None = None
     dimensionless: Dimensionless | None = None
     load: dict[str, Any] = Field(default_factory=dict)
@@ -227,7 +227,7 @@ class CaseFile(Section):
     units: Units | None = None
 
 
-class Entry(Section):
+class Entry(SectionInput):
     """An entry of a catalogue."""
 
     name: Name

@@ -74,8 +74,8 @@ def _moved(key: str, written: str, nominal: str, spread: str) -> tuple[Any, Any]
     elif of and of != unit:
         try:
             size = in_unit_of(size, of, unit)
-        except ValueError as problem:
-            raise InputError(key, written, f"{problem}; it {allowed}") from None
+        except ValueError as error:
+            raise InputError(key, written, f"{error}; it {allowed}") from None
     if not 0.0 < size < math.inf:
         raise InputError(key, written, "must have an uncertainty above 0")
     if not unit:

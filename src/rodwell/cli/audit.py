@@ -11,9 +11,10 @@ import click
 
 from rodwell.cli.listing import print_listing
 from rodwell.cli.options import print_json, progress_bar, units_option
+from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
-    from rodwell.answers.comparison.beside import Comparison, Other, Row
+    from rodwell.answers.comparison.beside import Comparison, FormulaRow, Other
     from rodwell.studies.audit.audit import Audit
 
 NAMES = {
@@ -144,7 +145,7 @@ def _print_loads(console: Any, audit: Audit) -> None:
     )  # fmt: skip
 
 
-def _verdict(row: Row, main: Comparison | None) -> str:
+def _verdict(row: FormulaRow, main: Comparison | None) -> str:
     if main is None:
         return "needs " + ", ".join(row.missing) if row.missing else "–"
     if row.value == 0.0:
@@ -155,7 +156,7 @@ def _verdict(row: Row, main: Comparison | None) -> str:
 def _percent(side: Comparison | None, bold: bool) -> str:
     if side is None or side.percent is None:
         return "–"
-    text = f"{side.percent:+.1f} %".replace("-", "−")
+    text = minus(f"{side.percent:+.1f} %")
     return f"[bold]{text}[/bold]" if bold else text
 
 
@@ -163,7 +164,7 @@ def _force(audit: Audit, value: float, digits: int = 5) -> str:
     """A force in the case's units for a case with dimensions, else in B/L²."""
     if audit.scales is not None:
         return audit.scales.text(value, "force", digits)
-    return f"{value:.{digits}g}".replace("-", "−")
+    return minus(f"{value:.{digits}g}")
 
 
 def _print_reasons(console: Any, audit: Audit) -> None:
@@ -194,7 +195,7 @@ def _print_others(console: Any, audit: Audit) -> None:
     for other in audit.others:
         if other.value is None:
             continue
-        error = "" if other.relative_error is None else f"{100 * other.relative_error:+.2g} %".replace("-", "−")
+        error = "" if other.relative_error is None else minus(f"{100 * other.relative_error:+.2g} %")
         rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
     print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
     console.print("Small angle: error that a formula makes by taking the angle of the helix as small.", style="dim")
@@ -214,7 +215,7 @@ def _other_value(audit: Audit, other: Other) -> str:
         return audit.scales.system.text(other.value * audit.factor(dimension), NOMENCLATURE[dimension], 5)
     powers = {"B": dimension[0], "L": dimension[1] - 2 * dimension[0]}
     unit = " ".join(f"{name}{_power(power)}" for name, power in powers.items() if power)
-    return f"{other.value:.5g} {unit}".rstrip().replace("-", "−")
+    return minus(f"{other.value:.5g} {unit}".rstrip())
 
 
 def _power(power: int) -> str:

@@ -36,8 +36,8 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
 
     try:
         known = read_catalogue([str(file) for file in files], Path())
-    except InputError as problem:
-        raise InputError("--file", problem.value, problem.problem) from None
+    except InputError as error:
+        raise InputError("--file", error.value, error.reason) from None
     found = {kind: [getattr(known, kind)(name) for name in known.names(kind)] for kind in KINDS}
     chosen = {kind: [entry for entry in entries if _holds(entry, words)] for kind, entries in found.items()}
     if as_json:

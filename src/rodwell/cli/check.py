@@ -45,9 +45,9 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     with progress_bar(not as_json, "the engine's branch") as tell:
         try:
             branch = branch_to_verify(read, mode, forces)
-        except InputError as problem:
-            name = "--at" if problem.field == "until" else problem.field
-            raise InputError(name, ", ".join(at) if name == "--at" else problem.value, problem.problem) from None
+        except InputError as error:
+            name = "--at" if error.field == "until" else error.field
+            raise InputError(name, ", ".join(at) if name == "--at" else error.value, error.reason) from None
         count = [0]
 
         def report(force: float) -> None:

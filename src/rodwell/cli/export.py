@@ -80,14 +80,14 @@ def export(
                 places=places,
                 sides=sides,
             )
-    except InputError as problem:
+    except InputError as error:
         names = {
             name: f"--{name.replace('_', '-')}" for name in ("rod_radius", "radial_scale", "places", "sides", "mode")
         }
         names |= {"path": "--to", "until": "--at", "force": "--at"}
         given = {"rod_radius": rod_radius, "until": at, "force": at}
-        value = given.get(problem.field, problem.value)
-        raise InputError(names.get(problem.field, problem.field), value, problem.problem) from None
+        value = given.get(error.field, error.value)
+        raise InputError(names.get(error.field, error.field), value, error.reason) from None
     click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(str(file) for file in written))
 
 

@@ -50,33 +50,33 @@ def main() -> None:
     warnings.showwarning = _warned
     try:
         cli.main(standalone_mode=False)
-    except click.exceptions.NoArgsIsHelpError as problem:
-        click.echo(problem.format_message())
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.format_message())
         sys.exit(INPUT_ERROR)
-    except click.ClickException as problem:
-        problem.show()
-        sys.exit(problem.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
     except click.Abort as abort:  # click's word for Ctrl-C, but for an EOFError from anywhere as well
         if isinstance(abort.__cause__, EOFError):
             raise abort.__cause__ from None
         _interrupted()
     except KeyboardInterrupt:
         _interrupted()
-    except SystemError as problem:
-        if not _caused_by_interrupt(problem):
+    except SystemError as error:
+        if not _caused_by_interrupt(error):
             raise
         _interrupted()
-    except InputError as problem:
-        click.echo(f"rodwell: error: {problem}", err=True)
+    except InputError as error:
+        click.echo(f"rodwell: error: {error}", err=True)
         sys.exit(INPUT_ERROR)
-    except RodwellError as problem:
-        click.echo(f"rodwell: not converged: {problem}", err=True)
+    except RodwellError as error:
+        click.echo(f"rodwell: not converged: {error}", err=True)
         sys.exit(COMPUTATION_ERROR)
     except BrokenPipeError:  # the reader of a pipe has left
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(COMPUTATION_ERROR)
-    except OSError as problem:
-        click.echo(f"rodwell: error: {problem}", err=True)
+    except OSError as error:
+        click.echo(f"rodwell: error: {error}", err=True)
         sys.exit(COMPUTATION_ERROR)
 
 
@@ -96,12 +96,12 @@ def _interrupted() -> None:
     sys.exit(INTERRUPTED)
 
 
-def _caused_by_interrupt(problem: BaseException | None) -> bool:
+def _caused_by_interrupt(error: BaseException | None) -> bool:
     """Whether Ctrl-C lies behind an error: inside a compiled call it surfaces as the cause of a SystemError."""
-    while problem is not None:
-        if isinstance(problem, KeyboardInterrupt):
+    while error is not None:
+        if isinstance(error, KeyboardInterrupt):
             return True
-        problem = problem.__cause__ or problem.__context__
+        error = error.__cause__ or error.__context__
     return False
 
 

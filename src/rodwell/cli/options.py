@@ -100,8 +100,8 @@ def force_at(at: str, case: Case, word: str = "") -> float:
             raise InputError("--at", at, f"must be {instead}an end force in B/L², a plain number") from None
     try:
         return to_si(at, "force") / case.scales.factor("force")
-    except ValueError as problem:
-        raise InputError("--at", at, f"must be {instead}an end force: it {problem}") from None
+    except ValueError as error:
+        raise InputError("--at", at, f"must be {instead}an end force: it {error}") from None
 
 
 def out_option(name: str) -> Callable[[Any], Any]:

@@ -62,7 +62,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
 
 
 def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
-    """What a person reads in ten seconds, then the key figures."""
+    """What a person reads in ten seconds, then the key numbers."""
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
@@ -87,7 +87,7 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
         console.print(escape("; ".join(filter(None, (fact.short(scales.system) for fact in answer.case.facts)))))
     physical = [] if scales is None else [">physical"]
     names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
-    cells = [[escape(row[name]) for name in names] for row in rows(answer)]
+    cells = [[escape(row[name]) for name in names] for row in rows(answer.key_numbers.values(), answer.case)]
     print_listing(console, ["", *physical, ">B = L = 1", ">± error", ""], cells, notes=True)
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")

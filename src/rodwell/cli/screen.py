@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.options import print_json, progress_bar
+from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
     from rodwell.studies.well.screening import Screening
@@ -76,8 +77,8 @@ def _force(option: str, text: str | None) -> float | None:
         return None
     try:
         return to_si(text, "force")
-    except ValueError as problem:
-        raise InputError(option, text, str(problem)) from None
+    except ValueError as error:
+        raise InputError(option, text, str(error)) from None
 
 
 def _print(screening: Screening) -> None:
@@ -118,7 +119,7 @@ def _stations(screening: Screening) -> object:
     columns += [] if screening.compression is None else [screening.compression]
     for i in shown:
         cells = [f"{screening.survey.md[i] / metre:.6g}", f"{screening.survey.inclination[i]:.3g}°"]
-        cells += ["–" if np.isnan(c[i]) else f"{c[i] / newton:.4g}".replace("-", "−") for c in columns]
+        cells += ["–" if np.isnan(c[i]) else minus(f"{c[i] / newton:.4g}") for c in columns]
         cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{100 * used[i]:.3g} %"]
         table.add_row(*cells, style="bold red" if i == mark else None)
     return table

@@ -7,15 +7,15 @@ radial clearance r is the paper's Δ. Any coherent units do. :data:`FORMULAS` ho
 
 from rodwell.formulas import helix, inclined, path, pushing, vertical
 from rodwell.formulas.left_out import LEFT_OUT, LeftOut
-from rodwell.formulas.record import FORMULAS, SYMBOLS, Formula, Rod
+from rodwell.formulas.record import FORMULAS, SYMBOLS, Formula, FormulaInputs
 
 __all__ = [
     "FORMULAS",
     "LEFT_OUT",
     "SYMBOLS",
     "Formula",
+    "FormulaInputs",
     "LeftOut",
-    "Rod",
     "helix",
     "inclined",
     "path",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from rodwell.errors import InputError
-from rodwell.formulas.record import Rod, Value, formula, sine
+from rodwell.formulas.record import FormulaInputs, Value, formula, sine
 
 LARGEST_HELIX = 4.0 / (3.0 * math.sqrt(3.0))
 """Largest F r²/B of a weightless helix, 0.7698, at sin²η = 2/3."""
@@ -18,7 +18,7 @@ HELIX = "weightless helix, small angle (N is too small by sin²η of the exact: 
 FREE = "weight small against the helix force; ends free to rotate; no friction; no torque"
 
 
-def _small(rod: Rod) -> list[str]:
+def _small(rod: FormulaInputs) -> list[str]:
     force = dict(rod.more).get("F", 0.0)
     if force <= 0.0:
         return ["no compression"]
@@ -149,7 +149,7 @@ def straight_contact(w: Value, alpha: Value) -> Value:
     return w * sine(alpha)
 
 
-def _lateral_range(rod: Rod) -> list[str]:
+def _lateral_range(rod: FormulaInputs) -> list[str]:
     known = rod.known()
     if "F" not in known or rod.lateral == 0.0:
         return ["needs a compression and a lateral weight"]

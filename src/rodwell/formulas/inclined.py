@@ -6,7 +6,7 @@ import math
 
 from rodwell.formulas.record import (
     LONG,
-    Rod,
+    FormulaInputs,
     Value,
     ends_are,
     formula,
@@ -32,7 +32,7 @@ def _best(whole: float) -> tuple[int, int]:
     return low, max(1, math.ceil(whole))
 
 
-def _weightless(rod: Rod) -> list[str]:
+def _weightless(rod: FormulaInputs) -> list[str]:
     return [] if rod.w == 0.0 else ["for a weightless rod"]
 
 
@@ -237,7 +237,7 @@ def unsupported_end(B: Value, w: Value, alpha: Value, r: Value) -> Value:
     return 2.9 * (B * r / (w * sine(alpha))) ** 0.25
 
 
-def _on_top(rod: Rod) -> list[str]:
+def _on_top(rod: FormulaInputs) -> list[str]:
     return ["for a rod that lies on top"] if rod.pressed else []
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from rodwell.formulas.inclined import dawson_paslay
-from rodwell.formulas.record import Rod, Value, formula, horizontal, inclined, light, long, pressed, sine
+from rodwell.formulas.record import FormulaInputs, Value, formula, horizontal, inclined, light, long, pressed, sine
 
 STEEL_WEIGHT = 65.5
 """Density of steel in lb/gal (ppg), the field's buoyancy number."""
@@ -121,7 +121,7 @@ MOST_FRICTION = 15.0 / (7.0 * math.pi)
 """0.682: the helical formula has its pole there."""
 
 
-def _frictional(rod: Rod) -> list[str]:
+def _frictional(rod: FormulaInputs) -> list[str]:
     mu = dict(rod.more).get("mu", 0.0)
     return [] if mu <= 0.3 else [f"printed up to μ = 0.3, here μ = {mu:g}"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from rodwell.errors import InputError
-from rodwell.formulas.record import Rod, Value, formula, horizontal
+from rodwell.formulas.record import FormulaInputs, Value, formula, horizontal
 
 WEIGHTLESS = "helical over the whole distance, weight dropped"
 
@@ -84,7 +84,7 @@ def helical_length(B: Value, w: Value, r: Value, mu: Value, F_1: Value, F_2: Val
     return 2.0 / mu * (B / (r * w)) ** 0.5 * (math.atan(float(F_2 * unit)) - math.atan(float(F_1 * unit)))
 
 
-def _weighed(rod: Rod) -> list[str]:
+def _weighed(rod: FormulaInputs) -> list[str]:
     return [] if rod.w > 0.0 else ["weightless"]
 
 
@@ -116,7 +116,3 @@ def helical_lock_up_heavy(B: Value, w: Value, r: Value, mu: Value) -> Value:
 def total_lock_up(B: Value, w: Value, r: Value, mu: Value) -> Value:
     """Total lock-up length, unbuckled and helical."""
     return 3.0 * 2.0**0.5 / mu * (B / (w * r)) ** 0.5
-
-
-LOCK_UP_SLOPE = 0.02
-"""Lock-up as defined in software (CTES): less than 2 % of weight added above arrives below, dF_bottom/dW_surface."""

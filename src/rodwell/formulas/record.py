@@ -65,7 +65,7 @@ NOMENCLATURE = {(1, 0): "force", (1, -1): "force_per_length", (0, 1): "length", 
 
 
 @dataclass(frozen=True)
-class Rod:
+class FormulaInputs:
     """A rod in a hole in coherent units, and what else was given: what validity is judged on.
 
     ``ends`` are those at s = 0 (bottom) and s = 1; ``pressed`` tells whether weight presses the straight rod on the
@@ -96,7 +96,7 @@ class Rod:
         return {"B": self.B, "w": self.w, "alpha": self.alpha, "r": self.r, "L": self.L, **dict(self.more)}
 
 
-Check = Callable[[Rod], list[str]]
+Check = Callable[[FormulaInputs], list[str]]
 
 
 @dataclass(frozen=True)
@@ -150,11 +150,11 @@ class Formula:
         """Symbols of the quantities that it takes."""
         return tuple(inspect.signature(self.function).parameters)
 
-    def missing(self, rod: Rod) -> tuple[str, ...]:
+    def missing(self, rod: FormulaInputs) -> tuple[str, ...]:
         """Return symbols of what it takes and the rod does not tell."""
         return tuple(name for name in self.takes if name not in rod.known())
 
-    def of(self, rod: Rod, **more: float) -> float:
+    def of(self, rod: FormulaInputs, **more: float) -> float:
         """Return its value for a rod; ``more`` are quantities that the rod does not hold."""
         known = {**rod.known(), **more}
         return float(self.function(**{name: known[name] for name in self.takes}))
@@ -183,7 +183,7 @@ def formula(
         name = (function.__doc__ or "").partition("\n")[0].rstrip(".")
         key = function.__name__
 
-        def violations(rod: Rod) -> list[str]:
+        def violations(rod: FormulaInputs) -> list[str]:
             return [reason for check in checks for reason in check(rod)]
 
         FORMULAS[key] = Formula(
@@ -202,12 +202,12 @@ def formula(
     return register
 
 
-def inclined(rod: Rod) -> list[str]:
+def inclined(rod: FormulaInputs) -> list[str]:
     """A lateral weight is needed."""
     return [] if rod.lateral > 0.0 else ["no lateral weight (vertical or weightless): the formula gives nothing"]
 
 
-def pressed(rod: Rod) -> list[str]:
+def pressed(rod: FormulaInputs) -> list[str]:
     """Weight must press the rod to the wall."""
     return [] if rod.pressed or rod.lateral == 0.0 else ["weight does not press the rod to the wall"]
 
@@ -215,7 +215,7 @@ def pressed(rod: Rod) -> list[str]:
 LONG = 37.2
 
 
-def long(rod: Rod) -> list[str]:
+def long(rod: FormulaInputs) -> list[str]:
     """The criterion for a long pipe, with the lateral weight for w."""
     if rod.lateral == 0.0:
         return []
@@ -227,7 +227,7 @@ AXIAL_PART = 0.1
 """Axial weight above this part of the sinusoidal load is not "ignored": our reading of "axial weight ignored"."""
 
 
-def light(rod: Rod) -> list[str]:
+def light(rod: FormulaInputs) -> list[str]:
     """Axial weight must be small against the load."""
     load = 2.0 * math.sqrt(rod.B * rod.lateral / rod.r)
     if rod.axial <= AXIAL_PART * load:
@@ -236,12 +236,12 @@ def light(rod: Rod) -> list[str]:
     return [f"axial weight, which the formula ignores, is {size}"]
 
 
-def vertical(rod: Rod) -> list[str]:
+def vertical(rod: FormulaInputs) -> list[str]:
     """The hole must be vertical."""
     return [] if rod.alpha == 0.0 else [f"for a vertical hole, α is {rod.alpha:g}°"]
 
 
-def horizontal(rod: Rod) -> list[str]:
+def horizontal(rod: FormulaInputs) -> list[str]:
     """The hole must be horizontal."""
     return [] if rod.alpha == 90.0 else [f"for a horizontal hole, α is {rod.alpha:g}°"]
 
@@ -249,7 +249,7 @@ def horizontal(rod: Rod) -> list[str]:
 def ends_are(first: str, last: str) -> Check:
     """Return a check of the end conditions at s = 0 and s = 1."""
 
-    def check(rod: Rod) -> list[str]:
+    def check(rod: FormulaInputs) -> list[str]:
         if rod.ends == (first, last):
             return []
         return [f"for ends {first}–{last}, the rod's are {'–'.join(rod.ends)}"]

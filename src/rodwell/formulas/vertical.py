@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from rodwell.formulas.record import Rod, Value, ends_are, formula, vertical
+from rodwell.formulas.record import FormulaInputs, Value, ends_are, formula, vertical
 
 HANGING = 1.0187929716474710
 """−a′₁, the first zero of Ai′ with its sign changed."""
 
 
-def _hanging_length(rod: Rod) -> list[str]:
+def _hanging_length(rod: FormulaInputs) -> list[str]:
     """In a string of less than four natural lengths the top end is felt."""
     if rod.w == 0.0:
         return ["weightless"]
@@ -18,7 +18,7 @@ def _hanging_length(rod: Rod) -> list[str]:
     return [] if size >= 4.0 else [f"short: L is {size:.2g} of (B/w)^⅓"]
 
 
-def _number_depends(rod: Rod) -> list[str]:
+def _number_depends(rod: FormulaInputs) -> list[str]:
     """The length at which the coefficient 1.94 is exact for pinned ends is near 8 (B/w)^⅓."""
     if rod.w == 0.0:
         return ["weightless"]
@@ -86,7 +86,7 @@ def long_hanging(B: Value, w: Value) -> Value:
     return HANGING * (B * w**2) ** (1.0 / 3.0)
 
 
-def _chord(rod: Rod) -> list[str]:
+def _chord(rod: FormulaInputs) -> list[str]:
     limit = 74.628569 * rod.B / rod.L**3
     return [] if rod.w <= limit else [f"w L³/B above 74.63, where the chord (79) ends: {rod.w * rod.L**3 / rod.B:.4g}"]
 

@@ -53,13 +53,13 @@ def plot_force(
         label = f"{one.state.name}: {minus(plain(force * ff, 4))} {uf} at {'the ' if down else ''}{end}"
         _draw(ax, _places(one.s, scales, down), one.fields["rod_F1"] * ff, down, color=colour, lw=width, label=label)
     if local is not None and local.applies and scales is not None:
-        for load, label, dashes in (
+        for limit, label, dashes in (
             (local.critical, "local: an endless rod buckles", (0, (5, 2))),
             (local.lift_off, "local: an endless rod lifts off", (0, (1, 1.3))),
         ):
-            if load.value is not None:
+            if limit.compression is not None:
                 line = ax.axvline if down else ax.axhline
-                line(-load.value / scales.factor("force") * ff, color=INK, lw=1.2, ls=dashes, label=label)
+                line(-limit.compression.value / scales.factor("force") * ff, color=INK, lw=1.2, ls=dashes, label=label)
     _zero(ax, down)
     _dress(ax, problem, scales, f"effective axial force  [{uf}]\n(tension positive)")
     return ax

@@ -15,6 +15,7 @@ from rodwell.formulas.record import Place
 from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.text import minus
 from rodwell.studies.audit.error_map import PANELS, ErrorMap
 
 LEVELS = (-75.0, -50.0, -25.0, -10.0, 0.0, 10.0, 25.0, 50.0, 100.0)
@@ -59,7 +60,7 @@ def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS
             ax.tick_params(labelbottom=True)
         bar = figure.colorbar(shown, ax=axes.tolist(), ticks=LEVELS, shrink=0.9, aspect=30, pad=0.015)
         bar.set_label("formula / exact first critical load − 1  [%]\n← safe          unsafe →")
-        bar.ax.set_yticklabels([f"{level:+.0f}".replace("-", "−").replace("+0", "0") for level in LEVELS])
+        bar.ax.set_yticklabels([minus(f"{level:+.0f}").replace("+0", "0") for level in LEVELS])
         figure.suptitle(
             f"Δ/L = {chart.problem.clearance:.4g},  {ends_text(chart.problem)}", x=0.01, ha="left", fontsize=9.5
         )

@@ -129,7 +129,7 @@ class _Line:
         ]
         self.special: list[tuple[str, float, float]] = []
         for point in branch.special_points:
-            values = {m: np.array([point.solution.number(m)[0]]) for m in Measured}
+            values = {m: np.array([point.solution.number(m).value]) for m in Measured}
             y = float(image.numbers(values)[ordinate][0])
             self.special.append((point.kind, -point.force, y))
             if point.kind not in ("critical", "end"):

@@ -13,8 +13,10 @@ from matplotlib.lines import Line2D
 
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.plots.style import INK, MODES, RC, WARN
+from rodwell.quantities.value import Value
 from rodwell.studies.sweep.load_columns import fails, most_loads
-from rodwell.studies.sweep.points import LoadResult, Point
+from rodwell.studies.sweep.loads import LoadResult
+from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import scales
 from rodwell.studies.sweep.varied import Varied
@@ -84,7 +86,7 @@ def _axes_of(study: Study) -> tuple[int, int | None]:
     return across, 1 - across
 
 
-def _families(study: Study, across: int, other: int | None) -> list[tuple[str, list[Point]]]:
+def _families(study: Study, across: int, other: int | None) -> list[tuple[str, list[StudyPoint]]]:
     """Points of each curve, in the order of the input across, with the label of the curve."""
     key = _position(study.varied[across])
     if other is None:
@@ -105,51 +107,50 @@ def _position(varied: Varied) -> tuple[float, ...]:
     return varied.numbers or tuple(float(i) for i in range(len(varied.values)))
 
 
-def _scaled(study: Study, name: str) -> dict[int, tuple[float, float]]:
-    """Value and error by number of the point, in N or N/m (or B = L = 1); those that there are."""
+def _scaled(study: Study, name: str) -> dict[int, Value]:
+    """Values by number of the point, in N or N/m (or B = L = 1); those that there are."""
     out = {}
     for point in study.points:
         if name == "contact":
             most = _most(point)
-            found = point.contact if not study.load_varies else None if most is None else most.contact
-            unit = point.factor("force_per_length")
-            pair = None if found is None else (found.value * unit, found.error * unit)
+            contact = point.contact if not study.load_varies else None if most is None else most.contact
+            value = None if contact is None else contact.times(point.factor("force_per_length"))
         else:
-            pair = point.compression(name)
-        if pair is not None:
-            out[point.number] = pair
+            value = point.compression(name)
+        if value is not None:
+            out[point.number] = value
     return out
 
 
 def _curve(
-    ax: Any, study: Study, across: int, points: list[Point], values: dict[int, tuple[float, float]],
+    ax: Any, study: Study, across: int, points: list[StudyPoint], values: dict[int, Value],
     scale: float, colour: str, dashes: Any,
 ) -> None:  # fmt: skip
     """One curve with its points; it is interrupted where a point has no value."""
     place = _position(study.varied[across])
     x = [place[p.at[across]] for p in points]
-    pairs = [values.get(p.number, (math.nan, 0.0)) for p in points]
-    y, errors = np.array([v for v, _ in pairs]) / scale, np.array([e for _, e in pairs]) / scale
+    shown = [values.get(p.number, Value(math.nan)) for p in points]
+    y, errors = np.array([v.value for v in shown]) / scale, np.array([v.error for v in shown]) / scale
     joined = dashes if study.varied[across].numbers is not None else "none"
     ax.errorbar(x, y, yerr=errors, color=colour, ls=joined, lw=1.7, marker="o", ms=3.5, elinewidth=1.0)
 
 
-def _most(point: Point) -> LoadResult | None:
+def _most(point: StudyPoint) -> LoadResult | None:
     """The most compressive load that acts at a point."""
     return min(point.loads, key=lambda one: one.load.force, default=None)
 
 
-def _safety(study: Study) -> dict[int, tuple[float, float]]:
-    """Safety factor and its error under the most compressive load that acts, by number of the point."""
+def _safety(study: Study) -> dict[int, Value]:
+    """Safety factor under the most compressive load that acts, by number of the point."""
     out = {}
     for point in study.points:
         most = _most(point)
         if most is not None and most.safety is not None:
-            out[point.number] = (most.safety.value, most.safety.error)
+            out[point.number] = most.safety
     return out
 
 
-def _loads(ax: Any, study: Study, across: int, points: list[Point], scale: float, colour: str) -> None:
+def _loads(ax: Any, study: Study, across: int, points: list[StudyPoint], scale: float, colour: str) -> None:
     """The loads that act as compression at s = 1: dotted, with marks where the rod is buckled or worse."""
     place = _position(study.varied[across])
     joined = DOTS if study.varied[across].numbers is not None else "none"
@@ -163,7 +164,7 @@ def _loads(ax: Any, study: Study, across: int, points: list[Point], scale: float
             ax.plot([x[i] for i in at], [y[i] for i in at], ls="none", zorder=5, **style)
 
 
-def _key(study: Study, families: list[tuple[str, list[Point]]]) -> list[Line2D]:
+def _key(study: Study, families: list[tuple[str, list[StudyPoint]]]) -> list[Line2D]:
     """What lines, colours and rings mean."""
     plain = MODES[0] if len(families) == 1 else INK
     out = [
@@ -182,14 +183,14 @@ def _key(study: Study, families: list[tuple[str, list[Point]]]) -> list[Line2D]:
 
 
 def _ring_worst(
-    ax: Any, study: Study, across: int, loads: dict[str, dict[int, tuple[float, float]]], scale: float, shown: set[int]
+    ax: Any, study: Study, across: int, loads: dict[str, dict[int, Value]], scale: float, shown: set[int]
 ) -> None:
     """Ring the worst cases, as far as their curves are drawn."""
     place = _position(study.varied[across])
     for name in () if study.load_varies else ("critical", "lift_off"):
         worst = study.worst(name)
         if worst is not None and worst.number in shown:
-            x, y = place[worst.at[across]], loads[name][worst.number][0] / scale
+            x, y = place[worst.at[across]], loads[name][worst.number].value / scale
             ax.plot(x, y, "o", ms=13, mfc="none", mec=WARN, mew=2.0, zorder=6, clip_on=False)
 
 

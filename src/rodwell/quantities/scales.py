@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rodwell.quantities.names import POWERS, QUANTITIES, SI_UNITS
 from rodwell.quantities.units import SI, System
+from rodwell.quantities.value import Value
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,15 @@ class Scales:
         """A number in units B = L = 1 as text in the units of ``system``."""
         return self.system.text(value * self.factor(dimension), dimension, digits)
 
-    def shown(self, value: float, error: float, dimension: str) -> dict[str, float | str]:
-        """A number in units B = L = 1 and its error in the units of ``system``, for JSON."""
+    def si(self, number: Value, dimension: str) -> dict[str, float | str]:
+        """A number in units B = L = 1 with its error in SI units, for JSON."""
+        return _plain(number.times(self.factor(dimension)), SI_UNITS[dimension])
+
+    def shown(self, number: Value, dimension: str) -> dict[str, float | str]:
+        """The same in the units of ``system``."""
         unit, text = self.system.unit(dimension)
-        factor = self.factor(dimension) / unit
-        return {"value": value * factor, "error": error * factor, "unit": text}
+        return _plain(number.times(self.factor(dimension) / unit), text)
+
+
+def _plain(number: Value, unit: str) -> dict[str, float | str]:
+    return {"value": number.value, "error": number.error, "unit": unit}

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 
+from rodwell.quantities.value import Value
+
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
 def readable(value: float, unit: str, digits: int = 4) -> str:
     """Return ``value`` with an engineering prefix: ``readable(-12345, "N")`` is "−12.35 kN"."""
     if value == 0.0 or not math.isfinite(value):
-        return f"{value:g} {unit}".replace("-", "−")
+        return minus(f"{value:g} {unit}")
     scale, prefix = prefix_for(value)
-    return f"{plain(value / scale, digits)} {prefix}{unit}".replace("-", "−")
+    return minus(f"{plain(value / scale, digits)} {prefix}{unit}")
 
 
 def prefix_for(value: float) -> tuple[float, str]:
@@ -31,36 +33,35 @@ def plain(number: float, digits: int = 4) -> str:
     return f"{number:.{max(digits, 12)}g}"
 
 
-def certain(value: float, error: float, digits: int) -> int:
+def certain(number: Value, digits: int) -> int:
     """Return how many of the first ``digits`` significant digits the error allows; 0 if not even the first.
 
     A digit is allowed if half a unit of it is no less than the error: rounding then hides more than the error changes.
     """
-    if not error > 0.0 or value == 0.0:
+    if not number.error > 0.0 or number.value == 0.0:
         return digits
-    if not math.isfinite(error):
+    if not math.isfinite(number.error):
         return 0
-    unit = math.ceil(math.log10(2.0 * error) - 1e-9)
-    return max(0, min(digits, math.floor(math.log10(abs(value))) - unit + 1))
+    unit = math.ceil(math.log10(2.0 * number.error) - 1e-9)
+    return max(0, min(digits, math.floor(math.log10(abs(number.value))) - unit + 1))
 
 
-def amount(value: float, error: float = 0.0, digits: int = 4) -> str:
+def amount(number: Value, digits: int = 4) -> str:
     """A number rounded to the digits that its error allows; with the error beside it where it allows none."""
-    count = certain(value, error, digits)
-    text = plain(value, count) if count else f"{plain(value, 1)} ± {plain(error, 1)}"
-    return text.replace("-", "−")
+    count = certain(number, digits)
+    return minus(plain(number.value, count) if count else f"{plain(number.value, 1)} ± {plain(number.error, 1)}")
 
 
-def percent(part: float, error: float = 0.0, digits: int = 3) -> str:
+def percent(part: Value, digits: int = 3) -> str:
     """A part of 1 in percent, rounded like :func:`amount`."""
-    return f"{amount(100.0 * part, 100.0 * error, digits)} %"
+    return f"{amount(part.times(100.0), digits)} %"
 
 
-def supported(value: float, error: float, most: int) -> int:
-    """How many significant digits of a value a table shows beside its error, the last one in doubt; 0: none."""
-    if value == 0.0 or not error > 0.0:
+def supported(number: Value, most: int) -> int:
+    """How many significant digits of a number a table shows beside its error, the last one in doubt; 0: none."""
+    if number.value == 0.0 or not number.error > 0.0:
         return most
-    return max(0, min(most, math.floor(math.log10(abs(value))) - math.floor(math.log10(error)) + 1))
+    return max(0, min(most, math.floor(math.log10(abs(number.value))) - math.floor(math.log10(number.error)) + 1))
 
 
 def minus(text: str) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from rodwell.quantities.text import plain, prefix_for, readable
+from rodwell.quantities.text import minus, plain, prefix_for, readable
 
 KINDS: dict[str, tuple[str, str]] = {
     "length": ("m", '"30 m", "5 cm", "8.5 in"'),
@@ -180,7 +180,7 @@ class System:
         if self.name == "si" and (text := _UNITS["si"][dimension][0][0]) in _PREFIXED:
             return readable(value, text, digits)
         unit, text = self.unit(dimension, value)
-        return f"{plain(value / unit, digits)} {text if text != '1' else ''}".rstrip().replace("-", "−")
+        return minus(f"{plain(value / unit, digits)} {text if text != '1' else ''}".rstrip())
 
 
 SI = System()

@@ -68,8 +68,8 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
         out[f"{name}_error"] = Variable(("point",), branch.errors(which), _about_error(name))
     energies = [solution.energies for solution in branch]
     for name in ENERGIES:
-        out[name] = Variable(("point",), np.array([e[name][0] for e in energies]), _about(name))
-        out[f"{name}_error"] = Variable(("point",), np.array([e[name][1] for e in energies]), _about_error(name))
+        out[name] = Variable(("point",), np.array([e[name].value for e in energies]), _about(name))
+        out[f"{name}_error"] = Variable(("point",), np.array([e[name].error for e in energies]), _about_error(name))
     for name in FIELDS:
         out[name] = Variable(("point", "s"), np.array([fields[name] for fields, _ in states]), _about(name))
     errors = np.array([[error[name] for name in FIELDS] for _, error in states])
@@ -166,7 +166,8 @@ def solution_dataset(
     for name, (value, error) in solution.energies.items():
         data[name] = unit.array(name, (), np.array(value), error)
     for which, name in _MEASURED.items():
-        data[name] = unit.array(name, (), np.array(solution.number(which)[0]), solution.number(which)[1])
+        value, error = solution.number(which)
+        data[name] = unit.array(name, (), np.array(value), error)
     data["force"] = unit.array("force", (), np.array(solution.force), 0.0)
     for reaction in solution.reactions:
         for kind in ("force", "moment"):

@@ -20,8 +20,8 @@ def check_writable(out: Path, option: str = "--out") -> None:
         home = _nearest_folder(out, option)
         with tempfile.TemporaryDirectory(dir=home):
             pass
-    except OSError as problem:
-        raise _unwritable(out, problem, option) from None
+    except OSError as error:
+        raise _unwritable(out, error, option) from None
 
 
 @contextmanager
@@ -39,14 +39,14 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
     out = out.absolute()
     try:
         temporary = Path(tempfile.mkdtemp(prefix=f".{out.name[:40]}-", dir=_nearest_folder(out, option)))
-    except OSError as problem:
-        raise _unwritable(out, problem, option) from None
+    except OSError as error:
+        raise _unwritable(out, error, option) from None
     try:
         yield temporary
         with _undisturbed():
             _move(temporary, out, option)
-    except OSError as problem:
-        raise _unwritable(out, problem, option) from None
+    except OSError as error:
+        raise _unwritable(out, error, option) from None
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
 
@@ -95,5 +95,5 @@ def _undisturbed() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
-def _unwritable(out: Path, problem: OSError, option: str) -> InputError:
-    return InputError(option, str(out), f"cannot be written ({problem.strerror}); name another folder, or make room")
+def _unwritable(out: Path, error: OSError, option: str) -> InputError:
+    return InputError(option, str(out), f"cannot be written ({error.strerror}); name another folder, or make room")

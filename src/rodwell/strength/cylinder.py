@@ -7,21 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.state.compared import compared_peaks
 from rodwell.analysis.state.fields import fields_at, largest_of
 from rodwell.case.cylinder import Cylinder
-from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Peak
 
 
-@dataclass(frozen=True)
-class Stress:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stress(Peak):
     """Largest equivalent stress in the cylinder: value and error in Pa, place s/L, and part of the yield strength."""
 
-    value: float
-    error: float
-    s: float
     utilisation: float
 
 
@@ -31,9 +29,8 @@ def cylinder_stress(state: Solution, cylinder: Cylinder, scales: Scales) -> Stre
     σ = M R/I with M = √(μ² + (λ cos η)²) and τ = T₂ R/2I from the moments in the cylinder, (59). The pressing of
     the rod on the wall where it lies, and loads that do not come from the rod, are not in it.
     """
-    values, places = zip(*(_largest(state, *level, cylinder, scales) for level in state.levels), strict=True)
-    error = float(estimated_error(values[1], values[0]))
-    return Stress(values[1], error, places[1], values[1] / cylinder.yield_strength)
+    peak = compared_peaks(*(_largest(state, *level, cylinder, scales) for level in state.levels))
+    return Stress(*peak, utilisation=peak.value / cylinder.yield_strength)
 
 
 def von_mises(cylinder: Cylinder, f: dict[str, FloatArray], scales: Scales) -> FloatArray:

@@ -15,6 +15,7 @@ from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import von_mises
 from rodwell.strength.loaded import LoadedRod, OnMesh, on_mesh
 from rodwell.strength.section import rod_section
@@ -36,7 +37,7 @@ NEAR = 0.9
 LOOKS = 17
 """Forces at which the straight rod is looked at for one that it bears."""
 
-LIMIT_NOISE = 1e-12
+STRAIGHT_LOAD_NOISE = 1e-12
 """Relative error of a load found for the straight rod."""
 
 
@@ -48,8 +49,9 @@ class Limit:
     ----------
     kind
         Key of ``NAMES``.
-    force, error
-        End force F at s = 1 in B/L², tension positive, and its error estimate; None where it is reached at any load.
+    load
+        End force F at s = 1 in B/L², tension positive, with its error estimate; None where it is reached at any load.
+        Also as ``force`` (or None) and ``error``.
     s
         Where along the rod, None where it is no place.
     buckled
@@ -57,10 +59,19 @@ class Limit:
     """
 
     kind: str
-    force: float | None
-    error: float = 0.0
+    load: Value | None
     s: float | None = None
     buckled: bool = True
+
+    @property
+    def force(self) -> float | None:
+        """End force F at s = 1 in B/L², tension positive; None where it is reached at any load."""
+        return None if self.load is None else self.load.value
+
+    @property
+    def error(self) -> float:
+        """Error estimate of the force."""
+        return 0.0 if self.load is None else self.load.error
 
     @property
     def name(self) -> str:
@@ -89,14 +100,14 @@ def uses(case: Case) -> tuple[Use, ...]:
     out, rod, scales = [], rod_section(case), case.scales
     if rod is not None and rod.strength is not None:
         strength = rod.strength
-        out.append(Use(YIELDS, lambda at, n: at.largest(lambda f: rod.von_mises(f) / strength, n)))
+        out.append(Use(YIELDS, lambda mesh, n: mesh.largest(lambda f: rod.von_mises(f) / strength, n)))
     if case.cylinder is not None and scales is not None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
-        out.append(Use(CYLINDER, lambda at, n: at.largest(lambda f: von_mises(cylinder, f, scales) / bears, n)))
+        out.append(Use(CYLINDER, lambda mesh, n: mesh.largest(lambda f: von_mises(cylinder, f, scales) / bears, n)))
     if case.supports is not None and scales is not None:
         supports = case.supports
-        out.append(Use(SUPPORT, lambda at, _n: (most_used(at, supports, scales), None)))
+        out.append(Use(SUPPORT, lambda mesh, _n: (most_used(mesh, supports, scales), None)))
     return tuple(out)
 
 
@@ -106,12 +117,12 @@ def limits(case: Case, branch: Branch, critical: float) -> tuple[Limit, ...]:
     The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached.
     """
     end = end_of_the_way(branch)
-    found = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
+    out = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
     if end is not None:
         buckled = end.kind != CRITICAL
         kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
-        found.append(Limit(kind, end.force, end.error, end.s[0] if end.s else None, buckled))
-    return tuple(sorted(found, key=lambda limit: -np.inf if limit.force is None else -limit.force))
+        out.append(Limit(kind, end.load, end.s[0] if end.s else None, buckled))
+    return tuple(sorted(out, key=lambda limit: -np.inf if limit.force is None else -limit.force))
 
 
 def end_of_the_way(branch: Branch) -> SpecialPoint | None:
@@ -152,8 +163,8 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
         return None
     least, at_least = float(forces[int(np.argmin(parts))]), min(parts) - 1.0
     force = least + bracketed_root(over, 0.0, 1.0, at_least, excess) * (critical - least)
-    error = LIMIT_NOISE * (abs(least) + abs(critical))
-    return Limit(use.kind, force, error, use.of(LoadedRod("", problem, force))[1], buckled=False)
+    load = Value(force, STRAIGHT_LOAD_NOISE * (abs(least) + abs(critical)))
+    return Limit(use.kind, load, use.of(LoadedRod("", problem, force))[1], buckled=False)
 
 
 def _located(use: Use, branch: Branch, i: int) -> Limit:
@@ -169,6 +180,5 @@ def _located(use: Use, branch: Branch, i: int) -> Limit:
         solution, error = branch.zero_between(i, excess)
     except NotConvergedError:
         solution, error = branch[i], abs(branch[i + 1].force - branch[i].force)
-    return Limit(
-        use.kind, solution.force, error, use.of(LoadedRod("", branch.problem, solution.force, 0.0, solution))[1]
-    )
+    state = LoadedRod("", branch.problem, solution.force, solution=solution)
+    return Limit(use.kind, Value(solution.force, error), use.of(state)[1])

@@ -9,13 +9,14 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.straight.fields import straight_fields
-from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak, Value
 
 Fields = dict[str, FloatArray]
 
@@ -34,15 +35,6 @@ class OnMesh:
     def largest(self, size: Callable[[Fields], FloatArray], zooms: int = ZOOMS) -> tuple[float, float]:
         """Largest value along the rod of something made from the fields, and its (first) place."""
         return largest_of(lambda s: size(self.fields(s)), self.space, zooms)
-
-
-@dataclass(frozen=True)
-class Largest:
-    """Largest value of something along the rod, its error estimate, and the (first) place s/L."""
-
-    value: float
-    error: float
-    s: float
 
 
 @dataclass(frozen=True)
@@ -68,6 +60,11 @@ class LoadedRod:
     solution: Solution | None = field(default=None, repr=False)
 
     @property
+    def load(self) -> Value:
+        """The end force with its error."""
+        return Value(self.force, self.error)
+
+    @property
     def straight(self) -> bool:
         """Whether the rod is straight."""
         return self.solution is None
@@ -88,31 +85,29 @@ class LoadedRod:
         """Fields at places s (m,), in units B = L = 1; for the straight rod those that are asked for here."""
         return self.along[-1](s)
 
-    def largest(self, size: Callable[[Fields], FloatArray]) -> Largest:
+    def largest(self, size: Callable[[Fields], FloatArray]) -> Peak:
         """Largest value along the rod of something made from its fields, with its error."""
-        values, places = zip(*(at.largest(size) for at in self.along), strict=True)
-        return Largest(values[-1], float(estimated_error(values[-1], values[0])), places[-1])
+        peaks = [mesh.largest(size) for mesh in self.along]
+        return compared_peaks(peaks[0], peaks[-1])
 
     @property
-    def contact(self) -> Largest:
+    def contact(self) -> Peak:
         """Largest contact force per length on the wall, |p|, in B/L³."""
         if self.solution is None:
             return self.largest(lambda f: np.abs(f["contact_pressure"]))
-        peak = self.solution.wall.contact
-        return Largest(peak.value, peak.error, peak.s)
+        return self.solution.wall.contact
 
     @property
-    def total_contact(self) -> tuple[float, float]:
-        """Contact force on the wall in all, all directions added, and its error estimate, in B/L²."""
+    def total_contact(self) -> Value:
+        """Contact force on the wall in all, all directions added, in B/L²."""
         if self.solution is not None:
             return self.solution.total_wall_force
-        weight = self.problem.lateral_weight
-        return weight, float(estimated_error(weight, weight))
+        return compared(self.problem.lateral_weight, self.problem.lateral_weight)
 
     @property
-    def shortening(self) -> tuple[float, float]:
-        """Approach of the ends by buckling, 1 − z(1), and its error estimate, in L."""
-        return (0.0, 0.0) if self.solution is None else self.solution.number(Measured.SHORTENING)
+    def shortening(self) -> Value:
+        """Approach of the ends by buckling, 1 − z(1), in L."""
+        return Value(0.0) if self.solution is None else self.solution.number(Measured.SHORTENING)
 
 
 def on_mesh(problem: Problem, family: Family, state: State) -> OnMesh:

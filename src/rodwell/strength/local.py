@@ -10,7 +10,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rodwell.analysis.loads.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
+from rodwell.analysis.loads.long_rod import (
+    LocalLoad,
+    PipeString,
+    critical_compression,
+    length_effect,
+    lift_off_compression,
+)
 from rodwell.case.case import Case
 from rodwell.strength.loaded import LoadedRod
 
@@ -40,7 +46,7 @@ class LocalLimits:
     @property
     def applies(self) -> bool:
         """Whether the string is long enough for local limits to say something."""
-        return self.critical.value is not None
+        return self.critical.compression is not None
 
 
 @dataclass(frozen=True)
@@ -51,13 +57,13 @@ class Exceeded:
     to: float
 
 
-def string_of(case: Case) -> String | None:
+def string_of(case: Case) -> PipeString | None:
     """The local rod of a case, with its end conditions; None without dimensions or weight."""
     problem, scales = case.problem, case.scales
     if scales is None or not problem.weight > 0.0:
         return None
     weight = problem.weight * scales.factor("force_per_length")
-    return String(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
+    return PipeString(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
 
 
 def half_waves(case: Case) -> float:

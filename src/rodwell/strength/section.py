@@ -11,25 +11,23 @@ from rodwell.case.case import Case
 from rodwell.case.pipe import PhysicalRod
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Peak, Value
 from rodwell.strength.loaded import Fields, LoadedRod
 from rodwell.strength.stress import PLACES, Loading, Section, Stresses, section_of, stresses
 
 
-@dataclass(frozen=True)
-class RodStress:
-    """Largest von Mises stress in the rod: values in Pa, place s/L, and the parts that make it up there.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RodStress(Peak):
+    """Largest von Mises stress in the rod: value and error in Pa, place s/L, and the parts that make it up there.
 
-    ``safety`` is the yield strength over the stress with its error estimate, None where the strength is not known.
+    ``safety`` is the yield strength over the stress, None where the strength is not known.
     """
 
-    value: float
-    error: float
-    s: float
     fibre: str
     axial: float
     bending: float
     torsion: float
-    safety: tuple[float, float] | None
+    safety: Value | None
 
 
 @dataclass(frozen=True)
@@ -81,23 +79,24 @@ class RodSection:
 
     def largest(self, state: LoadedRod) -> RodStress:
         """Largest von Mises stress along the rod in a state."""
-        found = state.largest(self.von_mises)
-        at = self.stresses(state.fields(np.array([found.s])))
+        peak = state.largest(self.von_mises)
+        there = self.stresses(state.fields(np.array([peak.s])))
         # a force that is known to an error only changes the axial stress, if the rod is straight
-        error = found.error + (state.error * self.scales.factor("force") / self.section.area if state.straight else 0.0)
+        error = peak.error + (state.error * self.scales.factor("force") / self.section.area if state.straight else 0.0)
         safety = None
-        if self.strength is not None and found.value > 0.0:
-            factor = self.strength / found.value
-            safety = factor, factor * error / found.value
+        if self.strength is not None and peak.value > 0.0:
+            factor = self.strength / peak.value
+            safety = Value(factor, factor * error / peak.value)
+        fibre = PLACES[int(there.fibre[0])]
         return RodStress(
-            found.value,
+            peak.value,
             error,
-            found.s,
-            PLACES[int(at.fibre[0])] if at.bending[0] > 0.0 else PLACES[int(at.fibre[0])].partition(",")[0],
-            float(at.axial[0]),
-            float(at.bending[0]),
-            float(at.torsion[0]),
-            safety,
+            peak.s,
+            fibre=fibre if there.bending[0] > 0.0 else fibre.partition(",")[0],
+            axial=float(there.axial[0]),
+            bending=float(there.bending[0]),
+            torsion=float(there.torsion[0]),
+            safety=safety,
         )
 
 

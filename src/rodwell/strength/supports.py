@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.state.balance import end_loads
+from rodwell.analysis.state.compared import compared
 from rodwell.case.schema import Supports
-from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Peak
 from rodwell.strength.loaded import Fields, LoadedRod, OnMesh
 
 WHAT = {"force": "force", "moment": "bending moment", "torque": "torque"}
@@ -18,8 +19,8 @@ WHAT = {"force": "force", "moment": "bending moment", "torque": "torque"}
 ENDS = np.array([0.0, 1.0])
 
 
-@dataclass(frozen=True)
-class Support:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Support(Peak):
     """The most that one of the supports exerts: value and error in N or N m, of what, and where.
 
     ``on`` is "rod" or "cylinder", ``s`` 0.0 or 1.0; ``utilisation`` is the part of the capacity.
@@ -27,9 +28,6 @@ class Support:
 
     kind: str
     on: str
-    s: float
-    value: float
-    error: float
     capacity: float
 
     @property
@@ -45,7 +43,7 @@ class Support:
 
 def support_loads(state: LoadedRod, capacities: Supports, scales: Scales) -> tuple[Support, ...]:
     """The most loaded support for each capacity that is given."""
-    sizes = [_sizes(at(ENDS)) for at in state.along]
+    sizes = [_sizes(fields(ENDS)) for fields in state.along]
     out = []
     for kind in WHAT:
         capacity = getattr(capacities, kind)
@@ -53,9 +51,9 @@ def support_loads(state: LoadedRod, capacities: Supports, scales: Scales) -> tup
             continue
         unit = scales.factor("force" if kind == "force" else "moment")
         on, s = max(sizes[-1][kind], key=sizes[-1][kind].__getitem__)
-        value, other = (level[kind][on, s] * unit for level in (sizes[-1], sizes[0]))
-        error = float(estimated_error(value, other)) + (state.error * unit if kind == "force" else 0.0)
-        out.append(Support(kind, on, s, value, error, capacity))
+        value, error = compared(*(level[kind][on, s] * unit for level in (sizes[0], sizes[-1])))
+        error += state.error * unit if kind == "force" else 0.0
+        out.append(Support(value, error, s, kind=kind, on=on, capacity=capacity))
     return tuple(out)
 
 

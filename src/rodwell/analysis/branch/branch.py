@@ -201,8 +201,8 @@ class Branch(Shown):
                 return self[near]
         try:
             return self._between(i, value)
-        except LocationError as problem:
-            raise NotConvergedError(f"no state at {self.parameter} = {value:g}: {problem}") from None
+        except LocationError as error:
+            raise NotConvergedError(f"no state at {self.parameter} = {value:g}: {error}") from None
 
     def zero_between(self, i: int, function: Callable[[Family, State], float]) -> tuple[Solution, float]:
         """State between points i and i+1 at which a function of it changes sign, and the error of the parameter there.
@@ -219,8 +219,8 @@ class Branch(Shown):
             meshes, (coarse, fine) = self._segments(i)
             ends = function(fine.family, fine.first), function(fine.family, fine.last)
             place = locate(coarse, fine, lambda segment, state: function(segment.family, state), ends)
-        except LocationError as problem:
-            raise NotConvergedError(f"no zero between points {i} and {i + 1}: {problem}") from None
+        except LocationError as error:
+            raise NotConvergedError(f"no zero between points {i} and {i + 1}: {error}") from None
         point = meshes.point(place.coarse, place.fine)
         return self.solution(point, meshes), place.gap / CLAIMED_GAIN + LOCATED_NOISE * abs(point.lam)
 

@@ -69,8 +69,8 @@ class Exploration:
                     self.problem, start=branch[-1], parameter=parameter, until=until,
                     rtol=self.rtol, largest_step=self.largest_step,
                 )  # fmt: skip
-            except (InputError, NotConvergedError) as problem:
-                self.unexplored.append(f"{name}: {problem}")
+            except (InputError, NotConvergedError) as error:
+                self.unexplored.append(f"{name}: {error}")
                 continue
             self.branches.append(further.renamed(Origin(name, parent=branch.name)))
 
@@ -127,8 +127,8 @@ class Exploration:
                     largest_step=self.largest_step,
                     origin=origin,
                 )
-            except NotConvergedError as problem:
-                self.unexplored.append(f"{where}: {problem}")
+            except NotConvergedError as error:
+                self.unexplored.append(f"{where}: {error}")
                 continue
             self.branches.append(branch)
             self.joints.append(Joint(parent.name, branch.name, point.force))

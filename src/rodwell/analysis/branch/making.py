@@ -26,6 +26,7 @@ from rodwell.numerics.continuation.events import INDEX, TURN, LocatedEvent
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Value
 
 
 def made(problem: Problem, origin: Origin, trace: Trace, reached: bool, why: str, parameter: str = "force") -> Branch:
@@ -72,7 +73,7 @@ class _Finding:
             point, number = trace.points[-1], len(trace.points) - 1
             last = self._solution(point, trace.meshes[-1])
             index = trace.found[-1].index_after if met else last.stability_index
-            out.append(SpecialPoint(END, last.force, point.lam, 0.0, (), index, index, last, number, self.parameter))
+            out.append(SpecialPoint(END, last.force, Value(point.lam), (), index, index, last, number, self.parameter))
         return tuple(out)
 
     def _solution(self, point: MeshedState, meshes: TwoMeshes) -> Solution:
@@ -89,7 +90,8 @@ class _Finding:
             index = int(index_at_start(trace))
             if self.problem.lateral_weight == 0.0 and mode is not None:  # it lifts off as it buckles
                 places = self._solution(trace.points[1], trace.meshes[1]).highest_pressure[2]
-        return SpecialPoint(kind, first.force, point.lam, error, places, before, index, first, 0, self.parameter)
+        reached = Value(point.lam, error)
+        return SpecialPoint(kind, first.force, reached, places, before, index, first, 0, self.parameter)
 
     def _special(self, found: LocatedEvent, *, met: bool) -> SpecialPoint:
         """What was found between two points; ``met``: the branch ends there, at another one."""
@@ -103,7 +105,5 @@ class _Finding:
             kind = TOUCH_DOWN
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
         error = found.lam_error + LOCATED_NOISE * abs(found.point.lam) if kind != END else 0.0
-        index = found.index_before, found.index_after
-        return SpecialPoint(
-            kind, solution.force, found.point.lam, error, places, *index, solution, found.after, self.parameter
-        )
+        reached, index = Value(found.point.lam, error), (found.index_before, found.index_after)
+        return SpecialPoint(kind, solution.force, reached, places, *index, solution, found.after, self.parameter)

@@ -13,6 +13,7 @@ from rodwell.analysis.state.wall import WallLoads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +40,7 @@ class Solution(Equilibrium, Shown):
         return certificate_of(self)
 
     @cached_property
-    def energies(self) -> dict[str, tuple[float, float]]:
+    def energies(self) -> dict[str, Value]:
         """Strain energies, heights and work of the end loads: see :func:`rodwell.analysis.state.balance.energies`."""
         return energies(self)
 

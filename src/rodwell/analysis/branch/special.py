@@ -10,6 +10,7 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.continuation.events import INDEX, TURN
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.quantities.value import Value
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
 EQUAL_ENERGY = "equal_energy"
@@ -42,9 +43,9 @@ class SpecialPoint:
         change of the stability index that only one of the two meshes shows, since an eigenvalue vanishes to round-off.
     force
         End force at s = 1 in B/L², tension positive.
-    value, error
-        The branch's parameter there and the estimate of its error: the end force, unless the branch is followed in
-        another parameter.
+    reached
+        The branch's parameter there with the estimate of its error, also as ``value`` and ``error``: the end force,
+        unless the branch is followed in another parameter.
     s
         Where along the rod: the places that lift off; empty for other kinds.
     index_before, index_after
@@ -59,14 +60,28 @@ class SpecialPoint:
 
     kind: str
     force: float
-    value: float
-    error: float
+    reached: Value
     s: tuple[float, ...]
     index_before: int
     index_after: int
     solution: Solution
     after: int
     parameter: str = "force"
+
+    @property
+    def value(self) -> float:
+        """The branch's parameter."""
+        return self.reached.value
+
+    @property
+    def error(self) -> float:
+        """Estimate of its error."""
+        return self.reached.error
+
+    @property
+    def load(self) -> Value:
+        """The end force with the error of the parameter, which it is on a branch followed in the end force."""
+        return Value(self.force, self.error)
 
     def as_dict(self) -> dict[str, Any]:
         """Return the point without its state as plain data, for JSON."""
@@ -104,6 +119,6 @@ class Origin:
 
 def index_at_start(trace: Trace) -> int:
     """Return the index just after the start of a branch whose first point is a state of the branch that it leaves."""
-    changes = [found for found in trace.found if found.name == INDEX]
+    changes = [event for event in trace.found if event.name == INDEX]
     after_first = trace.points[min(1, len(trace.points) - 1)].fine.index
     return changes[0].index_before if changes else int(after_first)

@@ -65,7 +65,7 @@ def critical_curves(
     split = over != "alpha" and all(
         problem.but(**{over: x if x != 0.0 else start + end}).symmetric for x in (start, end)
     )
-    table = _Table(problem, over, modes, rtol, split)
+    table = _LoadsOverRange(problem, over, modes, rtol, split)
     table.fill(start, end, progress or (lambda _part: None))
     marks = table.marks()
     return tuple(
@@ -111,7 +111,7 @@ class _Node:
         return self.loads[a].slope - self.loads[b].slope
 
 
-class _Table:
+class _LoadsOverRange:
     """Nodes along the range, close enough together that cubics join them."""
 
     def __init__(self, problem: Problem, over: str, modes: int, rtol: float, split: bool) -> None:

@@ -102,10 +102,10 @@ class _Tracer:
             try:
                 why = self._accept(self._step(step), step)
                 step = min(LARGEST_STEP, 1.5 * step)
-            except CurveLostError as problem:
+            except CurveLostError as error:
                 step *= 0.5
                 if step < SMALLEST_STEP:
-                    why = str(problem)
+                    why = str(error)
             tell(min(1.0, abs(self.solved[-1].spot.x - self.solved[0].spot.x) / self.range))
         return tuple(s.as_point() for s in self.solved), tuple(self.marks), why
 
@@ -150,8 +150,8 @@ class _Tracer:
     ) -> SolvedPoint:
         try:
             return self.zero.solve(last.solution.meshes, guess, spot, travel)
-        except InputError as problem:
-            raise CurveLostError(f"the curve leaves the range of {self.zero.over}") from problem
+        except InputError as error:
+            raise CurveLostError(f"the curve leaves the range of {self.zero.over}") from error
 
     def _along_equilibria(self, last: SolvedPoint) -> bool:
         """Whether the curve runs along the equilibria at a fixed parameter, as it does where it turns back."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from rodwell.analysis.loads.long_rod import LocalLoad
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Value
 
 Solve = Callable[[float], LocalLoad]
 
@@ -62,16 +63,16 @@ def loads_at(
             known[alpha] = solve(alpha)
             tell((i + 1) / len(distinct))
     else:
-        table = _Table(inclined[0], inclined[-1], solve, precision, tell)
+        table = _LoadsOverAngle(inclined[0], inclined[-1], solve, precision, tell)
         known = {alpha: table.at(alpha) for alpha in inclined}
         solved, worst = len(table.nodes), table.worst
         if distinct[0] == 0.0:
             known[0.0] = solve(0.0)
             solved += 1
-    found = [known[alpha] for alpha in alphas]
-    values = np.array([math.nan if load.value is None else load.value for load in found])
-    errors = np.array([math.nan if load.value is None else load.error for load in found])
-    reasons = {i: load.reason for i, load in enumerate(found) if load.value is None}
+    loads = [known[alpha] for alpha in alphas]
+    compressions = [load.compression or Value(math.nan, math.nan) for load in loads]
+    values, errors = np.array([load.value for load in compressions]), np.array([load.error for load in compressions])
+    reasons = {i: load.reason for i, load in enumerate(loads) if load.compression is None}
     return Loads(values, errors, reasons, solved, worst)
 
 
@@ -104,7 +105,7 @@ class _Interval:
     reason: str = ""
 
 
-class _Table:
+class _LoadsOverAngle:
     """Exact loads at places of the table, and shape-preserving cubics between them."""
 
     def __init__(
@@ -128,7 +129,8 @@ class _Table:
     def _interpolant(self) -> Callable[[float], float]:
         from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 - slow to import
 
-        known = sorted((where, load.value) for where, load in self.nodes.items() if load.value is not None)
+        loads = ((where, load.compression) for where, load in self.nodes.items())
+        known = sorted((where, load.value) for where, load in loads if load is not None)
         if len(known) < 2:
             return lambda _where: math.nan
         curve = PchipInterpolator([x for x, _ in known], [y for _, y in known], extrapolate=False)
@@ -141,9 +143,9 @@ class _Table:
             middle = 0.5 * (low + high)
             self.nodes[middle] = self._solve(angle_at(middle))
             three = [self.nodes[where] for where in (low, middle, high)]
-            values = [load.value for load in three if load.value is not None]
+            values = [load.compression.value for load in three if load.compression is not None]
             if len(values) < 3:
-                reason = next(load.reason for load in three if load.value is None)
+                reason = next(load.reason for load in three if load.compression is None)
                 self._done.append(_Interval(low, high, math.nan, reason))
                 continue
             gap = abs(curve(middle) / values[1] - 1.0)
@@ -166,4 +168,6 @@ class _Table:
         if part.reason:
             return LocalLoad(None, reason=f"no exact load at an inclination near by: {part.reason}")
         value = self._curve(where)
-        return LocalLoad(value, self.nodes[near].error + max(part.gap, self._precision.tolerance) * value)
+        node = self.nodes[near].compression
+        error = 0.0 if node is None else node.error
+        return LocalLoad(Value(value, error + max(part.gap, self._precision.tolerance) * value))

@@ -15,6 +15,7 @@ from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Value
 
 HALF_WAVES = 20
 """Length for the critical load, within 1 % of the limit (0.5 % for clamped ends in a horizontal hole)."""
@@ -34,7 +35,7 @@ STEP = 0.15
 
 
 @dataclass(frozen=True)
-class String:
+class PipeString:
     """The pipe and its clearance: B in N m², w in N/m (in its fluid), r in m; end conditions of the local rod."""
 
     stiffness: float
@@ -61,37 +62,36 @@ class String:
 class LocalLoad:
     """A compression in N at the lower end of the local rod, positive, with its error estimate; or why there is none."""
 
-    value: float | None
-    error: float = 0.0
+    compression: Value | None
     reason: str = ""
 
 
-def critical_compression(string: String, alpha: float, half_waves: float = HALF_WAVES) -> LocalLoad:
+def critical_compression(string: PipeString, alpha: float, half_waves: float = HALF_WAVES) -> LocalLoad:
     """First critical load: compression −N(0) = −F + γ cos α at the lower end, in N; error of this length's load."""
     problem, unit = string.problem(alpha, half_waves)
     try:
         mode = critical_loads(problem, 1, rtol=RTOL_CRITICAL)[0]
-    except NotConvergedError as found:
-        return LocalLoad(None, reason=str(found))
-    return LocalLoad((problem.axial_weight - mode.force) * unit, mode.error * unit)
+    except NotConvergedError as error:
+        return LocalLoad(None, reason=str(error))
+    return LocalLoad(Value((problem.axial_weight - mode.force) * unit, mode.error * unit))
 
 
-def lift_off_compression(string: String, alpha: float, half_waves: float = LIFT_OFF_HALF_WAVES) -> LocalLoad:
+def lift_off_compression(string: PipeString, alpha: float, half_waves: float = LIFT_OFF_HALF_WAVES) -> LocalLoad:
     """Lift-off of the first mode, compression at the lower end in N; in a vertical hole it coincides with buckling."""
     problem, unit = string.problem(alpha, half_waves)
     if problem.lateral_weight == 0.0:
         return critical_compression(string, alpha)
     try:
         branch = follow(problem, 1, rtol=RTOL_LIFT_OFF, largest_step=STEP)
-    except (InputError, NotConvergedError) as found:
-        return LocalLoad(None, reason=str(found))
+    except (InputError, NotConvergedError) as error:
+        return LocalLoad(None, reason=str(error))
     lift = branch.lift_off
     if lift is None:
         return LocalLoad(None, reason=f"lift-off was not found: {branch.ended_because}")
-    return LocalLoad((problem.axial_weight - lift.force) * unit, lift.error * unit)
+    return LocalLoad(Value((problem.axial_weight - lift.force) * unit, lift.error * unit))
 
 
-def length_effect(string: String, alpha: float, whole: LocalLoad | None = None) -> float:
+def length_effect(string: PipeString, alpha: float, whole: LocalLoad | None = None) -> float:
     """How far the critical load of this length is from that of an endless rod, relative: an estimate.
 
     From the load at half the length, and that at the ``whole`` length if it is known. The gap falls with the square of
@@ -99,7 +99,7 @@ def length_effect(string: String, alpha: float, whole: LocalLoad | None = None) 
     """
     whole = critical_compression(string, alpha) if whole is None else whole
     half = critical_compression(string, alpha, 0.5 * HALF_WAVES)
-    if half.value is None or whole.value is None or whole.value == 0.0:
+    if half.compression is None or whole.compression is None or whole.compression.value == 0.0:
         return math.nan
     at_longest = string.length(alpha) >= 0.999 * string.length(0.0)
-    return abs(half.value / whole.value - 1.0) / (1.0 if at_longest else 3.0)
+    return abs(half.compression.value / whole.compression.value - 1.0) / (1.0 if at_longest else 3.0)

@@ -27,11 +27,12 @@ from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
+from rodwell.quantities.value import Value
 
 PARAMETERS = ("weight", "alpha", "clearance")
 """The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L."""
 
-Derivatives = dict[str, tuple[float, float]]
+Derivatives = dict[str, Value]
 
 
 @dataclass(frozen=True)
@@ -66,19 +67,20 @@ class Sensitivity:
         ``alpha``, in percent for one degree more. From F = (B/L²) f(mg L³/B, α, Δ/L): e_B = 1 − e_mg,
         e_L = 3 e_mg − e_Δ − 2.
         """
-        weight, e_weight = self._relative("weight", self.problem.weight)
-        clearance, e_clearance = self._relative("clearance", self.problem.clearance)
+        weight = self._relative("weight", self.problem.weight)
+        clearance = self._relative("clearance", self.problem.clearance)
+        length = 3.0 * weight.value - clearance.value - 2.0
         return {
-            "weight_per_length": (weight, e_weight),
-            "clearance": (clearance, e_clearance),
-            "stiffness": (1.0 - weight, e_weight),
-            "length": (3.0 * weight - clearance - 2.0, 3.0 * e_weight + e_clearance),
+            "weight_per_length": weight,
+            "clearance": clearance,
+            "stiffness": Value(1.0 - weight.value, weight.error),
+            "length": Value(length, 3.0 * weight.error + clearance.error),
             "alpha": self._relative("alpha", 100.0),
         }
 
-    def _relative(self, name: str, scale: float) -> tuple[float, float]:
+    def _relative(self, name: str, scale: float) -> Value:
         value, error = self.derivatives[name]
-        return value * scale / self.force, abs(error * scale / self.force)
+        return Value(value * scale / self.force, abs(error * scale / self.force))
 
     def as_dict(self) -> dict[str, Any]:
         """Everything about it, for JSON."""
@@ -115,10 +117,10 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         If a load cannot be computed.
     """
     rtol = checked_rtol(rtol)
-    found = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
-    out = [of_critical_load(found)]
+    buckling = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
+    out = [of_critical_load(buckling)]
     if problem.pressed:
-        lift = follow(problem, found, rtol=rtol).lift_off
+        lift = follow(problem, buckling, rtol=rtol).lift_off
         if lift is not None:
             out.append(of_lift_off(lift))
     return tuple(out)
@@ -128,11 +130,11 @@ def of_critical_load(mode: Mode) -> Sensitivity:
     """Derivatives of a critical load, from its mode on both meshes."""
     fine, coarse = (_by_mode(mode.problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
     scales = {"weight": mode.problem.weight or 1.0, "alpha": 90.0, "clearance": mode.problem.clearance}
-    found = {}
+    derivatives = {}
     for name, scale in scales.items():
         round_off = NUMBER_NOISE * (abs(fine[name]) + abs(mode.force) / scale)
-        found[name] = (fine[name], abs(fine[name] - coarse[name]) + round_off)
-    return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, found)
+        derivatives[name] = Value(fine[name], abs(fine[name] - coarse[name]) + round_off)
+    return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, derivatives)
 
 
 def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:
@@ -152,7 +154,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         spread = np.abs(errors / by_force) + np.abs(each * force_error / by_force)
         # compression grows: the place that touches at the larger F lifts off first, so α falling takes the smallest
         which = int(np.argmin(each)) if name == "alpha" else int(np.argmax(spread))
-        out[name] = (float(each[which]), float(spread[which]))
+        out[name] = Value(float(each[which]), float(spread[which]))
         if np.ptp(each) > 10.0 * np.max(spread):
             note = "lifts off at several places at once: the derivative by α is that towards smaller α"
     return Sensitivity("lift-off load", solution.problem, solution.force, out, note)

@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import Any
 
 from rodwell.analysis.proof.enclosures import Enclosure, bits, checked_digits, exact
-from rodwell.analysis.proof.inertia import Rod
+from rodwell.analysis.proof.inertia import EnclosedRod
 from rodwell.analysis.proof.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
@@ -147,13 +147,13 @@ def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits:
     return CertifiedLoad(problem, item.number, force, item.multiplicity, name)
 
 
-def _rod(problem: Problem, x: Ball) -> Rod:
+def _rod(problem: Problem, x: Ball) -> EnclosedRod:
     """The rod at the end force −x, at the present precision."""
     weight, clearance, ends = weights(problem), ball(exact(problem.clearance)), problem.ends
     if problem.lateral_weight == 0.0 and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
         ends = {"guided": "clamped", "free": "pinned"}[ends[0]], ends[1]
     foundation = weight[1] / clearance
-    return Rod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
+    return EnclosedRod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
 
 
 def ball(value: Fraction) -> Ball:

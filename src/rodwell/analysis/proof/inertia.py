@@ -55,7 +55,7 @@ class Inertia(NamedTuple):
     determinant: Ball
 
 
-class Rod(NamedTuple):
+class EnclosedRod(NamedTuple):
     """A straight rod under load, in balls.
 
     Attributes
@@ -72,7 +72,7 @@ class Rod(NamedTuple):
     ends: tuple[str, str]
 
 
-def inertia(rod: Rod, least: int = 0) -> Inertia:
+def inertia(rod: EnclosedRod, least: int = 0) -> Inertia:
     """Negative directions of Q: the critical loads above the rod's end force, each as often as it is multiple.
 
     Parameters
@@ -118,7 +118,7 @@ def _part(i: int, j: int) -> int:
     return i // 2 + j // 2
 
 
-def elements(rod: Rod) -> int:
+def elements(rod: EnclosedRod) -> int:
     """Number of elements that resolve the rod, and inside which Q should be positive."""
     top, bottom = float(rod.force), float(rod.force - rod.axial)
     tension = max(top, bottom) / TENSION_COUNTS
@@ -133,7 +133,7 @@ def elements(rod: Rod) -> int:
     return count
 
 
-def _check_interiors(rod: Rod, count: int) -> None:
+def _check_interiors(rod: EnclosedRod, count: int) -> None:
     """Prove that Q is positive inside each of ``count`` elements."""
     wave = (rod.force.pi() * count) ** 2  # π²/h²
     slack = 4 * wave + rod.force.min(rod.force - rod.axial)

@@ -9,7 +9,7 @@ from typing import Any
 
 from rodwell.analysis.proof.certify import DIGITS, SPARE, ClosedForm, ball, certify, check_sign_change, weights
 from rodwell.analysis.proof.enclosures import Enclosure, bits, checked_digits, enclosure
-from rodwell.analysis.proof.inertia import Rod, inertia
+from rodwell.analysis.proof.inertia import EnclosedRod, inertia
 from rodwell.analysis.proof.roots import Counter, critical_values
 from rodwell.errors import NotConvergedError
 from rodwell.physics.exact import vertical
@@ -154,11 +154,12 @@ def _check_double(n: int, m: int, before: int, digits: int) -> None:
     with ctx.workprec(2 * bits(digits)):
         force, foundation = -(_pi() ** 2) * (n * n + m * m), _pi() ** 4 * (n * n * m * m)
         gap = abs(force) * arb(10) ** (-digits)
-        found = [
-            inertia(Rod(force + side * gap, arb(0), foundation, ("clamped", "clamped"))).negative for side in (1, -1)
+        counts = [
+            inertia(EnclosedRod(force + side * gap, arb(0), foundation, ("clamped", "clamped"))).negative
+            for side in (1, -1)
         ]
-    if found != [before, before + 2]:
-        raise NotConvergedError(f"Table 1, n = {n}, m = {m}: {found} loads above and below")
+    if counts != [before, before + 2]:
+        raise NotConvergedError(f"Table 1, n = {n}, m = {m}: {counts} loads above and below")
 
 
 def self_weights(count: int, digits: int = DIGITS) -> list[Enclosure]:
@@ -167,13 +168,13 @@ def self_weights(count: int, digits: int = DIGITS) -> list[Enclosure]:
     Counted along γ: Q falls as γ grows. (86) is proved to change its sign over each.
     """
     equation = ClosedForm("(86)", lambda weight: vertical.scorer_determinant(_zero(), weight))
-    return _by_weight(lambda w: Rod(_zero(), w, _zero(), ("clamped", "clamped")), equation, count, digits)
+    return _by_weight(lambda w: EnclosedRod(_zero(), w, _zero(), ("clamped", "clamped")), equation, count, digits)
 
 
 def sway_weights(count: int, digits: int = DIGITS) -> list[Enclosure]:
     """Enclosures of the first self-weights γ at which a rod free to sway at s = 1 buckles at F = 0: (88)."""
     equation = ClosedForm("(88)", vertical.sway_bessel)
-    return _by_weight(lambda w: Rod(_zero(), w, _zero(), ("clamped", "guided")), equation, count, digits)
+    return _by_weight(lambda w: EnclosedRod(_zero(), w, _zero(), ("clamped", "guided")), equation, count, digits)
 
 
 def weights_on_top(count: int, digits: int = DIGITS) -> list[Enclosure]:
@@ -184,12 +185,12 @@ def weights_on_top(count: int, digits: int = DIGITS) -> list[Enclosure]:
         return x.cos() - 1 / x.cosh()
 
     return _by_weight(
-        lambda w: Rod(_zero(), _zero(), -w / ball(CLEARANCE), ("clamped", "clamped")),
+        lambda w: EnclosedRod(_zero(), _zero(), -w / ball(CLEARANCE), ("clamped", "clamped")),
         ClosedForm("cos x cosh x = 1", equation), count, digits,
     )  # fmt: skip
 
 
-def _by_weight(rod: Callable[[Ball], Rod], equation: ClosedForm, count: int, digits: int) -> list[Enclosure]:
+def _by_weight(rod: Callable[[Ball], EnclosedRod], equation: ClosedForm, count: int, digits: int) -> list[Enclosure]:
     """Critical weights along a family in which Q falls as the weight grows."""
     found = critical_values(Counter(rod), Fraction(1), Fraction(10), count, digits)
     for item in found:
@@ -204,9 +205,9 @@ def weight_at_two_degrees(digits: int = DIGITS) -> Enclosure:
     rod to the wall, it is not proved that no smaller weight does it.
     """
 
-    def rod(weight: Ball) -> Rod:
+    def rod(weight: Ball) -> EnclosedRod:
         axial, lateral = weights(Problem(1.0, alpha=2.0))
-        return Rod(_zero(), weight * axial, weight * lateral / ball(CLEARANCE), ("clamped", "clamped"))
+        return EnclosedRod(_zero(), weight * axial, weight * lateral / ball(CLEARANCE), ("clamped", "clamped"))
 
     return critical_values(Counter(rod), Fraction(120), Fraction(10), 1, digits)[0].enclosure
 

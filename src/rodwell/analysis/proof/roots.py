@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from rodwell.analysis.proof.enclosures import Enclosure, bits
-from rodwell.analysis.proof.inertia import Inertia, Rod, UndecidedError, elements, inertia
+from rodwell.analysis.proof.inertia import EnclosedRod, Inertia, UndecidedError, elements, inertia
 from rodwell.errors import NotConvergedError
 
 Ball = Any
@@ -47,7 +47,7 @@ class Counter:
         From x, a ball, to the rod there, in balls; its index may not fall as x grows.
     """
 
-    rod: Callable[[Ball], Rod]
+    rod: Callable[[Ball], EnclosedRod]
     known: dict[Fraction, Inertia] = field(default_factory=dict)
 
     def at(self, x: Fraction, precision: int, elements: int = 0) -> Inertia:
@@ -59,8 +59,8 @@ class Counter:
             with ctx.workprec(precision * factor):
                 try:
                     return inertia(self.rod(arb(fmpq(x.numerator, x.denominator))), elements)
-                except UndecidedError as problem:
-                    reason = problem
+                except UndecidedError as error:
+                    reason = error
         raise NotConvergedError(f"certified counts: {reason} cannot be decided with {precision * PRECISIONS[-1]} bits")
 
     def elements(self, x: Fraction) -> int:

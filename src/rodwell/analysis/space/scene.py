@@ -51,8 +51,8 @@ def drawn(
     if rod_radius is None and scales is not None and scales.radius is not None:
         try:
             return geometry(solution, places, rod_radius=scales.radius / scales.length, radial_scale=radial_scale)
-        except InputError as problem:
-            if problem.field != "rod_radius":
+        except InputError as error:
+            if error.field != "rod_radius":
                 raise
     return geometry(solution, places, rod_radius=rod_radius, radial_scale=radial_scale)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
 from rodwell.numerics.equilibria.error import estimated_error
@@ -15,6 +16,7 @@ from rodwell.physics.on_wall.frames import frames
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Value
 
 ENERGIES = ("bending_energy", "twist_energy", "lateral_energy", "axial_energy", "end_work")
 """Names of the energies; bending + lateral + axial − end work is the energy that is stationary."""
@@ -45,10 +47,10 @@ class Reaction:
     moment_error: FloatArray
 
 
-def energies(solution: Equilibrium) -> dict[str, tuple[float, float]]:
+def energies(solution: Equilibrium) -> dict[str, Value]:
     """Energies in B/L relative to the straight, equally twisted rod, each with its error estimate; see ``ENERGIES``."""
     coarse, fine = (_energies(solution.problem, f, state) for f, state in solution.levels)
-    return {k: (fine[k], float(estimated_error(fine[k], coarse[k]))) for k in ENERGIES}
+    return {k: compared(coarse[k], fine[k]) for k in ENERGIES}
 
 
 def _energies(problem: Problem, family: Family, state: State) -> dict[str, float]:

@@ -9,6 +9,7 @@ from warnings import warn
 import numpy as np
 
 from rodwell.analysis.discrete.measures import Measured, pressure_maxima
+from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family, State
@@ -16,6 +17,7 @@ from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak, Value
 
 
 @dataclass(frozen=True)
@@ -75,9 +77,9 @@ class Equilibrium:
         """Value of a parameter of :data:`rodwell.analysis.discrete.family.PATHS`."""
         return self.force if parameter == "force" else float(getattr(self.problem, parameter))
 
-    def number(self, which: Measured) -> tuple[float, float]:
-        """Return a measured number and its error estimate."""
-        return float(self.point.values[which]), float(self.point.error[which])
+    def number(self, which: Measured) -> Value:
+        """Return a measured number with its error estimate."""
+        return Value(float(self.point.values[which]), float(self.point.error[which]))
 
     @cached_property
     def highest_pressure(self) -> tuple[float, float, tuple[float, ...]]:
@@ -105,13 +107,12 @@ class Equilibrium:
         coarse, fine = (fields_at(self.problem, f, state, places) for f, state in self.levels)
         return fine, {k: float(np.max(estimated_error(fine[k], coarse[k]))) for k in fine}
 
-    def largest(self, name: str) -> tuple[float, float, float]:
-        """Largest size of a field over s, its error estimate, and where (the first place, if there are more)."""
-        values, places = zip(*(largest(self.problem, f, state, name) for f, state in self.levels), strict=True)
-        return values[1], float(estimated_error(values[1], values[0])), places[1]
+    def largest(self, name: str) -> Peak:
+        """Largest size of a field over s with its error estimate, and where (the first place, if there are more)."""
+        return compared_peaks(*(largest(self.problem, f, state, name) for f, state in self.levels))
 
     @cached_property
-    def end_reactions(self) -> dict[str, tuple[float, float]]:
+    def end_reactions(self) -> dict[str, Value]:
         """What the fitting at s = 1 exerts on the rod across the axis, each with its error estimate.
 
         ``shear``: circumferential force in B/L², at a clamped end F₃(1) = ω₂′(1) along u₁; ``moment``: bending moment
@@ -120,12 +121,11 @@ class Equilibrium:
         """
         coarse, fine = (end_force(f, state) for f, state in self.levels)
         return {
-            "shear": (fine.shear, float(estimated_error(fine.shear, coarse.shear))),
-            "moment": (fine.omega2, float(estimated_error(fine.omega2, coarse.omega2))),
+            "shear": compared(coarse.shear, fine.shear),
+            "moment": compared(coarse.omega2, fine.omega2),
         }
 
     @cached_property
-    def total_wall_force(self) -> tuple[float, float]:
-        """∫|p| ds, the contact force with all directions added, and its error estimate."""
-        totals = [total_wall_force(f, state) for f, state in self.levels]
-        return totals[1], float(estimated_error(totals[1], totals[0]))
+    def total_wall_force(self) -> Value:
+        """∫|p| ds, the contact force with all directions added, with its error estimate."""
+        return compared(*(total_wall_force(f, state) for f, state in self.levels))

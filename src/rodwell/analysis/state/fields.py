@@ -27,10 +27,10 @@ CLOSER = 21
 NEAR, MOST_PEAKS = 0.05, 12
 """Peaks on the grid within this part of the largest are looked at closely, at most so many of them."""
 
-EQUAL = 1e-10
+EQUAL_PEAKS = 1e-10
 """Peaks that differ by less than this part count as equal: the largest value is then at the first of them."""
 
-EQUAL_PEAKS = 1e-13
+EQUAL_VALUES = 1e-13
 """Values that differ by less than this part count as equal: the largest value is then at the first of their places."""
 
 PLACES = 10
@@ -122,9 +122,9 @@ def largest_of(
         left, right = s[rows, np.maximum(peaks - 1, 0)], s[rows, np.minimum(peaks + 1, s.shape[1] - 1)]
         s = np.linspace(left, right, CLOSER, axis=1)
         sizes = size(s.ravel()).reshape(s.shape)
-        peaks = np.argmax(sizes >= (1.0 - EQUAL_PEAKS) * np.max(sizes, axis=1, keepdims=True), axis=1)
+        peaks = np.argmax(sizes >= (1.0 - EQUAL_VALUES) * np.max(sizes, axis=1, keepdims=True), axis=1)
     values = np.max(sizes, axis=1)
-    first = int(np.argmax(values >= (1.0 - EQUAL) * np.max(values)))
+    first = int(np.argmax(values >= (1.0 - EQUAL_PEAKS) * np.max(values)))
     return float(np.max(values)), float(s[first, peaks[first]])
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.equilibrium import Equilibrium
+from rodwell.quantities.value import Peak, Value
 
 SELF_BALANCED = 1e-6
 """A support torque below this part of the largest twisting moment counts as none."""
@@ -16,15 +17,6 @@ MOMENTS = {
     "cylinder_M3": "bending moment λ cos η in the cylinder about u₂ (around the wall)",
 }
 """The moments in the cylinder, (59), and what they are."""
-
-
-@dataclass(frozen=True)
-class Peak:
-    """Largest size of a field along the rod: ``value`` ≥ 0 with its error estimate ``error``, at ``s`` (0 to 1)."""
-
-    value: float
-    error: float
-    s: float
 
 
 @dataclass(frozen=True)
@@ -45,16 +37,16 @@ class WallLoads:
     """
 
     contact: Peak
-    total: tuple[float, float]
+    total: Value
     twisting: Peak
     bending_mu: Peak
     bending_lambda: Peak
-    torque: tuple[float, float]
+    torque: Value
 
     @property
     def needs_torque(self) -> bool:
         """Whether the support must provide a torque; it need not where T₂ is symmetric about mid-length (4.1.2)."""
-        return abs(self.torque[0]) > SELF_BALANCED * self.twisting.value
+        return abs(self.torque.value) > SELF_BALANCED * self.twisting.value
 
     @property
     def meaning(self) -> str:
@@ -68,13 +60,12 @@ class WallLoads:
 
 def wall_loads(solution: Equilibrium) -> WallLoads:
     """Return the loads on cylinder and supports in a state."""
-    peaks = {name: Peak(*solution.largest(name)) for name in ("contact_pressure", *MOMENTS)}
-    torque = solution.number(Measured.TORQUE_0)
+    peaks = {name: solution.largest(name) for name in ("contact_pressure", *MOMENTS)}
     return WallLoads(
         contact=peaks["contact_pressure"],
         total=solution.total_wall_force,
         twisting=peaks["T2"],
         bending_mu=peaks["mu"],
         bending_lambda=peaks["cylinder_M3"],
-        torque=torque,
+        torque=solution.number(Measured.TORQUE_0),
     )

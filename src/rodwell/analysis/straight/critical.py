@@ -18,6 +18,7 @@ from rodwell.physics.on_wall.linear import second_variation
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
+from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.faces import Axes
@@ -42,10 +43,9 @@ class Mode:
         The problem that it belongs to.
     number
         1 for the mode met first as compression grows.
-    force
-        Critical end force F at s = 1 in B/L², tension positive.
-    error
-        Estimate of its error, in B/L²: the difference between two nested meshes, plus round-off.
+    load
+        Critical end force F at s = 1 in B/L², tension positive, with the estimate of its error: the difference between
+        two nested meshes, plus round-off. Also as ``force`` and ``error``.
     parity
         1 if y(1−s) = y(s), −1 if y(1−s) = −y(s), 0 if the mode has no symmetry (inclined cylinder).
     wavenumber
@@ -59,13 +59,22 @@ class Mode:
 
     problem: Problem
     number: int
-    force: float
-    error: float
+    load: Value
     parity: int
     wavenumber: float
     space: SplineSpace
     coefficients: FloatArray
     coarse: tuple[SplineSpace, FloatArray]
+
+    @property
+    def force(self) -> float:
+        """Critical end force F at s = 1 in B/L², tension positive."""
+        return self.load.value
+
+    @property
+    def error(self) -> float:
+        """Estimate of its error, in B/L²."""
+        return self.load.error
 
     def shape(self, s: FloatArray) -> FloatArray:
         """Mode y(s) at ``s`` (m,), scaled to a largest deflection of 1."""
@@ -145,7 +154,8 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     better, shapes = _with_symmetry(problem, finer, better[:count], shapes)
     _, vectors = _with_symmetry(problem, space, values[:count], vectors)
     return CriticalLoads(
-        _mode(problem, finer, i + 1, -better[i], error[i], shapes[i], (space, vectors[i])) for i in range(int(count))
+        _mode(problem, finer, i + 1, Value(-float(better[i]), float(error[i])), shapes[i], (space, vectors[i]))
+        for i in range(int(count))
     )
 
 
@@ -177,8 +187,8 @@ def _solve(
     try:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
         values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess, near)
-    except eigen.EigenError as problem_found:
-        raise NotConvergedError(f"critical loads: {problem_found}") from None
+    except eigen.EigenError as error:
+        raise NotConvergedError(f"critical loads: {error}") from None
     return values, full(vectors)
 
 
@@ -221,8 +231,7 @@ def _mode(
     problem: Problem,
     space: SplineSpace,
     number: int,
-    force: float,
-    error: float,
+    load: Value,
     vector: FloatArray,
     coarse: tuple[SplineSpace, FloatArray],
 ) -> Mode:
@@ -232,4 +241,4 @@ def _mode(
         vector = 0.5 * (vector + parity * vector[::-1])
     if _sense(problem, space, vector) < 0.0:
         vector = -vector
-    return Mode(problem, number, float(force), float(error), parity, space.wavenumber(vector), space, vector, coarse)
+    return Mode(problem, number, load, parity, space.wavenumber(vector), space, vector, coarse)

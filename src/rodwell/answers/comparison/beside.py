@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rodwell.answers.comparison.exact_loads import PLACES, Load
+from rodwell.answers.comparison.exact_loads import PLACES, ExactLoad
 from rodwell.case.case import Case
 from rodwell.errors import InputError, checked_number
-from rodwell.formulas import FORMULAS, Formula, Rod
+from rodwell.formulas import FORMULAS, Formula, FormulaInputs
 from rodwell.formulas.helix import LARGEST_HELIX, small_angle_error
 from rodwell.formulas.record import Place
 from rodwell.problem.problem import Problem
@@ -53,7 +53,7 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class Row:
+class FormulaRow:
     """A formula of a load: its value in B/L², compression positive, beside the exact loads at all three places.
 
     ``against`` names the exact load that its kind asks for; ``reasons`` why the rod is outside the formula's validity
@@ -97,23 +97,25 @@ class Other:
 
 
 def load_rows(
-    case: Case | Problem, loads: tuple[Load, ...], extra: Mapping[str, float] | None = None
-) -> tuple[Row, ...]:
+    case: Case | Problem, loads: tuple[ExactLoad, ...], extra: Mapping[str, float] | None = None
+) -> tuple[FormulaRow, ...]:
     """Hold every formula of a load against exact ones that are known: the first critical load first."""
     rod = _known_rod(case, extra or {})
     order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
     return tuple(_row(formula, rod, loads) for formula in order)
 
 
-def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> Rod:
+def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> FormulaInputs:
     """The rod with all that the case and ``extra`` tell of it."""
     known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra)
     return rod_of(case.problem if isinstance(case, Case) else case, tuple(known.items()))
 
 
-def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> Rod:
+def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> FormulaInputs:
     """Return the rod of a problem in units B = L = 1, as formulas take it."""
-    return Rod(1.0, problem.weight, problem.alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more)
+    return FormulaInputs(
+        1.0, problem.weight, problem.alpha, problem.clearance, 1.0, problem.ends, problem.pressed, more
+    )
 
 
 def _extra(extra: Mapping[str, float]) -> dict[str, float]:
@@ -135,7 +137,7 @@ def _section(case: Case | Problem) -> dict[str, float]:
     return out
 
 
-def _value(formula: Formula, rod: Rod, missing: tuple[str, ...]) -> float | None:
+def _value(formula: Formula, rod: FormulaInputs, missing: tuple[str, ...]) -> float | None:
     """Value, or None where the formula has none."""
     if missing:
         return None
@@ -146,7 +148,7 @@ def _value(formula: Formula, rod: Rod, missing: tuple[str, ...]) -> float | None
     return value if math.isfinite(value) else None
 
 
-def _row(formula: Formula, rod: Rod, loads: tuple[Load, ...]) -> Row:
+def _row(formula: Formula, rod: FormulaInputs, loads: tuple[ExactLoad, ...]) -> FormulaRow:
     missing, reasons = formula.missing(rod), list(formula.violations(rod))
     value = _value(formula, rod, missing)
     bent = {"build", "turn"} & set(formula.takes) and any(dict(rod.more).get(name) for name in ("build", "turn"))
@@ -156,10 +158,10 @@ def _row(formula: Formula, rod: Rod, loads: tuple[Load, ...]) -> Row:
     wanted = (MEANT.get(formula.key, ""), *AGAINST[formula.kind])
     against = next(name for name in wanted if name in names)
     pairs = [] if value is None or bent else [compare(value, load, place) for load in loads for place in PLACES]
-    return Row(formula, value, against, tuple(pairs), tuple(reasons), missing)
+    return FormulaRow(formula, value, against, tuple(pairs), tuple(reasons), missing)
 
 
-def compare(value: float, load: Load, place: Place) -> Comparison:
+def compare(value: float, load: ExactLoad, place: Place) -> Comparison:
     """Hold the compression ``value`` in B/L² against an exact load at a place."""
     exact = load.at(place)
     percent = error = None
@@ -169,7 +171,7 @@ def compare(value: float, load: Load, place: Place) -> Comparison:
     return Comparison(load.name, place, exact, load.error, percent, error, value <= exact + load.error)
 
 
-def _other(formula: Formula, rod: Rod, load: Load, problem: Problem) -> Other:
+def _other(formula: Formula, rod: FormulaInputs, load: ExactLoad, problem: Problem) -> Other:
     """A formula of another kind, at the bottom's compression in the first critical load."""
     force = load.at("bottom")
     more: dict[str, float] = {"F": force} if force > 0.0 else {}
@@ -179,7 +181,7 @@ def _other(formula: Formula, rod: Rod, load: Load, problem: Problem) -> Other:
         more["T"] = problem.twist
     if force > 0.0:
         more["p"] = math.pi * math.sqrt(8.0 / force)
-    full = Rod(rod.B, rod.w, rod.alpha, rod.r, rod.L, rod.ends, rod.pressed, (*rod.more, *more.items()))
+    full = FormulaInputs(rod.B, rod.w, rod.alpha, rod.r, rod.L, rod.ends, rod.pressed, (*rod.more, *more.items()))
     missing = formula.missing(full)
     error = None
     if not missing and formula.kind == "helix" and 0.0 < force * rod.r**2 < LARGEST_HELIX:

@@ -30,7 +30,7 @@ STARTS = (0.75, 0.85, 0.95)
 
 
 @dataclass(frozen=True)
-class Load:
+class ExactLoad:
     """An exact load of a problem.
 
     Attributes
@@ -56,13 +56,13 @@ class Load:
         return -self.force + self.axial_weight * (1.0 - WHERE[place])
 
 
-def critical(problem: Problem, rtol: float = RTOL) -> Load:
+def critical(problem: Problem, rtol: float = RTOL) -> ExactLoad:
     """First critical load of the straight rod."""
     mode = critical_loads(problem, 1, rtol=rtol)[0]
-    return Load("critical", "first critical load", mode.force, mode.error, problem.axial_weight)
+    return ExactLoad("critical", "first critical load", mode.force, mode.error, problem.axial_weight)
 
 
-def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[Load, ...], tuple[str, ...]]:
+def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, ...], tuple[str, ...]]:
     """Return the exact loads of a problem, and what could not be had with the reason.
 
     The first critical load; lift-off of the branch that starts there; for a horizontal rod whose ends hold the angle,
@@ -87,23 +87,23 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[Load, ...],
     return tuple(found), tuple(notes)
 
 
-def _add(found: list[Load], notes: list[str], what: str, compute: Callable[[], list[Load]]) -> None:
+def _add(found: list[ExactLoad], notes: list[str], what: str, compute: Callable[[], list[ExactLoad]]) -> None:
     """Add loads, or the reason why they are not known."""
     try:
         found += compute()
-    except (InputError, NotConvergedError) as reason:
-        notes.append(f"{what}: {reason}")
+    except (InputError, NotConvergedError) as error:
+        notes.append(f"{what}: {error}")
 
 
-def _lift_off(problem: Problem, rtol: float) -> Load:
+def _lift_off(problem: Problem, rtol: float) -> ExactLoad:
     branch = follow(problem.but(twist=0.0), 1, rtol=rtol)
     if branch.lift_off is None or not branch.converged:
         raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
     lift = branch.lift_off
-    return Load("lift_off", "lift-off of mode 1", lift.force, lift.error, problem.axial_weight)
+    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, problem.axial_weight)
 
 
-def _coil(problem: Problem, rtol: float) -> list[Load]:
+def _coil(problem: Problem, rtol: float) -> list[ExactLoad]:
     """Least compression at which a coil of whole turns, in contact throughout, has the energy of the straight rod.
 
     And that at which this coil leaves the wall as it is unloaded, if it was met. Few turns need the least: the rod
@@ -122,10 +122,10 @@ def _coil(problem: Problem, rtol: float) -> list[Load]:
         raise NotConvergedError("no coil in contact throughout was found that has the energy of the straight rod")
     point, turns, branch = best
     name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.axial_weight
-    loads = [Load("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
+    loads = [ExactLoad("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
     touch = _first(branch, "touch_down")
     if touch is not None:
-        loads.append(Load("touch_down", f"{name} leaves the wall, unloaded", touch.force, touch.error, axial))
+        loads.append(ExactLoad("touch_down", f"{name} leaves the wall, unloaded", touch.force, touch.error, axial))
     return loads
 
 

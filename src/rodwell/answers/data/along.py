@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rodwell.analysis.state.fields import GRID
-from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.assessment import Assessment
+from rodwell.case.case import Case
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
 from rodwell.strength.loaded import Fields, LoadedRod
@@ -31,23 +33,23 @@ class Along:
     stresses: Stresses | None
 
 
-def along(answer: Answer, places: int | None = None) -> tuple[Along, ...]:
+def along(a: Assessment, places: int | None = None) -> tuple[Along, ...]:
     """Return every state of an answer along the rod: at buckling, at lift-off, at the applied loads.
 
     At evenly spaced places: two for each element of the finest mesh, or 201 if these are more.
     """
     if places is None:
-        solutions = [state.solution for state in answer.assessment.states if state.solution is not None]
-        places = max([GRID, *(2 * one.point.fine.space.elements + 1 for one in solutions)])
-    s, section, out = np.linspace(0.0, 1.0, places), answer.assessment.section, []
-    for state in answer.assessment.states:
+        solutions = [state.solution for state in a.states if state.solution is not None]
+        places = max([GRID, *(2 * solution.point.fine.space.elements + 1 for solution in solutions)])
+    s, out = np.linspace(0.0, 1.0, places), []
+    for state in a.states:
         f = state.fields(s)
-        loading = None if section is None else section.loading(f)
-        out.append(Along(state, s, f, loading, None if section is None else section.stresses(f)))
+        loading = None if a.section is None else a.section.loading(f)
+        out.append(Along(state, s, f, loading, None if a.section is None else a.section.stresses(f)))
     return tuple(out)
 
 
-def shown(answer: Answer, states: tuple[Along, ...]) -> Along:
+def shown(states: tuple[Along, ...]) -> Along:
     """The state whose stresses are drawn: at the most compressive load that acts; else at lift-off, or at buckling."""
     applied = [one for one in states if one.state.name.startswith("at the applied")]
     if applied:
@@ -55,25 +57,21 @@ def shown(answer: Answer, states: tuple[Along, ...]) -> Along:
     return states[min(1, len(states) - 1)]
 
 
-def along_table(answer: Answer, tables: tuple[Table, ...] | None = None) -> Table:
-    """Table of every state along the rod, one below the other: SI units with dimensions, else B = L = 1.
-
-    ``tables`` are those of :func:`along_tables`, if they are there already.
-    """
-    tables = along_tables(answer) if tables is None else tables
+def along_table(tables: Sequence[Table]) -> Table:
+    """One table of every state along the rod, one below the other, from those of :func:`along_tables`."""
     rows = tuple((table.name, *row) for table in tables for row in table.rows)
     return Table("along the rod", ("state", *tables[0].columns), rows, notes=NOTES)
 
 
-def along_tables(answer: Answer) -> tuple[Table, ...]:
-    """The same as a table for each state, for the sheets of a workbook: its name is that of the state."""
-    columns = _columns(answer)
-    return tuple(Table(one.state.name, columns, tuple(_rows(answer, one)), notes=NOTES) for one in along(answer))
+def along_tables(a: Assessment) -> tuple[Table, ...]:
+    """A table along the rod for each state, named after it: SI units with dimensions, else B = L = 1."""
+    columns = _columns(a)
+    return tuple(Table(one.state.name, columns, tuple(_rows(a.case, one)), notes=NOTES) for one in along(a))
 
 
-def _columns(answer: Answer) -> tuple[str, ...]:
+def _columns(a: Assessment) -> tuple[str, ...]:
     length, force, per_length, moment = "L", "B/L2", "B/L3", "B/L"
-    if answer.case.scales is not None:
+    if a.case.scales is not None:
         length, force, per_length, moment = "m", "N", "N/m", "N m"
     columns = [
         "s/L",
@@ -86,7 +84,7 @@ def _columns(answer: Answer) -> tuple[str, ...]:
         f"twisting moment in the rod [{moment}]",
         f"twisting moment in the cylinder T2 [{moment}]",
     ]
-    if answer.assessment.section is not None:
+    if a.section is not None:
         columns += [
             "real axial force in the wall, tension positive [N]",
             "axial stress [Pa]",
@@ -96,14 +94,14 @@ def _columns(answer: Answer) -> tuple[str, ...]:
             "hoop stress, inner surface [Pa]",
             "largest von Mises stress [Pa]",
         ]
-        if answer.case.yield_strength is not None:
+        if a.case.yield_strength is not None:
             columns.append("safety factor against yield")
     return tuple(columns)
 
 
-def _rows(answer: Answer, one: Along) -> list[tuple[Cell, ...]]:
+def _rows(case: Case, one: Along) -> list[tuple[Cell, ...]]:
     """The numbers of one state, place by place."""
-    f, scales = one.fields, answer.case.scales
+    f, scales = one.fields, case.scales
     length, force, per_length, moment = (
         1.0 if scales is None else scales.factor(name) for name in ("length", "force", "force_per_length", "moment")
     )
@@ -119,7 +117,7 @@ def _rows(answer: Answer, one: Along) -> list[tuple[Cell, ...]]:
         f["T2"] * moment,
     ]
     if one.stresses is not None and one.loading is not None:
-        t, strength = one.stresses, answer.case.yield_strength
+        t, strength = one.stresses, case.yield_strength
         parts += [one.loading.force, t.axial, t.bending, t.torsion, t.hoop_outer, t.hoop_inner, t.von_mises]
         if strength is not None:
             parts.append(strength / np.maximum(t.von_mises, strength / LARGEST_SAFETY))

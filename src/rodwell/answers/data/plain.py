@@ -6,33 +6,35 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
-from rodwell.answers.comparison.beside import Row
+from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.verdict import verdict
 from rodwell.problem.problem import ends_text
-from rodwell.quantities.names import SI_UNITS, UNITS
+from rodwell.quantities.names import UNITS
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Value
 from rodwell.strength.loaded import LoadedRod
+from rodwell.strength.local import LocalLimits
 
 
-def assessment_dict(answer: Answer) -> dict[str, Any]:
+def assessment_dict(a: Assessment) -> dict[str, Any]:
     """Verdict, loads that act, window with limits, states with stresses, local limits, formulas."""
-    a = answer.assessment
-    window = a.window
+    window, scales = a.window, a.case.scales
     return {
-        "verdict": verdict(answer),
+        "verdict": verdict(a),
         "window": {
-            "buckling": _force(a, *window.buckling),
-            "lift_off": None if window.lift_off is None else _force(a, *window.lift_off),
-            "width": None if window.width is None else _force(a, *window.width),
+            "buckling": _quantity(scales, window.buckling),
+            "lift_off": None if window.lift_off is None else _quantity(scales, window.lift_off),
+            "width": None if window.width is None else _quantity(scales, window.width),
             "percent_of_compression_at_bottom": window.percent,
             "ends_by": None if window.end is None else window.end.kind,
             "limits": [
                 {
                     "kind": limit.kind,
                     "name": limit.name,
-                    "force": None if limit.force is None else _force(a, limit.force, limit.error),
+                    "force": None if limit.load is None else _quantity(scales, limit.load),
                     "s": limit.s,
                     "buckled": limit.buckled,
                 }
@@ -40,44 +42,37 @@ def assessment_dict(answer: Answer) -> dict[str, Any]:
             ],
         },
         "states": [state_dict(a, state) for state in a.states],
-        "applied": [_applied(a, at) for at in a.applied],
-        "local": _local(a),
-        "formulas": [_formula(a, row) for row in a.formulas],
+        "applied": [_applied(scales, at) for at in a.applied],
+        "local": None if a.local is None else _local(a.local),
+        "formulas": [_formula(scales, row) for row in a.formulas],
     }
 
 
-def _quantity(a: Assessment, value: float, error: float, dimension: str) -> dict[str, Any]:
+def _quantity(scales: Scales | None, number: Value, dimension: str = "force") -> dict[str, Any]:
     """Value and error in units B = L = 1, and in SI where the case has dimensions."""
-    out: dict[str, Any] = {"value": value, "error": error, "unit": UNITS[dimension]}
-    if a.case.scales is not None:
-        factor = a.case.scales.factor(dimension)
-        out["si"] = {"value": value * factor, "error": error * factor, "unit": SI_UNITS[dimension]}
-    return out
-
-
-def _force(a: Assessment, value: float, error: float) -> dict[str, Any]:
-    return _quantity(a, value, error, "force")
+    out: dict[str, Any] = {"value": number.value, "error": number.error, "unit": UNITS[dimension]}
+    return out if scales is None else out | {"si": scales.si(number, dimension)}
 
 
 def state_dict(a: Assessment, state: LoadedRod) -> dict[str, Any]:
     """A state: forces at both ends, contact, shortening, stress, supports."""
-    contact = state.contact
+    contact, scales = state.contact, a.case.scales
     out: dict[str, Any] = {
         "name": state.name,
         "shape": "straight" if state.straight else "buckled",
-        "force": _force(a, state.force, state.error),
-        "force_at_bottom": _force(a, state.at_bottom, state.error),
-        "largest_wall_force": _quantity(a, contact.value, contact.error, "force_per_length") | {"s": contact.s},
-        "total_wall_force": _force(a, *state.total_contact),
-        "end_shortening": _quantity(a, *state.shortening, "length"),
+        "force": _quantity(scales, state.load),
+        "force_at_bottom": _quantity(scales, Value(state.at_bottom, state.error)),
+        "largest_wall_force": _quantity(scales, contact, "force_per_length") | {"s": contact.s},
+        "total_wall_force": _quantity(scales, state.total_contact),
+        "end_shortening": _quantity(scales, state.shortening, "length"),
     }
-    found = a.stress(state)
-    if found is not None:
+    stress = a.stress(state)
+    if stress is not None:
         out["rod_stress"] = {
-            "von_Mises_Pa": found.value, "error_Pa": found.error, "s": found.s, "fibre": found.fibre,
-            "axial_Pa": found.axial, "bending_Pa": found.bending, "torsion_Pa": found.torsion,
-            "safety_factor": None if found.safety is None else found.safety[0],
-            "safety_factor_error": None if found.safety is None else found.safety[1],
+            "von_Mises_Pa": stress.value, "error_Pa": stress.error, "s": stress.s, "fibre": stress.fibre,
+            "axial_Pa": stress.axial, "bending_Pa": stress.bending, "torsion_Pa": stress.torsion,
+            "safety_factor": None if stress.safety is None else stress.safety.value,
+            "safety_factor_error": None if stress.safety is None else stress.safety.error,
         }  # fmt: skip
     cylinder = a.cylinder(state)
     if cylinder is not None:
@@ -85,9 +80,9 @@ def state_dict(a: Assessment, state: LoadedRod) -> dict[str, Any]:
             "von_Mises_Pa": cylinder.value, "error_Pa": cylinder.error, "s": cylinder.s, "used": cylinder.utilisation,
         }  # fmt: skip
     out["supports"] = [
-        {"kind": one.kind, "on": one.on, "s": one.s, "value": one.value, "error": one.error,
-         "capacity": one.capacity, "used": one.utilisation}
-        for one in a.supports(state)
+        {"kind": support.kind, "on": support.on, "s": support.s, "value": support.value, "error": support.error,
+         "capacity": support.capacity, "used": support.utilisation}
+        for support in a.supports(state)
     ]  # fmt: skip
     over = a.over_local(state)
     if over is not None:
@@ -95,39 +90,37 @@ def state_dict(a: Assessment, state: LoadedRod) -> dict[str, Any]:
     return out
 
 
-def _applied(a: Assessment, at: AtLoad) -> dict[str, Any]:
+def _applied(scales: Scales | None, at: AtLoad) -> dict[str, Any]:
     load = at.load
     return {
         "given": load.given,
         "at": "bottom" if load.bottom else "top",
         "kind": "real" if load.real else "effective",
-        "force": _force(a, load.force, 0.0),
+        "force": _quantity(scales, Value(load.force)),
         "what": at.what,
         "why": at.why,
         "state": None if at.state is None else at.state.name,
     }
 
 
-def _local(a: Assessment) -> dict[str, Any] | None:
-    local = a.local
-    if local is None:
-        return None
+def _local(local: LocalLimits) -> dict[str, Any]:
     loads = {"critical": local.critical, "lift_off": local.lift_off}
     out: dict[str, Any] = {"half_waves": local.half_waves, "applies": local.applies}
     for name, load in loads.items():
-        out[name] = {"compression_N": load.value, "error_N": load.error, "reason": load.reason}
+        value, error = (None, 0.0) if load.compression is None else load.compression
+        out[name] = {"compression_N": value, "error_N": error, "reason": load.reason}
     if local.applies:
         out["relative_gap_to_an_endless_rod"] = local.length_effect
     return out
 
 
-def _formula(a: Assessment, row: Row) -> dict[str, Any]:
+def _formula(scales: Scales | None, row: FormulaRow) -> dict[str, Any]:
     main, f = row.main, row.formula
     assert main is not None
     assert row.value is not None
     return {
-        "key": f.key, "name": f.name, "place": f.place, "compression": _force(a, row.value, 0.0),
-        "against": row.against, "exact": _force(a, main.exact, main.error), "percent": main.percent,
+        "key": f.key, "name": f.name, "place": f.place, "compression": _quantity(scales, Value(row.value)),
+        "against": row.against, "exact": _quantity(scales, Value(main.exact, main.error)), "percent": main.percent,
         "safe": main.safe, "valid": row.valid, "outside_because": list(row.reasons),
     }  # fmt: skip
 
@@ -135,7 +128,7 @@ def _formula(a: Assessment, row: Row) -> dict[str, Any]:
 def answer_dict(answer: Answer) -> dict[str, Any]:
     """Return the answer as plain data, for JSON."""
     case, problem = answer.case, answer.case.problem
-    lift, assessment = answer.lift_off, assessment_dict(answer)
+    lift, assessment = answer.lift_off, assessment_dict(answer.assessment)
     return {
         "title": case.title,
         "verdict": assessment.pop("verdict"),
@@ -164,7 +157,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         },
         "conversions": [fact.as_dict() for fact in case.facts],
         "yield_strength_Pa": case.yield_strength,
-        "figures": {name: figure.as_dict(case) for name, figure in answer.figures.items()},
+        "figures": {name: key.as_dict(case) for name, key in answer.key_numbers.items()},
         "branches": [_branch_dict(branch) for branch in answer.branches],
         "assessment": assessment,
         "sensitivities": [

@@ -1,9 +1,14 @@
-"""The key figures and special points of an answer as tables of numbers, for CSV and XLSX."""
+"""The key numbers and special points of an answer as tables of numbers, for CSV and XLSX."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.result.answer import Answer
-from rodwell.answers.result.figure import Figure
+from rodwell.answers.result.key_number import KeyNumber
+from rodwell.quantities.names import UNITS
+from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Cell, Table
 
 NOTES = (
@@ -13,43 +18,40 @@ NOTES = (
 
 
 def answer_tables(answer: Answer) -> tuple[Table, Table]:
-    """Return key figures and special points, with all digits: as in answer.json, and in the reader's units."""
-    return key_figures(answer), special_points(answer)
+    """Return key numbers and special points, with all digits: as in answer.json, and in the reader's units."""
+    scales = answer.case.scales
+    return _key_numbers(answer.key_numbers.values(), scales), _special_points(answer.branches, scales)
 
 
-def key_figures(answer: Answer) -> Table:
-    """One row for each key figure."""
-    physical = answer.case.scales is not None
+def _key_numbers(numbers: Iterable[KeyNumber], scales: Scales | None) -> Table:
+    """One row for each key number."""
     columns = ["name", "quantity", "value (B = L = 1)", "± error", "unit"]
-    columns += ["value", "± error", "unit of value"] if physical else []
-    rows = tuple(_row(answer, figure) for figure in answer.figures.values())
+    columns += ["value", "± error", "unit of value"] if scales is not None else []
+    rows = tuple(_row(number, scales) for number in numbers)
     return Table("Key figures", (*columns, "remark"), rows, notes=NOTES)
 
 
-def _row(answer: Answer, figure: Figure) -> tuple[Cell, ...]:
-    plain = figure.as_dict(answer.case)
-    cells: list[Cell] = [figure.name, figure.label, figure.value, figure.error, plain["unit"]]
-    scales = answer.case.scales
+def _row(key: KeyNumber, scales: Scales | None) -> tuple[Cell, ...]:
+    cells: list[Cell] = [key.name, key.label, key.value, key.error, UNITS[key.dimension]]
     if scales is not None:
-        shown = scales.shown(figure.value, figure.error, figure.dimension)
+        shown = scales.shown(key.number, key.dimension)
         cells += [shown["value"], shown["error"], shown["unit"]]
-    return (*cells, figure.note or None)
+    return (*cells, key.note or None)
 
 
-def special_points(answer: Answer) -> Table:
+def _special_points(branches: Iterable[Branch], scales: Scales | None) -> Table:
     """One row for each special point of each branch, in order of travel."""
-    scales = answer.case.scales
     columns = ["mode", "kind", "end force F at s = 1 [B/L^2]", "± error [B/L^2]"]
     if scales is not None:
         unit = scales.system.unit("force")[1]
         columns += [f"end force F at s = 1 [{unit}]", f"± error [{unit}]"]
     columns += ["stability index before", "stability index after", "places s/L"]
     rows: list[tuple[Cell, ...]] = []
-    for branch in answer.branches:
+    for branch in branches:
         for point in branch.special_points:
             cells: list[Cell] = [branch.mode.number if branch.mode else None, point.kind, point.force, point.error]
             if scales is not None:
-                shown = scales.shown(point.force, point.error, "force")
+                shown = scales.shown(point.load, "force")
                 cells += [shown["value"], shown["error"]]
             places = ", ".join(f"{s:.10g}" for s in point.s) or None
             rows.append((*cells, point.index_before, point.index_after, places))

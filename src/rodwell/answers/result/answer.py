@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.answers.result.assessment import Assessment
-from rodwell.answers.result.assessment_figures import assessment_figures
+from rodwell.answers.result.assessment_numbers import assessment_numbers
 from rodwell.answers.result.computed import Computed, compute
-from rodwell.answers.result.figure import Figure, force_scale
-from rodwell.answers.result.figures import critical_figure, critical_length, real_force, state_figures, stress_figure
+from rodwell.answers.result.key_number import KeyNumber, force_scale
+from rodwell.answers.result.key_numbers import (
+    critical_length,
+    critical_number,
+    real_force,
+    state_numbers,
+    stress_number,
+)
 from rodwell.case.case import Case
 from rodwell.faces import Shown, drawn, plain
 
@@ -26,11 +33,11 @@ class Answer(Computed, Shown):
 
     @property
     def converged(self) -> bool:
-        """Whether every reported number meets the tolerance: branches, special points and key figures."""
+        """Whether every reported number meets the tolerance: branches, special points and key numbers."""
         rtol = self.case.rtol
         return (
             all(branch.converged for branch in self.branches)
-            and all(figure.error <= rtol * figure.scale for figure in self.figures.values())
+            and all(key.number.within(rtol, key.scale) for key in self.key_numbers.values())
             and self.assessment.converged
         )
 
@@ -40,9 +47,9 @@ class Answer(Computed, Shown):
         return Assessment(self)
 
     @cached_property
-    def figures(self) -> dict[str, Figure]:
-        """The key figures by name."""
-        out = [critical_figure(mode) for mode in self.critical]
+    def key_numbers(self) -> dict[str, KeyNumber]:
+        """The key numbers by name."""
+        out = [critical_number(mode) for mode in self.critical]
         out += real_force(out[0], self.case) + critical_length(self.case.problem)
         lift = self.lift_off
         if lift is not None:
@@ -50,14 +57,20 @@ class Answer(Computed, Shown):
             if self.first.lift_off_at_buckling:
                 note = "coincides with buckling: no lateral weight presses the rod to the wall"
             label = "Lift-off load, end force at s = 1"
-            out.append(Figure("lift_off_load", label, lift.force, lift.error, "force", force_scale(lift.force), note))
+            out.append(KeyNumber("lift_off_load", label, lift.load, "force", force_scale(lift.force), note))
             out += real_force(out[-1], self.case)
         if self.at_lift_off is not None:
-            out += state_figures(self.at_lift_off)
-        out += assessment_figures(self.assessment)
+            out += state_numbers(self.at_lift_off)
+        out += assessment_numbers(self.assessment)
         if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
-            out.append(stress_figure(self.at_lift_off, self.case.cylinder, self.case.scales))
-        return {figure.name: figure for figure in out}
+            out.append(stress_number(self.at_lift_off, self.case.cylinder, self.case.scales))
+        return {key.name: key for key in out}
+
+    @property
+    def figures(self) -> dict[str, KeyNumber]:
+        """The old name of :attr:`key_numbers`: a figure is a picture."""
+        warnings.warn("Answer.figures is now Answer.key_numbers", DeprecationWarning, stacklevel=2)
+        return self.key_numbers
 
     def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None) -> Axes:
         """Draw the bifurcation diagram in the case's units: see :meth:`rodwell.Branch.plot`; return the axes."""

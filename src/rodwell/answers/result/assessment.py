@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from rodwell.answers.comparison.beside import Row, load_rows
-from rodwell.answers.comparison.exact_loads import Load
+from rodwell.answers.comparison.beside import FormulaRow, load_rows
+from rodwell.answers.comparison.exact_loads import ExactLoad
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import Stress, cylinder_stress
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
 from rodwell.strength.loaded import LoadedRod
@@ -32,41 +33,41 @@ class Window:
     Attributes
     ----------
     buckling, lift_off
-        Force and error estimate; ``lift_off`` None where none was found.
+        ``lift_off`` is None where none was found.
     limits
         What gives on the way, the least compressive first; the last is the end of the window.
     bottom
         Compression at the lower end s = 0 at buckling, against which widths are given in percent.
     """
 
-    buckling: tuple[float, float]
-    lift_off: tuple[float, float] | None
+    buckling: Value
+    lift_off: Value | None
     limits: tuple[Limit, ...]
     bottom: float
 
     @property
-    def width(self) -> tuple[float, float] | None:
-        """How much compression can be added from buckling to the end of the window, and its error estimate.
+    def width(self) -> Value | None:
+        """How much compression can be added from buckling to the end of the window.
 
         The end is lift-off, or the loss of stability before it; None where neither was found.
         """
         end = self.end
-        if end is None or end.force is None:
+        if end is None or end.load is None:
             return None
-        return self.buckling[0] - end.force, self.buckling[1] + end.error
+        return Value(self.buckling.value - end.load.value, self.buckling.error + end.load.error)
 
     @property
     def percent(self) -> float | None:
         """The width in percent of the compression at the lower end at buckling."""
-        return None if self.share is None else 100.0 * self.share[0]
+        return None if self.share is None else 100.0 * self.share.value
 
     @property
-    def share(self) -> tuple[float, float] | None:
-        """The width as a part of the compression at the lower end at buckling, and its error estimate."""
+    def share(self) -> Value | None:
+        """The width as a part of the compression at the lower end at buckling."""
         if self.width is None or self.bottom <= 0.0:
             return None
-        part = self.width[0] / self.bottom
-        return part, (self.width[1] + abs(part) * self.buckling[1]) / self.bottom
+        part = self.width.value / self.bottom
+        return Value(part, (self.width.error + abs(part) * self.buckling.error) / self.bottom)
 
     @property
     def end(self) -> Limit | None:
@@ -151,8 +152,8 @@ class Assessment:
             return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE)
         try:
             solution = branch.at(load.force)
-        except (InputError, NotConvergedError) as found:
-            return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {found}")
+        except (InputError, NotConvergedError) as error:
+            return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {error}")
         return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
 
     def stress(self, state: LoadedRod) -> RodStress | None:
@@ -184,10 +185,9 @@ class Assessment:
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
         lift, problem = self.computed.lift_off, self.case.problem
-        found = limits(self.case, self.branch, self.critical.force)
+        gives = limits(self.case, self.branch, self.critical.force)
         bottom = problem.axial_weight - self.critical.force
-        pair = None if lift is None else (lift.force, lift.error)
-        return Window((self.critical.force, self.critical.error), pair, found, bottom)
+        return Window(self.critical.load, None if lift is None else lift.load, gives, bottom)
 
     @cached_property
     def local(self) -> LocalLimits | None:
@@ -196,19 +196,18 @@ class Assessment:
 
     def over_local(self, state: LoadedRod) -> Exceeded | None:
         """Where the compression exceeds the local critical one in a state, None where there is none."""
-        if self.local is None or not self.local.applies or self.case.scales is None:
+        if self.local is None or self.local.critical.compression is None or self.case.scales is None:
             return None
-        assert self.local.critical.value is not None
-        return exceeded(state, self.local.critical.value, self.case.scales.factor("force"))
+        return exceeded(state, self.local.critical.compression.value, self.case.scales.factor("force"))
 
     @cached_property
-    def formulas(self) -> tuple[Row, ...]:
+    def formulas(self) -> tuple[FormulaRow, ...]:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
         weight = self.case.problem.axial_weight
-        loads = [Load("critical", "first critical load", self.critical.force, self.critical.error, weight)]
+        loads = [ExactLoad("critical", "first critical load", self.critical.force, self.critical.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:
-            loads.append(Load("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))
+            loads.append(ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))
         rows = load_rows(self.case, tuple(loads))
         shown = [row for row in rows if row.value and row.main is not None and (row.valid or row.formula.key in KNOWN)]
         return tuple(shown)

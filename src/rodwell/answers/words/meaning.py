@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -10,12 +11,15 @@ from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF
 from rodwell.analysis.state.extent import FADED, buckled_to
 from rodwell.analysis.straight.critical import Mode
 from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
+from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
-from rodwell.quantities.text import percent
-
-__all__ = ["ASSUMPTIONS", "assumptions", "force_text", "place_text", "sentences"]
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, percent
+from rodwell.quantities.value import Value
 
 ASSUMPTIONS = (
     "end force and end torque are dead loads at s = 1",
@@ -44,50 +48,52 @@ ENDS_HOLD = {
 }
 
 
-def assumptions(answer: Answer) -> tuple[str, ...]:
+def assumptions(case: Case) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
-    fluids = (EFFECTIVE,) if answer.case.with_fluids else ()
-    return (ends_text(answer.case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
+    fluids = (EFFECTIVE,) if case.with_fluids else ()
+    return (ends_text(case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
 
 
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
-    out = [verdict(answer), *load_sentences(answer), _mode(answer)]
-    out += _applied(answer)
-    out += [_lift_off(answer), _stability(answer), *window_sentences(answer), _wall(answer), _inputs(answer)]
+    a = answer.assessment
+    out = [verdict(a), *load_sentences(a), _mode(answer.critical, answer.case), _asked(answer), _lift_off(answer)]
+    out += [_stability(answer), *window_sentences(a)]
+    out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
     return [sentence for sentence in out if sentence]
 
 
-def _mode(answer: Answer) -> str:
-    first = answer.critical[0]
+def _mode(critical: Sequence[Mode], case: Case) -> str:
+    """How the rod buckles, and how far up."""
+    first = critical[0]
     s = np.union1d(np.linspace(0.0, 1.0, 2001), first.space.greville)[1:-1]
     y = first.shape(s)
     farthest, y = buckled_to(first), y[np.abs(y) > FADED]
     waves = 1 + int(np.sum(np.sign(y[1:]) * np.sign(y[:-1]) < 0.0))
-    error = shape_error(answer)
+    error = shape_error(critical)
     about = "" if error < FADED else "about "
-    why = "axial weight" if answer.case.problem.axial_weight != 0.0 else "unequal ends"
+    why = "axial weight" if case.problem.axial_weight != 0.0 else "unequal ends"
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = f"It buckles sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
-        place = place_text(answer, farthest, error / _falls(first, farthest))
+        place = place_text(case.scales, Value(farthest, error / _falls(first, farthest)))
         text += f" Beyond {place} the rod stays straight (deflections below {FADED:g} of the largest)."
-    if len(answer.critical) > 1:
-        second, size = answer.critical[1], max(abs(first.force), 1e-300)
-        gap, error = abs(second.force - first.force) / size, (first.error + second.error) / size
-        if gap < 0.05:
-            text += f" The second mode follows within {percent(gap, error, 2)}: imperfections may favour either."
+    if len(critical) > 1:
+        second, size = critical[1], max(abs(first.force), 1e-300)
+        gap = Value(abs(second.force - first.force) / size, (first.error + second.error) / size)
+        if gap.value < 0.05:
+            text += f" The second mode follows within {percent(gap, 2)}: imperfections may favour either."
     return text
 
 
-def shape_error(answer: Answer) -> float:
+def shape_error(critical: Sequence[Mode]) -> float:
     """Error of the first mode's shape, as part of its largest deflection.
 
     A load's error is of second order in that of its mode: their ratio to the gap to the next load is the square.
     """
-    first = answer.critical[0]
-    others = [abs(mode.force - first.force) for mode in answer.critical[1:]] or [abs(first.force)]
+    first = critical[0]
+    others = [abs(mode.force - first.force) for mode in critical[1:]] or [abs(first.force)]
     return math.sqrt(first.error / max(min(others), 1e-300))
 
 
@@ -97,47 +103,44 @@ def _falls(mode: Mode, faded: float) -> float:
     return max(abs(float(slope / y)) * FADED, 1e-300)
 
 
-def _applied(answer: Answer) -> list[str]:
-    until = answer.case.until
-    if until is None:
-        return []
-    first = answer.critical[0].force
-    if until >= first:
-        return [
-            f"At the end force asked for, {force_text(answer, until)} at s = 1, the straight rod is stable; the "
-            "diagrams go beyond it to show what follows."
-        ]
-    return []
+def _asked(computed: Computed) -> str:
+    """The rod at the end force asked for, if that does not buckle it."""
+    until, scales = computed.case.until, computed.case.scales
+    if until is None or until < computed.critical[0].force:
+        return ""
+    return (
+        f"At the end force asked for, {force_text(scales, Value(until))} at s = 1, the straight rod is stable; the "
+        "diagrams go beyond it to show what follows."
+    )
 
 
-def _lift_off(answer: Answer) -> str:
-    lift = answer.lift_off
-    if lift is None and not answer.first.reached_end:
-        lowest, highest = (force_text(answer, force) for force in answer.first.reach)
+def _lift_off(computed: Computed) -> str:
+    lift, first, scales = computed.lift_off, computed.first, computed.case.scales
+    if lift is None and not first.reached_end:
+        lowest, highest = (force_text(scales, Value(force)) for force in first.reach)
         return (
             f"No lift-off was found on the first mode, but its branch could be followed only over end forces from "
-            f"{lowest} to {highest} at s = 1: {answer.first.ended_because}."
+            f"{lowest} to {highest} at s = 1: {first.ended_because}."
         )
     if lift is None:
-        down_to = force_text(answer, answer.until)
+        down_to = force_text(scales, Value(computed.until))
         return f"The first mode does not lift off the wall down to the end force {down_to} at s = 1."
-    if answer.first.lift_off_at_buckling:
+    if first.lift_off_at_buckling:
         return (
             "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "
             "as soon as it buckles."
         )
-    force = force_text(answer, lift.force, lift.error)
     return (
-        f"The buckled rod stays on the wall until the end force at s = 1 is {force}; there it lifts off at "
-        f"{places_text(answer, lift)}."
+        f"The buckled rod stays on the wall until the end force at s = 1 is {force_text(scales, lift.load)}; there it "
+        f"lifts off at {places_text(scales, lift)}."
     )
 
 
-def _stability(answer: Answer) -> str:
+def _stability(computed: Computed) -> str:
     """Where the buckled shape is stable, from the special points up to lift-off in the order of travel."""
-    branch = answer.first
+    branch = computed.first
     points = list(branch.special_points)
-    to_lift_off = answer.at_lift_off is not None
+    to_lift_off = computed.at_lift_off is not None
     if to_lift_off:
         points = points[: 1 + next(i for i, p in enumerate(points) if p.kind == LIFT_OFF)]
     what = "up to lift-off" if to_lift_off else "over the range shown"
@@ -148,59 +151,55 @@ def _stability(answer: Answer) -> str:
         return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
     if lost.kind == CRITICAL:
         return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
-    where = force_text(answer, lost.force, lost.error)
+    where = force_text(computed.case.scales, lost.load)
     return (
         f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
         "there the rod takes another shape."
     )
 
 
-def _inputs(answer: Answer) -> str:
+def _inputs(computed: Computed) -> str:
     """What a change of the inputs does to the load that matters, and what their uncertainty does."""
-    load, spread = answer.sensitivities[-1], answer.spreads[-1]
+    load, spread = computed.sensitivities[-1], computed.spreads[-1]
     if abs(load.force) < SMALL_LOAD:
         return ""
     e = load.elasticities()
     names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
-    parts = ", ".join(f"{names[name]} {_signed(*e[name])}" for name in names)
+    parts = ", ".join(f"{names[name]} {_signed(e[name])}" for name in names)
     text = f"One percent more of an input changes the {load.name} by: {parts}; one degree more from the vertical by "
-    text += f"{_signed(*e['alpha'])}."
+    text += f"{_signed(e['alpha'])}."
     if spread is not None:
-        scales = answer.case.scales
+        scales = computed.case.scales
         size = f"{spread.total:.2g} B/L²" if scales is None else scales.system.text(spread.total, "force", 3)
         text += f" The uncertainties given make it uncertain by ±{size}, most of it from {spread.largest}."
     return text
 
 
-def _signed(value: float, error: float) -> str:
+def _signed(change: Value) -> str:
     """A change in percent with its sign: two decimals, or as many as the error allows."""
-    places = 2
+    places, (value, error) = 2, change
     while places > 0 and 0.5 * 10.0**-places < error:
         places -= 1
     text = f"{value:+.{places}f}" if 0.5 * 10.0**-places >= error else f"{value:+.1g} ± {error:.1g}"
-    return f"{text} %".replace("-", "−")
+    return minus(f"{text} %")
 
 
-def _wall(answer: Answer) -> str:
-    if answer.at_lift_off is None:
-        return ""
-    figures = answer.figures
+def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
+    """What wall and supports bear at lift-off."""
 
     def text(name: str, unit: str) -> str:
-        figure = figures[name]
-        return size_text(answer, figure.value, figure.error, figure.dimension, unit)
+        return size_text(scales, numbers[name].number, numbers[name].dimension, unit)
 
-    torque = figures["support_torque"]
     support = (
         "the cylinder's supports need no torque"
-        if torque.value == 0.0
+        if numbers["support_torque"].value == 0.0
         else f"the support at s = 0 must provide a torque of {text('support_torque', 'B/L')} (if the rod's weight is "
         "taken up along the cylinder; else the fittings of the rod do)"
     )
     stress = ""
-    if "cylinder_stress" in figures:
-        figure = figures["cylinder_stress"]
-        stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {figure.note.split(',')[0]}."
+    if "cylinder_stress" in numbers:
+        note = numbers["cylinder_stress"].note.split(",")[0]
+        stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {note}."
     return (
         f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
         f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "

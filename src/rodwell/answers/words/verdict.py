@@ -2,206 +2,187 @@
 
 from __future__ import annotations
 
-from rodwell.answers.result.answer import Answer
-from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, AtLoad
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.wording import force_text, quantity, size_text
+from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
-from rodwell.quantities.text import amount, percent
-from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, YIELDS, Limit
+from rodwell.quantities.text import amount, minus, percent
+from rodwell.quantities.value import Value
+from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, YIELDS
 from rodwell.strength.loaded import LoadedRod
 
 
-def verdict(answer: Answer) -> str:
+def verdict(a: Assessment) -> str:
     """The answer in one sentence with its assumptions.
 
     For the loads that act the most compressive one; without such loads, where the rod buckles and how far it is from
     there to lift-off.
     """
-    loads = answer.assessment.applied
-    text = _range(answer) if not loads else _at(answer, min(loads, key=lambda at: at.load.force))
-    return f"{text}; assumptions: {_assumed(answer)}."
+    text = _range(a) if not a.applied else _at(a, min(a.applied, key=lambda at: at.load.force))
+    return f"{text}; assumptions: {_assumed(a.case)}."
 
 
-def load_sentences(answer: Answer) -> list[str]:
+def load_sentences(a: Assessment) -> list[str]:
     """What becomes of the rod at the loads that act, other than the one of the verdict; then where it buckles."""
-    loads = answer.assessment.applied
-    if not loads:
+    if not a.applied:
         return []
-    most = min(loads, key=lambda at: at.load.force)
-    return [_at(answer, at) + "." for at in loads if at is not most] + [_range(answer) + "."]
+    most = min(a.applied, key=lambda at: at.load.force)
+    return [_at(a, at) + "." for at in a.applied if at is not most] + [_range(a) + "."]
 
 
-def window_sentences(answer: Answer) -> list[str]:
+def window_sentences(a: Assessment) -> list[str]:
     """What gives before lift-off, stress at buckling and lift-off, and where the local limit is exceeded."""
     out = []
-    for limit in answer.assessment.window.limits:
+    for limit in a.window.limits:
         if limit.kind in (LIFTS_OFF, UNSTABLE):
             continue
-        if limit.force is None:
+        if limit.load is None:
             out.append(f"{limit.name.capitalize()} is reached at any end force.")
             continue
         when = (
             "after buckling, before lift-off" if limit.buckled else "before buckling: the elastic loads come too late"
         )
-        where = force_text(answer, limit.force, limit.error)
+        where = force_text(a.case.scales, limit.load)
         out.append(f"{limit.name.capitalize()} at the end force {where} at s = 1, {when}.")
-    return [*out, *_stresses(answer), local_sentence(answer)]
+    return [*out, *_stresses(a), local_sentence(a)]
 
 
-def _assumed(answer: Answer) -> str:
+def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
-    fluids = ", effective forces" if answer.case.with_fluids else ""
-    return f"frictionless, elastic, straight hole, {ends_text(answer.case.problem)}{fluids}"
+    fluids = ", effective forces" if case.with_fluids else ""
+    return f"frictionless, elastic, straight hole, {ends_text(case.problem)}{fluids}"
 
 
-def _range(answer: Answer) -> str:
+def _range(a: Assessment) -> str:
     """Where the straight rod buckles, and how far it is from there to lift-off."""
-    first = answer.critical[0]
-    if first.force > 0.0:
+    load, scales = a.window.buckling, a.case.scales
+    if load.value > 0.0:
         text = (
             "The rod buckles under its own weight: it stays straight only if the end s = 1 is held in tension of at "
-            f"least {force_text(answer, first.force, first.error)}"
+            f"least {force_text(scales, load)}"
         )
     else:
         text = (
             "The straight rod is stable until the compression at the end s = 1 reaches "
-            f"{force_text(answer, -first.force, first.error)}"
+            f"{force_text(scales, load.times(-1.0))}"
         )
-    return text + _window(answer)
+    return text + _window(a)
 
 
-def _window(answer: Answer) -> str:
+def _window(a: Assessment) -> str:
     """The way from buckling to lift-off as the end of a sentence."""
-    window = answer.assessment.window
-    if answer.first.lift_off_at_buckling:
+    window, scales = a.window, a.case.scales
+    if a.branch.lift_off_at_buckling:
         return "; it leaves the wall as soon as it buckles"
     end, width = window.end, window.width
     if end is None or width is None:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    share = window.share
-    of_bottom = "" if share is None else f" ({percent(*share)}{_at_bottom(answer)})"
-    text = f"; buckled, it stays on the wall, stable, for another {size_text(answer, *width)}{of_bottom} until it "
+    bottom = " of the compression at s = 0" if a.case.problem.axial_weight > 0.0 else ""
+    share = "" if window.share is None else f" ({percent(window.share)}{bottom})"
+    text = f"; buckled, it stays on the wall, stable, for another {size_text(scales, width)}{share} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
-    state = answer.assessment.at_lift_off
-    if end.kind == LIFTS_OFF and state is not None and answer.assessment.stress(state) is not None:
-        text += f", {_stress(answer, state)}"
-    yields = _yield(answer)
+    if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
+        text += f", {_stress(a, a.at_lift_off)}"
+    yields = next((limit for limit in window.limits if limit.kind == YIELDS), None)
     if yields is not None:
         before = "buckles" if not yields.buckled else "lifts off"
-        where = (
-            "at any load" if yields.force is None else f"already at {force_text(answer, yields.force, yields.error)}"
-        )
+        where = "at any load" if yields.load is None else f"already at {force_text(scales, yields.load)}"
         text += f"; but it yields {where}, before it {before}"
     return text
 
 
-def _at_bottom(answer: Answer) -> str:
-    """Of what a percentage is one, where the two ends differ."""
-    return " of the compression at s = 0" if answer.case.problem.axial_weight > 0.0 else ""
-
-
-def _yield(answer: Answer) -> Limit | None:
-    return next((limit for limit in answer.assessment.window.limits if limit.kind == YIELDS), None)
-
-
-def _stress(answer: Answer, state: LoadedRod) -> str:
+def _stress(a: Assessment, state: LoadedRod) -> str:
     """Largest stress and safety factor in a state, as the end of a sentence."""
-    found, scales = answer.assessment.stress(state), answer.case.scales
-    if found is None or scales is None:
+    largest, scales = a.stress(state), a.case.scales
+    if largest is None or scales is None:
         return ""
-    stress = quantity(scales.system, found.value, found.error, "stress", 3)
-    text = f"with a largest von Mises stress of {stress} in the rod"
-    if found.safety is None:
+    text = f"with a largest von Mises stress of {quantity(scales.system, largest, 'stress', 3)} in the rod"
+    if largest.safety is None:
         return text
-    text += f", safety factor {amount(*found.safety, 3)} against yield"
-    return text if found.safety[0] >= 1.0 or state.name == "at lift-off" else text + ": it yields"
+    text += f", safety factor {amount(largest.safety, 3)} against yield"
+    return text if largest.safety.value >= 1.0 or state.name == "at lift-off" else text + ": it yields"
 
 
-def _at(answer: Answer, at: AtLoad) -> str:
+def _at(a: Assessment, at: AtLoad) -> str:
     """What becomes of the rod at a load that acts."""
-    load = at.load
-    scales = answer.case.scales
-    given = f"{load.given:.6g} B/L²".replace("-", "−") if scales is None else scales.system.text(load.given, "force")
+    load, scales = at.load, a.case.scales
+    given = minus(f"{load.given:.6g} B/L²") if scales is None else scales.system.text(load.given, "force")
     end = "the bottom, s = 0" if load.bottom else "the top, s = 1"
     sign = "compression" if load.given < 0.0 else "tension"
-    kind = "real force in the wall, " if load.real else "effective, " if answer.case.with_fluids else ""
+    kind = "real force in the wall, " if load.real else "effective, " if a.case.with_fluids else ""
     start = f"At {given} at {end} ({kind}{sign})"
-    assessment = answer.assessment
-    lift, critical = answer.lift_off, answer.critical[0]
     if at.what == STRAIGHT:
-        text = (
-            f"{start} the rod is straight and stable, {_apart(answer, at, critical.force, critical.error, 'buckling')}"
-        )
+        text = f"{start} the rod is straight and stable, {_apart(a.case, at, a.window.buckling, 'buckling')}"
     elif at.what == BUCKLED:
-        far, last = "", assessment.window.end
-        if last is not None and last.force is not None:
+        far, last = "", a.window.end
+        if last is not None and last.load is not None:
             what = "lift-off" if last.kind == LIFTS_OFF else "the loss of its stability"
-            far = f", {_apart(answer, at, last.force, last.error, what)}"
+            far = f", {_apart(a.case, at, last.load, what)}"
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
-        lost = assessment.window.stable_until
-        where = (
-            ""
-            if lost is None or lost.force is None
-            else f", which ends at {force_text(answer, lost.force, lost.error)} at s = 1"
-        )
+        lost = a.window.stable_until
+        where = "" if lost is None or lost.load is None else f", which ends at {force_text(scales, lost.load)} at s = 1"
         text = f"{start} the rod is buckled beyond the stable part of mode 1{where}"
         return f"{text}: it takes another shape, not given here"
     elif at.what == LEFT:
-        assert lift is not None
-        what = "buckling" if answer.first.lift_off_at_buckling else "lift-off"
-        text = f"{start} the rod has left the wall, {_apart(answer, at, lift.force, lift.error, what)}"
-        text += ", where nothing presses it to the wall" if answer.first.lift_off_at_buckling else ""
-        return text + ": its shape and stresses are no longer those of a rod on the wall and are not given"
+        return f"{start} {_left(a, at)}"
     else:
         return f"{start} the state of the rod is not known: {at.why}"
     assert at.state is not None
-    return f"{text}{', ' if assessment.stress(at.state) else ''}{_stress(answer, at.state)}"
+    return f"{text}{', ' if a.stress(at.state) else ''}{_stress(a, at.state)}"
 
 
-def _apart(answer: Answer, at: AtLoad, force: float, error: float, what: str) -> str:
+def _left(a: Assessment, at: AtLoad) -> str:
+    """A rod that has left the wall at a load that acts."""
+    assert a.window.lift_off is not None
+    at_once = a.branch.lift_off_at_buckling
+    text = f"the rod has left the wall, {_apart(a.case, at, a.window.lift_off, 'buckling' if at_once else 'lift-off')}"
+    text += ", where nothing presses it to the wall" if at_once else ""
+    return text + ": its shape and stresses are no longer those of a rod on the wall and are not given"
+
+
+def _apart(case: Case, at: AtLoad, limit: Value, what: str) -> str:
     """How far a load lies from another, measured where it was given: "12 % short of lift-off (−38.5 kN there)"."""
-    more = answer.case.problem.axial_weight if at.load.bottom else 0.0
-    here, other = more - at.load.force, more - force
-    word = "short of" if here <= other else "beyond"
+    more, scales = case.problem.axial_weight if at.load.bottom else 0.0, case.scales
+    load, other = more - at.load.force, more - limit.value
+    word = "short of" if load <= other else "beyond"
     far = (
-        size_text(answer, abs(other - here), error)
-        if other <= 0.0 or here < 0.0
-        else percent(abs(1.0 - here / other), error * here / other**2)
+        size_text(scales, Value(abs(other - load), limit.error))
+        if other <= 0.0 or load < 0.0
+        else percent(Value(abs(1.0 - load / other), limit.error * load / other**2))
     )
-    scales = answer.case.scales
-    there = f"{amount(-other, error, 6)} B/L²" if scales is None else size_text(answer, -other, error)
+    force = Value(-other, limit.error)
+    there = f"{amount(force, 6)} B/L²" if scales is None else size_text(scales, force)
     return f"{far} {word} {what} ({there}{' effective' if at.load.real else ''} there)"
 
 
-def _stresses(answer: Answer) -> list[str]:
+def _stresses(a: Assessment) -> list[str]:
     """Stress at buckling and lift-off."""
-    assessment, scales = answer.assessment, answer.case.scales
-    if scales is None or assessment.section is None:
+    scales = a.case.scales
+    if scales is None or a.section is None:
         return []
     parts = []
-    for state in (assessment.at_buckling, assessment.at_lift_off):
-        found = None if state is None else assessment.stress(state)
-        if state is None or found is None:
+    for state in (a.at_buckling, a.at_lift_off):
+        largest = None if state is None else a.stress(state)
+        if state is None or largest is None:
             continue
-        safety = "" if found.safety is None else f" (safety factor {amount(*found.safety, 3)})"
-        parts.append(f"{quantity(scales.system, found.value, found.error, 'stress', 3)} {state.name}{safety}")
+        safety = "" if largest.safety is None else f" (safety factor {amount(largest.safety, 3)})"
+        parts.append(f"{quantity(scales.system, largest, 'stress', 3)} {state.name}{safety}")
     return [f"Largest von Mises stress in the rod: {', '.join(parts)}."]
 
 
-def local_sentence(answer: Answer) -> str:
+def local_sentence(a: Assessment) -> str:
     """Where along the string buckling starts, by the local limit; empty where there is none."""
-    assessment, scales = answer.assessment, answer.case.scales
-    over = assessment.over_local(assessment.at_buckling)
-    if over is None or scales is None or assessment.local is None:
+    over, scales = a.over_local(a.at_buckling), a.case.scales
+    if over is None or scales is None or a.local is None or a.local.critical.compression is None:
         return ""
-    local = assessment.local
-    error = local.critical.error + abs(local.length_effect) * over.limit  # of the rod that was computed, and its length
+    # the error of the rod that was computed, and of its length
+    error = a.local.critical.compression.error + abs(a.local.length_effect) * over.limit
     text = (
         f"Locally, an endless rod in a straight hole of this inclination would buckle at "
-        f"{quantity(scales.system, over.limit, error, 'force')} of compression"
+        f"{quantity(scales.system, Value(over.limit, error), 'force')} of compression"
     )
     if over.to <= 0.0:
         return f"{text}: nowhere exceeded when this string buckles."
@@ -210,8 +191,8 @@ def local_sentence(answer: Answer) -> str:
             f"{text}: exceeded all along the string when it buckles, since its ends hold it; the string's exact load "
             "decides."
         )
-    slope = answer.case.problem.axial_weight * scales.factor("force")
-    lowest = size_text(answer, over.to, error / slope, "length")
+    slope = a.case.problem.axial_weight * scales.factor("force")
+    lowest = size_text(scales, Value(over.to, error / slope), "length")
     return (
         f"{text}: when this string buckles, that is exceeded over its lowest {lowest}, where "
         "buckling starts; the string's exact load decides."

@@ -84,7 +84,7 @@ def _triangles(ax: Any, branch: Branch) -> None:
         return
     for point in branch.special_points:
         if point.kind == "branch_point":
-            values = {m: np.array([point.solution.number(m)[0]]) for m in Measured}
+            values = {m: np.array([point.solution.number(m).value]) for m in Measured}
             for image in branch.images:
                 y = float(image.numbers(values)[Measured.OMEGA2_1][0])
                 ax.plot(-point.force, y, "^", ms=5, color="white", mec=INK, mew=1.0, zorder=7)

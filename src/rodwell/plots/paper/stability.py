@@ -24,7 +24,7 @@ from rodwell.plots.paper.frame import (
 from rodwell.plots.paper.space import shape_in_space
 from rodwell.plots.style import GREY, INK, MODES, WARN
 from rodwell.studies.paper.diagrams import Panel
-from rodwell.studies.paper.stability import Fig5, Fit, Row, Stability
+from rodwell.studies.paper.stability import Fig5, Fit, Stability, StabilityRow
 from rodwell.studies.paper.work import CLEARANCE
 
 SECOND_SWITCH = 64.0 * np.pi**4 * CLEARANCE
@@ -75,7 +75,7 @@ def _words(ax: Any, diagram: Stability) -> None:
     ax.annotate("$F_{lift}$", (235.0, load), xytext=(-30, 10), textcoords="offset points", fontsize=11, color=WARN)
 
 
-def _row(axes: Any, row: Row) -> None:
+def _row(axes: Any, row: StabilityRow) -> None:
     """Draw y and p of one weight under growing compression, the state at lift-off thick."""
     ax_y, ax_p = axes
     s = np.linspace(0.0, 1.0, PLACES)

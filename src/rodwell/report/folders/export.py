@@ -122,8 +122,8 @@ def checked_rod_radius(given: float | str | None, scales: Scales | None) -> floa
         raise InputError("rod_radius", given, "must be a number in L: without scales there is no physical length")
     try:
         return to_si(given, "length") / scales.length
-    except ValueError as problem:
-        raise InputError("rod_radius", given, str(problem)) from None
+    except ValueError as error:
+        raise InputError("rod_radius", given, str(error)) from None
 
 
 def writer(suffix: str) -> Write:

@@ -12,8 +12,9 @@ from pathlib import Path
 
 from rodwell.analysis.discrete import first_run
 from rodwell.errors import checked_whole
+from rodwell.quantities.text import minus
 from rodwell.quantities.tolerance import RTOL
-from rodwell.report.reports.texts import number
+from rodwell.report.reports.texts import number, short
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 from rodwell.studies.paper.agreement import CONVENTION, Agreement, agreement
@@ -122,10 +123,9 @@ def write_tables(table: Agreement, folder: Path) -> None:
 
 def cells(finding: Finding) -> tuple[str, ...]:
     """The columns ``HEAD`` of one finding."""
-    claim, found = finding.claim, finding.found
-    error = "0" if found.error == 0.0 else f"{found.error:.0e}".replace("-", "−")
-    printed = claim.printed.replace("-", "−")
-    return claim.place, claim.quantity, printed, number(found.value, found.error), error, finding.verdict
+    claim, computed = finding.claim, finding.found
+    error = "0" if computed.error == 0.0 else short(computed.error)
+    return claim.place, claim.quantity, minus(claim.printed), number(computed), error, finding.verdict
 
 
 def markdown(table: Agreement) -> str:
@@ -174,7 +174,7 @@ def _name(finding: Finding) -> str:
 
 
 def _tolerance(table: Agreement) -> str:
-    return f"{table.rtol:g}".replace("-", "−")
+    return minus(f"{table.rtol:g}")
 
 
 _CSS = """

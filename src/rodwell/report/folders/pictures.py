@@ -14,6 +14,7 @@ from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
+from rodwell.answers.result.assessment import Assessment
 from rodwell.plots.along import plot_along
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
@@ -37,7 +38,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             "wall-loads": plot_wall_loads(answer.first, scales),
             "cylinder": plot_cylinder_moments(answer.shown, scales),
             "rod-3d": plot_rod(answer.shown, scales),
-            "along-rod": _along(answer),
+            "along-rod": _along(answer.assessment),
         }
         out = {}
         for name, ax in axes.items():
@@ -49,10 +50,10 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
     return out
 
 
-def _along(answer: Answer) -> Any:
+def _along(a: Assessment) -> Any:
     """Force and stress along the rod."""
-    states, assessment = along(answer), answer.assessment
-    return plot_along(states, shown(answer, states), answer.case.scales, assessment.local, answer.case.yield_strength)
+    states = along(a)
+    return plot_along(states, shown(states), a.case.scales, a.local, a.case.yield_strength)
 
 
 def draw_diagram(diagram: Diagram, folder: Path) -> None:

@@ -16,10 +16,11 @@ from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES
 from rodwell.problem.problem import Problem, ends_text
 from rodwell.quantities.names import QUANTITIES
+from rodwell.quantities.text import minus
 from rodwell.report.pages.templates import template
-from rodwell.report.reports.case import key_figures
+from rodwell.report.reports.case import key_numbers
 from rodwell.report.reports.content import Grid
-from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number
+from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
 
 UNITS = {**PLAIN_UNITS, "energy": "B/L", "curvature": "1/L", "angle": "rad"}
 
@@ -66,9 +67,7 @@ def _(result: Case) -> Card:
 @card.register
 def _(result: CriticalLoads) -> Card:
     shape = {1: "even", -1: "odd", 0: "no symmetry"}
-    rows = tuple(
-        (str(mode.number), number(mode.force, mode.error), _short(mode.error), shape[mode.parity]) for mode in result
-    )
+    rows = tuple((str(mode.number), number(mode.load), short(mode.error), shape[mode.parity]) for mode in result)
     lines = (_problem(result[0].problem),) if result else ()
     return Card(
         "Critical loads", lines, (Grid(("mode", "F in B/L²", "± error", "mode shape"), rows, (0, 1, 2)),), FORCE
@@ -88,8 +87,8 @@ def _(result: Branch) -> Card:
     rows = tuple(
         (
             KINDS[point.kind],
-            number(point.value, point.error),
-            "" if point.kind == "end" else _short(point.error),
+            number(point.reached),
+            "" if point.kind == "end" else short(point.error),
             f"{point.index_before} → {point.index_after}",
             ", ".join(f"{s:.6g}" for s in point.s),
         )
@@ -105,10 +104,11 @@ def _(result: Solution) -> Card:
     stable = "stable" if result.stable else f"unstable, stability index {result.stability_index}"
     rows = []
     for which in Measured:
-        value, error = result.number(which)
+        known = result.number(which)
         quantity = QUANTITIES[ORDINATES[which][0]]
         unit = UNITS[quantity.dimension]
-        rows.append((quantity.meaning.partition(";")[0], quantity.symbol, number(value, error), _short(error), unit))
+        meaning = quantity.meaning.partition(";")[0]
+        rows.append((meaning, quantity.symbol, number(known), short(known.error), unit))
     lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))
     grid = Grid(("quantity", "symbol", "value", "± error", "unit"), tuple(rows), (2, 3))
     return Card(f"State at F = {_plain(result.force)} B/L²", lines, (grid,), FORCE)
@@ -117,13 +117,13 @@ def _(result: Solution) -> Card:
 @card.register
 def _(result: Answer) -> Card:
     found = tuple(f"{status.subject}: {status.word} ({status.reason})" for status in statuses(result))
-    (grid,) = (block for block in key_figures(result).blocks if isinstance(block, Grid))
+    (grid,) = (block for block in key_numbers(result).blocks if isinstance(block, Grid))
     return Card(result.case.title, (sentences(result)[0], *found), (grid,), FORCE)
 
 
 def _problem(problem: Problem) -> str:
     text = f"γ = {problem.weight:.6g}, α = {problem.alpha:g}° from the vertical, Δ/L = {problem.clearance:.6g}"
-    return f"{text}, T₁ = {problem.twist:g} B/L, {ends_text(problem)}".replace("-", "−")
+    return minus(f"{text}, T₁ = {problem.twist:g} B/L, {ends_text(problem)}")
 
 
 def _converged(met: bool) -> str:
@@ -131,8 +131,4 @@ def _converged(met: bool) -> str:
 
 
 def _plain(value: float) -> str:
-    return f"{value:.8g}".replace("-", "−")
-
-
-def _short(error: float) -> str:
-    return f"{error:.0e}".replace("-", "−")
+    return minus(f"{value:.8g}")

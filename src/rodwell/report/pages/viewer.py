@@ -22,7 +22,7 @@ from rodwell.analysis.space.surfaces import straight_contact
 from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import plain
+from rodwell.quantities.text import minus, plain
 from rodwell.report.pages.templates import HERE, template
 
 PLACES, SIDES = (321, 801), 16
@@ -95,7 +95,7 @@ def write_viewer(path: Path, seen: View, title: str = "") -> None:
 def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     """What is shown, in which scale."""
     factor, unit = axis("force", scales, solution.force)
-    load = f"F = {plain(solution.force * factor, 4)} {unit}".replace("-", "−")
+    load = minus(f"F = {plain(solution.force * factor, 4)} {unit}")
     scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
     radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else scales.text(rod.rod_radius, "length")
     marks = " Red rings: places of lift-off." if rod.lift_off else ""
@@ -179,7 +179,7 @@ def _bar(rod: Geometry, scales: Scales | None) -> dict[str, str]:
     start, width = (low, high - low) if high > low else (-1.0, 1.0)
     where = [(-place * low if place <= 0.0 else high, colour) for place, colour in stops]
     text = ", ".join(f"{colour} {100.0 * (value - start) / width:.1f}%" for value, colour in where)
-    first, last = (f"{sign * x * factor:.4g}".replace("-", "−") for x in (low, high))
+    first, last = (minus(f"{sign * x * factor:.4g}") for x in (low, high))
     return {"first": first, "last": last.replace("−0", "0") if high == 0.0 else last, "unit": unit,
             "gradient": f"linear-gradient(90deg, {text})"}  # fmt: skip
 

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Sequence
 
 from rodwell._version import __version__
+from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.result.answer import Answer
-from rodwell.answers.result.figure import Figure
+from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.meaning import assumptions, sentences
+from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
-from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus
+from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.strength import strength_sections
 from rodwell.report.reports.texts import (
+    PLAIN_UNITS,
     certificate,
     conversions,
     derived,
@@ -21,8 +28,8 @@ from rodwell.report.reports.texts import (
     number,
     rows,
     sensitivities,
+    short,
     special,
-    unit,
 )
 
 DECISIVE = (
@@ -38,7 +45,7 @@ DECISIVE = (
     "critical_length",
     "end_shortening",
 )
-"""Key figures that decide, most important first: the front shows those that a case has, six at most."""
+"""Key numbers that decide, most important first: the front shows those that a case has, six at most."""
 
 MOST_NUMBERS = 6
 
@@ -52,14 +59,14 @@ def case_report(answer: Answer) -> Report:
         f"{datetime.date.today().isoformat()}",
         front=_front(answer),
         sections=(
-            Section("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
-            key_figures(answer),
-            *strength_sections(answer),
+            ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
+            key_numbers(answer),
+            *strength_sections(answer.assessment),
             _pictures(answer),
-            _special_points(answer),
+            _special_points(answer.branches, case.scales),
             _inputs_and_loads(answer),
-            _inputs(answer),
-            *_conversions(answer),
+            _inputs(case),
+            *_conversions(case),
             _trust(answer),
         ),
         footer=f"Computed by rodwell {__version__} from {case.source}. B bending stiffness, L length of the rod.",
@@ -69,59 +76,54 @@ def case_report(answer: Answer) -> Report:
 
 def _front(answer: Answer) -> Front:
     at = " at lift-off" if answer.at_lift_off else ""
-    figures = answer.figures
+    numbers = answer.key_numbers
     effective = "effective force, " if answer.case.with_fluids else ""
     return Front(
         verdict=sentences(answer)[0],
         statuses=statuses(answer),
-        numbers=tuple(_decisive(answer, figures[name]) for name in DECISIVE if name in figures)[:MOST_NUMBERS],
+        numbers=tuple(_decisive(numbers[name], answer.case) for name in DECISIVE if name in numbers)[:MOST_NUMBERS],
         picture=Picture(
             "rod-3d",
             "The rod in its cylinder, coloured by contact pressure",
             f"The rod in its cylinder{at}, first mode.",
         ),
         assumptions=f"Sign: {effective}tension positive, compression negative. End: forces are those at s = 1, the "
-        f"upper end of an inclined cylinder. Assumed: {'; '.join(assumptions(answer))}.",
+        f"upper end of an inclined cylinder. Assumed: {'; '.join(assumptions(answer.case))}.",
         steps=next_steps(answer),
     )
 
 
-def _decisive(answer: Answer, figure: Figure) -> Number:
-    scales = answer.case.scales
-    if scales is None:
-        return Number(figure.label, f"{number(figure.value, figure.error)} {unit(figure)}",
-                      f"± {_short(figure.error)} {unit(figure)}", figure.note)  # fmt: skip
-    error = error_text(scales.text(figure.error, figure.dimension, 1))
-    return Number(figure.label, figure.text(answer.case, 5), error, figure.note)
+def _decisive(key: KeyNumber, case: Case) -> Number:
+    if case.scales is None:
+        unit = PLAIN_UNITS[key.dimension]
+        return Number(key.label, f"{number(key.number)} {unit}", f"± {short(key.error)} {unit}", key.note)
+    error = error_text(case.scales.text(key.error, key.dimension, 1))
+    return Number(key.label, key.text(case, 5), error, key.note)
 
 
-def _short(value: float) -> str:
-    return f"{value:.0e}".replace("-", "−")
-
-
-def key_figures(answer: Answer) -> Section:
-    """All key figures, with errors."""
+def key_numbers(answer: Answer) -> ReportSection:
+    """All key numbers, with errors."""
     physical = answer.case.scales is not None
     names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
     head = ["Quantity", *(["Physical"] if physical else []), "Dimensionless (B = L = 1)", "±\u00a0error", "Remark"]
     table = Grid(
         tuple(head),
-        tuple(tuple(row[name] for name in names) for row in rows(answer)),
+        tuple(tuple(row[name] for name in names) for row in rows(answer.key_numbers.values(), answer.case)),
         numeric=tuple(range(1, len(head) - 1)),
     )
     warning = Words(
-        f"Not every number meets the tolerance {answer.case.rtol:g}. The error estimates say how well each is "
-        "known.".replace("-", "−"),
+        f"Not every number meets the tolerance {minus(f'{answer.case.rtol:g}')}. The error estimates say how well each "
+        "is known.",
         "warning",
     )
-    return Section("Key figures", (table,) if answer.converged else (warning, table))
+    return ReportSection("Key figures", (table,) if answer.converged else (warning, table))
 
 
-def _pictures(answer: Answer) -> Section:
-    at = " at lift-off" if answer.at_lift_off else ""
-    wall = answer.shown.wall.meaning
-    ordinate = ORDINATES[telling(answer.branches)][1]
-    return Section(
+def _pictures(computed: Computed) -> ReportSection:
+    at = " at lift-off" if computed.at_lift_off else ""
+    wall = computed.shown.wall.meaning
+    ordinate = ORDINATES[telling(computed.branches)][1]
+    return ReportSection(
         "From buckling to lift-off",
         (
             Picture(
@@ -153,8 +155,8 @@ def _pictures(answer: Answer) -> Section:
     )
 
 
-def _special_points(answer: Answer) -> Section:
-    physical = answer.case.scales is not None
+def _special_points(branches: Sequence[Branch], scales: Scales | None) -> ReportSection:
+    physical = scales is not None
     names = ["mode", "kind", *(["physical"] if physical else []), "plain", "error", "index", "place"]
     head = ["Mode", "What", *(["End force at s = 1"] if physical else []), "F in B/L²", "±\u00a0error"]
     note = (
@@ -164,17 +166,17 @@ def _special_points(answer: Answer) -> Section:
     )
     table = Grid(
         (*head, "Stability index", "Place s/L"),
-        tuple(tuple(str(row[name]) for name in names) for row in special(answer)),
+        tuple(tuple(str(row[name]) for name in names) for row in special(branches, scales)),
         numeric=(2, 3, 4) if physical else (2, 3),
     )
-    return Section("Special points of every branch", (table, Words(note, "small")))
+    return ReportSection("Special points of every branch", (table, Words(note, "small")))
 
 
-def _inputs_and_loads(answer: Answer) -> Section:
-    uncertain = answer.case.uncertain
+def _inputs_and_loads(computed: Computed) -> ReportSection:
+    uncertain = computed.case.uncertain
     head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
     head += ["± from the inputs"] if uncertain else []
-    lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(answer)]
+    lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(computed)]
     note = (
         "Change of the load in percent for one percent more of an input, the others constant (elasticity), from "
         "exact derivatives."
@@ -184,30 +186,29 @@ def _inputs_and_loads(answer: Answer) -> Section:
         note += f" The last column carries the uncertainties of the inputs ({written}) through to first order, as "
         note += "independent of each other."
     table = Grid(tuple(head), tuple(lines), numeric=tuple(range(1, len(head))))
-    return Section("What the inputs do to the loads", (table, Words(note, "small")))
+    return ReportSection("What the inputs do to the loads", (table, Words(note, "small")))
 
 
-def _inputs(answer: Answer) -> Section:
-    case = answer.case
-    return Section(
+def _inputs(case: Case) -> ReportSection:
+    return ReportSection(
         "Inputs",
         (Grid(("As given", ""), tuple(inputs(case))), Grid(("What follows", ""), tuple(derived(case)))),
     )
 
 
-def _conversions(answer: Answer) -> tuple[Section, ...]:
-    found = tuple(conversions(answer.case))
-    if not found:
+def _conversions(case: Case) -> tuple[ReportSection, ...]:
+    facts = tuple(conversions(case))
+    if not facts:
         return ()
-    return (Section("From the inputs to the problem", (Grid(("What", "Value", "From"), found),)),)
+    return (ReportSection("From the inputs to the problem", (Grid(("What", "Value", "From"), facts),)),)
 
 
-def _trust(answer: Answer) -> Section:
+def _trust(answer: Answer) -> ReportSection:
     found = certificate(answer.worst_certificate)
-    tolerance = f"{answer.case.rtol:g}".replace("-", "−")
+    tolerance = minus(f"{answer.case.rtol:g}")
     passed = "passed" if found["passed"] else "not passed"
     met = "is met by every number" if answer.converged else "is not met by every number"
-    return Section(
+    return ReportSection(
         "How far the numbers can be trusted",
         (
             Words(

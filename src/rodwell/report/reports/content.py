@@ -55,7 +55,7 @@ Block = Words | Items | Grid | Picture
 
 
 @dataclass(frozen=True)
-class Section:
+class ReportSection:
     """A heading and what stands below it."""
 
     title: str
@@ -92,7 +92,7 @@ class Report:
     title: str
     subtitle: str
     front: Front
-    sections: tuple[Section, ...]
+    sections: tuple[ReportSection, ...]
     footer: str
     paper: str = "a4"
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from rodwell.answers.comparison.beside import Row
+from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
-from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.verdict import local_sentence
-from rodwell.quantities.text import plain
+from rodwell.quantities.text import minus, plain
 from rodwell.quantities.units import SI, System
-from rodwell.report.reports.content import Block, Grid, Picture, Section, Words
+from rodwell.report.reports.content import Block, Grid, Picture, ReportSection, Words
 from rodwell.strength.limits import LIFTS_OFF, Limit
 from rodwell.strength.loaded import LoadedRod
 
@@ -21,13 +20,12 @@ WORDS = {
 }
 
 
-def strength_sections(answer: Answer) -> tuple[Section, ...]:
+def strength_sections(a: Assessment) -> tuple[ReportSection, ...]:
     """Return the sections on strength: those that the case has something to say on."""
-    a = answer.assessment
-    return (*_at_loads(a), _window(answer), *_stress_section(a), *_formulas(a))
+    return (*_at_loads(a), _window(a), *_stress_section(a), *_formulas(a))
 
 
-def _at_loads(a: Assessment) -> tuple[Section, ...]:
+def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
     """What becomes of the rod at each load that acts."""
     if not a.applied:
         return ()
@@ -55,20 +53,20 @@ def _at_loads(a: Assessment) -> tuple[Section, ...]:
         "Tension positive. The approach of the ends is that by buckling. Where the rod has left the wall, or mode 1 "
         "has lost its stability, no numbers are given."
     )
-    return (Section("At the loads that act", (table, Words(note, "small"))),)
+    return (ReportSection("At the loads that act", (table, Words(note, "small"))),)
 
 
 def _strong(a: Assessment) -> bool:
     return a.case.yield_strength is not None and a.section is not None
 
 
-def _window(answer: Answer) -> Section:
+def _window(a: Assessment) -> ReportSection:
     """Window, limits, and the figure along the rod."""
-    a, local = answer.assessment, local_sentence(answer)
+    local = local_sentence(a)
     caption = "Effective axial force along the rod, tension positive"
     caption += ", with the local limits of an endless rod at its lower end." if local else "."
     if a.section is not None:
-        state = shown(answer, along(answer, 2)).state.name
+        state = shown(along(a, 2)).state.name
         caption += (
             f" Stress in the rod {state}: axial from the real force, bending at the outer surface (either sign), and "
             "the largest von Mises stress of each section."
@@ -76,10 +74,10 @@ def _window(answer: Answer) -> Section:
     alternative = f"Force{' and stress' if a.section is not None else ''} along the rod"
     blocks: list[Block] = [Words(_window_text(a)), _limits(a)]
     blocks += [Words(local, "small")] if local else []
-    return Section("The safe window, and what limits it", (*blocks, Picture("along-rod", alternative, caption)))
+    return ReportSection("The safe window, and what limits it", (*blocks, Picture("along-rod", alternative, caption)))
 
 
-def _stress_section(a: Assessment) -> tuple[Section, ...]:
+def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
     if a.section is None:
         return ()
     head = ["State", "Largest von Mises", "± error", "Where", "axial there", "bending there, ±", "torsion there"]
@@ -95,10 +93,10 @@ def _stress_section(a: Assessment) -> tuple[Section, ...]:
         note += f"Safety factor: yield strength {strength} over the von Mises stress."
     else:
         note += "Give rod.grade or rod.yield_strength for safety factors."
-    return (Section("Stress in the rod", (Grid(tuple(head), rows, (1, 2, 4, 5, 6, 7)), Words(note, "small"))),)
+    return (ReportSection("Stress in the rod", (Grid(tuple(head), rows, (1, 2, 4, 5, 6, 7)), Words(note, "small"))),)
 
 
-def _formulas(a: Assessment) -> tuple[Section, ...]:
+def _formulas(a: Assessment) -> tuple[ReportSection, ...]:
     if not a.formulas:
         return ()
     head = ("Formula", "Load", "at", "Exact there", "Difference", "Verdict", "Beside", "Validity")
@@ -108,7 +106,7 @@ def _formulas(a: Assessment) -> tuple[Section, ...]:
         "beside lift-off, where a rod on the wall ends. rodwell audit compares every formula, coils included."
     )
     table = Grid(head, tuple(_formula(a, row) for row in a.formulas), numeric=(1, 3, 4))
-    return (Section("Formulas of practice beside the exact loads", (table, Words(note, "small"))),)
+    return (ReportSection("Formulas of practice beside the exact loads", (table, Words(note, "small"))),)
 
 
 def _system(a: Assessment) -> System:
@@ -120,7 +118,7 @@ def _text(a: Assessment, value: float, dimension: str, digits: int = 5) -> str:
     if a.case.scales is not None:
         return a.case.scales.text(value, dimension, digits)
     unit = {"force": "B/L²", "force_per_length": "B/L³", "length": "L"}[dimension]
-    return f"{value:.{digits}g} {unit}".replace("-", "−")
+    return minus(f"{value:.{digits}g} {unit}")
 
 
 def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
@@ -128,21 +126,21 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     kind = "real" if load.real else "effective"
     given = _system(a).text(load.given, "force", 6) if a.case.scales is not None else f"{load.given:.6g} B/L²"
     row = {
-        "given": f"{given.replace('-', '−')} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
+        "given": f"{minus(given)} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
         "force": _text(a, load.force, "force"),
         "what": WORDS.get(at.what, at.why),
     }
     if state is None:
         return row
-    found, used = a.stress(state), [support.utilisation for support in a.supports(state)]
+    stress, used = a.stress(state), [support.utilisation for support in a.supports(state)]
     cylinder = a.cylinder(state)
     used += [] if cylinder is None else [cylinder.utilisation]
     return row | {
         "contact": _text(a, state.contact.value, "force_per_length", 4),
-        "total": _text(a, state.total_contact[0], "force", 4),
-        "shortening": _text(a, state.shortening[0], "length", 4) if not state.straight else "0",
-        "stress": "" if found is None else _system(a).text(found.value, "stress", 4),
-        "safety": "" if found is None or found.safety is None else f"{found.safety[0]:.3g}",
+        "total": _text(a, state.total_contact.value, "force", 4),
+        "shortening": _text(a, state.shortening.value, "length", 4) if not state.straight else "0",
+        "stress": "" if stress is None else _system(a).text(stress.value, "stress", 4),
+        "safety": "" if stress is None or stress.safety is None else f"{stress.safety.value:.3g}",
         "used": f"{100.0 * max(used):.3g} %" if used else "",
     }
 
@@ -158,7 +156,7 @@ def _window_text(a: Assessment) -> str:
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
-    text = f"From buckling to {end.name} {_text(a, width[0], 'force')} of compression can be added{percent}"
+    text = f"From buckling to {end.name} {_text(a, width.value, 'force')} of compression can be added{percent}"
     text += "; the buckled shape lies on the wall and is stable all the way (under dead loads)"
     limit = a.limiting
     return text + ("." if limit is None else f". What limits first is {limit.name}.")
@@ -166,10 +164,10 @@ def _window_text(a: Assessment) -> str:
 
 def _limits(a: Assessment) -> Grid:
     """Buckling, and what gives after it, or before it."""
-    weight, first = a.case.problem.axial_weight, Limit("buckling", *a.window.buckling)
+    weight, first = a.case.problem.axial_weight, Limit("buckling", a.window.buckling)
     rows = []
     for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
-        if limit.force is None:
+        if limit.load is None:
             rows.append((_upper(limit.name), "at any force", "", "", ""))
             continue
         note = "" if limit.s is None else f"at s/L = {limit.s:.4g}"
@@ -178,9 +176,9 @@ def _limits(a: Assessment) -> Grid:
         rows.append(
             (
                 "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
-                _text(a, limit.force, "force", 6),
-                _text(a, limit.force - weight, "force", 6),
-                _error(_text(a, limit.error, "force", 1)),
+                _text(a, limit.load.value, "force", 6),
+                _text(a, limit.load.value - weight, "force", 6),
+                _error(_text(a, limit.load.error, "force", 1)),
                 note.removeprefix("; "),
             )
         )
@@ -191,7 +189,7 @@ def _limits(a: Assessment) -> Grid:
 def _error(text: str) -> str:
     """An error with its unit, small numbers without an exponent: "700 nN", not "7e+02 nN"."""
     value, _, unit = text.partition(" ")
-    return f"{plain(float(value.replace('−', '-')), 1)} {unit}".replace("-", "−")
+    return minus(f"{plain(float(value.replace('−', '-')), 1)} {unit}")
 
 
 def _upper(text: str) -> str:
@@ -200,19 +198,19 @@ def _upper(text: str) -> str:
 
 def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
     """A state: its largest stress, the parts that make it up, and the safety factor."""
-    found, system = a.stress(state), _system(a)
-    assert found is not None
+    stress, system = a.stress(state), _system(a)
+    assert stress is not None
     row = (
         f"{state.name}, {'straight' if state.straight else 'buckled'}",
-        system.text(found.value, "stress", 6),
-        _error(system.text(found.error, "stress", 1)),
-        f"s/L = {found.s:.4g}, {found.fibre}",
-        *(system.text(part, "stress") for part in (found.axial, found.bending, found.torsion)),
+        system.text(stress.value, "stress", 6),
+        _error(system.text(stress.error, "stress", 1)),
+        f"s/L = {stress.s:.4g}, {stress.fibre}",
+        *(system.text(part, "stress") for part in (stress.axial, stress.bending, stress.torsion)),
     )
-    return row if found.safety is None else (*row, f"{found.safety[0]:.4g}")
+    return row if stress.safety is None else (*row, f"{stress.safety.value:.4g}")
 
 
-def _formula(a: Assessment, row: Row) -> tuple[str, ...]:
+def _formula(a: Assessment, row: FormulaRow) -> tuple[str, ...]:
     """A formula: its load, the exact one, and how they compare."""
     main = row.main
     assert main is not None
@@ -222,7 +220,7 @@ def _formula(a: Assessment, row: Row) -> tuple[str, ...]:
         _text(a, row.value, "force"),
         row.formula.place or "",
         _text(a, main.exact, "force"),
-        "–" if main.percent is None else f"{main.percent:+.1f} %".replace("-", "−"),
+        "–" if main.percent is None else minus(f"{main.percent:+.1f} %"),
         "safe" if main.safe else "unsafe",
         {"critical": "critical load", "lift_off": "lift-off"}[row.against],
         "inside" if row.valid else "outside: " + "; ".join(row.reasons),

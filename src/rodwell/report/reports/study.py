@@ -7,10 +7,10 @@ import datetime
 from rodwell._version import __version__
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
-from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, Section, Words
+from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.texts import error_text
 from rodwell.studies.sweep import load_columns
-from rodwell.studies.sweep.points import Point
+from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import (
     LOADS,
@@ -49,8 +49,8 @@ def _front(study: Study) -> Front:
         if worst is None or load is None:
             continue
         label = f"Least compression at s = 1 at which it {what}"
-        error = study.system.text(load[1], "force", 1) if study.physical else f"{load[1]:.1g} B/L²"
-        numbers.append(Number(label, load_text(study, load[0]), error_text(error), study.rod_inputs(worst)))
+        error = study.system.text(load.error, "force", 1) if study.physical else f"{load.error:.1g} B/L²"
+        numbers.append(Number(label, load_text(study, load.value), error_text(error), study.rod_inputs(worst)))
     return Front(
         verdict=text[0],
         statuses=(_status(study), *_at_loads(study)),
@@ -110,12 +110,12 @@ def _at_loads(study: Study) -> tuple[Status, ...]:
     return (Status("Loads", GOOD, "straight everywhere", f"at every one of {len(loads)} points and loads"),)
 
 
-def _lacking(study: Study) -> list[Point]:
+def _lacking(study: Study) -> list[StudyPoint]:
     """Points without all their loads."""
     return [point for point in study.incomplete if set(point.reasons or {}) - {"contact"}]
 
 
-def _points(study: Study) -> Section:
+def _points(study: Study) -> ReportSection:
     columns = (*(_breakable(title) for title in head(study)), "Remark")
     blocks: list[Block] = []
     lacking = _lacking(study)
@@ -128,10 +128,10 @@ def _points(study: Study) -> Section:
     blocks.append(
         Words("Numbers with all their digits and the error of each: points.csv, points.xlsx, study.json.", "small")
     )
-    return Section("Buckling and lift-off" if study.load_varies else "All points", tuple(blocks))
+    return ReportSection("Buckling and lift-off" if study.load_varies else "All points", tuple(blocks))
 
 
-def _loads(study: Study) -> tuple[Section, ...]:
+def _loads(study: Study) -> tuple[ReportSection, ...]:
     """The loads that act, if there are any."""
     if not load_columns.most_loads(study):
         return ()
@@ -146,7 +146,7 @@ def _loads(study: Study) -> tuple[Section, ...]:
     marked = tuple(i for i, (one, _) in enumerate(pairs) if load_columns.fails(one))
     grid = Grid(columns, tuple(tuple(row) for _, row in pairs), numeric=numeric, marked=marked)
     notes = Words(" ".join((load_columns.LEGEND, *load_columns.NOTES)), "small")
-    return (Section("At the loads that act", (grid, notes)),)
+    return (ReportSection("At the loads that act", (grid, notes)),)
 
 
 def _breakable(title: str) -> str:
@@ -154,10 +154,10 @@ def _breakable(title: str) -> str:
     return title.replace(".", ".\u200b").replace("_", "_\u200b")
 
 
-def _inputs(study: Study) -> Section:
+def _inputs(study: Study) -> ReportSection:
     given = tuple(
         (f"{section}.{key}", str(value))
         for section, values in study.given.items()
         for key, value in (values.items() if hasattr(values, "items") else [])
     )
-    return Section("Inputs", (Grid(("As given", ""), given),))
+    return ReportSection("Inputs", (Grid(("As given", ""), given),))

@@ -2,48 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
+from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.state.certificate import Certificate
-from rodwell.answers.result.answer import Answer
-from rodwell.answers.result.figure import Figure
+from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.key_number import KeyNumber
 from rodwell.case.case import Case
-from rodwell.quantities.text import supported
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus, supported
+from rodwell.quantities.value import Value
 
 PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
 
 
-def number(value: float, error: float) -> str:
-    """A value with the digits that its error estimate supports, ten at most; the last one is in doubt."""
-    digits = supported(value, error, 10)
-    return f"{value:.{digits}g}".replace("-", "−") if digits and value else "0"
+def number(known: Value) -> str:
+    """A number with the digits that its error estimate supports, ten at most; the last one is in doubt."""
+    digits = supported(known, 10)
+    return minus(f"{known.value:.{digits}g}") if digits and known.value else "0"
+
+
+def short(error: float) -> str:
+    """An error of one digit."""
+    return minus(f"{error:.0e}")
 
 
 def error_text(text: str) -> str:
     """An error of one digit, given as text with its unit, without an exponent where none is needed: 10 nN."""
     size, _, unit = text.replace("−", "-").partition(" ")
-    return f"± {float(size):.3g} {unit}".replace("-", "−").rstrip()
+    return minus(f"± {float(size):.3g} {unit}").rstrip()
 
 
-def rows(answer: Answer) -> list[dict[str, str]]:
-    """The table of key figures."""
-    out = []
-    for figure in answer.figures.values():
-        out.append(
-            {
-                "label": figure.label,
-                "physical": figure.text(answer.case),
-                "plain": f"{number(figure.value, figure.error)} {unit(figure)}".rstrip(),
-                "error": f"{figure.error:.0e}".replace("e-0", "e-").replace("-", "−"),
-                "note": figure.note,
-            }
-        )
-    return out
-
-
-def unit(figure: Figure) -> str:
-    """Unit of the dimensionless number."""
-    return PLAIN_UNITS[figure.dimension]
+def rows(numbers: Iterable[KeyNumber], case: Case) -> list[dict[str, str]]:
+    """The table of key numbers."""
+    return [
+        {
+            "label": key.label,
+            "physical": key.text(case),
+            "plain": f"{number(key.number)} {PLAIN_UNITS[key.dimension]}".rstrip(),
+            "error": minus(f"{key.error:.0e}".replace("e-0", "e-")),
+            "note": key.note,
+        }
+        for key in numbers
+    ]
 
 
 def inputs(case: Case) -> list[tuple[str, str]]:
@@ -85,8 +87,8 @@ def conversions(case: Case) -> list[tuple[str, str, str]]:
 def certificate(found: Certificate) -> dict[str, Any]:
     """The certificate for reading: the largest residual, its limit, and the residuals by group."""
 
-    def short(value: float) -> str:
-        return f"{value:.1e}".replace("-", "−")
+    def two_digits(value: float) -> str:
+        return minus(f"{value:.1e}")
 
     groups: dict[str, float] = {}
     for name, value in found.residuals.items():
@@ -94,24 +96,24 @@ def certificate(found: Certificate) -> dict[str, Any]:
         group = "end conditions (B1)–(B15)" if name.startswith("(B") else group
         groups[group] = max(value, groups.get(group, 0.0))
     return {
-        "worst": short(found.worst),
+        "worst": two_digits(found.worst),
         "where": found.worst_equation,
-        "limit": short(found.limit),
+        "limit": two_digits(found.limit),
         "passed": found.passed,
-        "groups": [(name, short(value)) for name, value in groups.items()],
+        "groups": [(name, two_digits(value)) for name, value in groups.items()],
     }
 
 
-def sensitivities(answer: Answer) -> list[dict[str, Any]]:
+def sensitivities(computed: Computed) -> list[dict[str, Any]]:
     """Elasticities of the loads, and their uncertainty from the inputs."""
     out = []
-    for load, spread in zip(answer.sensitivities, answer.spreads, strict=True):
+    for load, spread in zip(computed.sensitivities, computed.spreads, strict=True):
         e = load.elasticities() if load.force != 0.0 else {}
         names = ("clearance", "weight_per_length", "stiffness", "length", "alpha")
-        cells = [f"{e[name][0]:+.3f} %".replace("-", "−") if e else "" for name in names]
+        cells = [minus(f"{e[name].value:+.3f} %") if e else "" for name in names]
         size = ""
         if spread is not None:
-            scales = answer.case.scales
+            scales = computed.case.scales
             plain = f"{spread.total:.2g} B/L²"
             size = "±" + (plain if scales is None else scales.system.text(spread.total, "force", 3))
         out.append({"name": load.name, "cells": cells, "spread": size})
@@ -142,11 +144,10 @@ KINDS = {
 """Kinds of special points in words."""
 
 
-def special(answer: Answer) -> list[dict[str, Any]]:
+def special(branches: Iterable[Branch], scales: Scales | None) -> list[dict[str, Any]]:
     """Special points of every branch."""
-    scales = answer.case.scales
     out = []
-    for branch in answer.branches:
+    for branch in branches:
         assert branch.mode is not None
         for point in branch.special_points:
             out.append(
@@ -154,8 +155,8 @@ def special(answer: Answer) -> list[dict[str, Any]]:
                     "mode": branch.mode.number,
                     "kind": KINDS[point.kind],
                     "physical": "" if scales is None else scales.text(point.force, "force", 6),
-                    "plain": number(point.force, point.error),
-                    "error": "" if point.kind == "end" else f"{point.error:.0e}".replace("-", "−"),
+                    "plain": number(point.load),
+                    "error": "" if point.kind == "end" else short(point.error),
                     "index": f"{point.index_before} → {point.index_after}"
                     if point.index_before != point.index_after
                     else str(point.index_after),

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.answers.comparison.beside import AGAINST, Other, Row, _known_rod, _other, load_rows
-from rodwell.answers.comparison.exact_loads import Load, exact_loads
+from rodwell.answers.comparison.beside import AGAINST, FormulaRow, Other, _known_rod, _other, load_rows
+from rodwell.answers.comparison.exact_loads import ExactLoad, exact_loads
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.faces import plain
@@ -36,17 +36,17 @@ class Audit:
     problem: Problem
     scales: Scales | None
     title: str
-    loads: tuple[Load, ...]
+    loads: tuple[ExactLoad, ...]
     not_found: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[FormulaRow, ...]
     others: tuple[Other, ...]
 
     @property
-    def critical(self) -> Load:
+    def critical(self) -> ExactLoad:
         """First critical load."""
         return self.loads[0]
 
-    def row(self, key: str) -> Row:
+    def row(self, key: str) -> FormulaRow:
         """Return the row of a formula by its key."""
         return next(row for row in self.rows if row.formula.key == key)
 

@@ -12,7 +12,7 @@ from rodwell.problem.problem import ends_text
 from rodwell.quantities.units import SI
 
 if TYPE_CHECKING:
-    from rodwell.answers.comparison.beside import Other, Row
+    from rodwell.answers.comparison.beside import FormulaRow, Other
     from rodwell.formulas import Formula
     from rodwell.studies.audit.audit import Audit
 
@@ -68,7 +68,7 @@ def _formula(formula: Formula) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _row(audit: Audit, row: Row) -> dict[str, Any]:
+def _row(audit: Audit, row: FormulaRow) -> dict[str, Any]:
     value = {} if row.value is None else _si(audit, FORCE, {"value": row.value})
     return {
         **_formula(row.formula),

@@ -6,8 +6,9 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
+from rodwell.quantities.value import Value
 from rodwell.studies.paper.work import Work
 
 DIGITS, INTERVAL, FORMULA = "digits", "interval", "formula"
@@ -17,13 +18,6 @@ FORMULA_NOISE = 1e-11
 """Relative to a formula's value: what its evaluation in double precision may leave."""
 
 AGREES, DOCUMENTED, UNEXPLAINED = "agrees", "differs, documented", "differs"
-
-
-class Value(NamedTuple):
-    """A computed number and the estimate of its error."""
-
-    value: float
-    error: float
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,8 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.errors import NotConvergedError
 from rodwell.problem.problem import Problem
-from rodwell.studies.paper.claims import FORMULA, Claim, Known, Value
+from rodwell.quantities.value import Value
+from rodwell.studies.paper.claims import FORMULA, Claim, Known
 from rodwell.studies.paper.work import Work, rod
 
 STEP = 0.04
@@ -113,8 +114,7 @@ def claims_3() -> list[Claim]:
 
 
 def _load(work: Work, problem: Problem, mode: int, until: float) -> Value:
-    point = work.branch_point(problem, mode, until)
-    return Value(point.force, point.error)
+    return work.branch_point(problem, mode, until).load
 
 
 def _curvature(work: Work, problem: Problem, mode: int, until: float) -> Value:

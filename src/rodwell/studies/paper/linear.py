@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from rodwell.quantities.value import Value
 from rodwell.studies.paper import scorer
-from rodwell.studies.paper.claims import FORMULA, INTERVAL, Claim, Known, Value
+from rodwell.studies.paper.claims import FORMULA, INTERVAL, Claim, Known
 from rodwell.studies.paper.work import CLEARANCE, Work, rod
 
 VERTICAL, NEARLY_VERTICAL = 0.0, 2.0
@@ -32,16 +33,16 @@ def wavenumber(mode: int) -> Callable[[Work], Value]:
     """√(−F) of the weightless rod."""
 
     def compute(work: Work) -> Value:
-        found = work.critical(WEIGHTLESS)[mode - 1]
-        k = math.sqrt(-found.force)
-        return Value(k, found.error / (2.0 * k))
+        load = work.critical(WEIGHTLESS)[mode - 1].load
+        k = math.sqrt(-load.value)
+        return Value(k, load.error / (2.0 * k))
 
     return compute
 
 
 def self_weight(mode: int) -> Callable[[Work], Value]:
     """Weight of the vertical column at which a mode buckles without end force."""
-    return lambda work: Value(*work.buckling_weight(COLUMN, mode))
+    return lambda work: work.buckling_weight(COLUMN, mode)
 
 
 def chord(mode: int) -> Callable[[Work], Value]:
@@ -147,8 +148,7 @@ def _load(mode: int) -> Callable[[Work], Value]:
     """Critical compression of the horizontal rod at γ = 15."""
 
     def compute(work: Work) -> Value:
-        found = work.critical(rod(15.0))[mode - 1]
-        return Value(-found.force, found.error)
+        return work.critical(rod(15.0))[mode - 1].load.times(-1.0)
 
     return compute
 
@@ -157,9 +157,8 @@ def _pinned(formula: float) -> Callable[[Work], Value]:
     """The critical load of the pinned rod nearest to what the formula gives."""
 
     def compute(work: Work) -> Value:
-        found = work.critical(rod(15.0, ends=("pinned", "pinned")), 5)
-        mode = min(found, key=lambda mode: abs(mode.force + formula))
-        return Value(-mode.force, mode.error)
+        modes = work.critical(rod(15.0, ends=("pinned", "pinned")), 5)
+        return min(modes, key=lambda mode: abs(mode.force + formula)).load.times(-1.0)
 
     return compute
 
@@ -187,7 +186,7 @@ def claims_87() -> list[Claim]:
         Claim("eq87.engelhardt", "text after (87), Engelhardt 1954", "mg of self-weight buckling, first mode",
               "74.6285 ± 0.0005", self_weight(1), INTERVAL),
         Claim("eq86.t1", "below (86)", "t₁/(mg)^(1/3) at F = 0", "1",
-              lambda _work: Value(scorer.start(1.0), 0.0), known=sign),
+              lambda _work: Value(scorer.start(1.0)), known=sign),
     ]  # fmt: skip
 
 
@@ -196,9 +195,9 @@ def claims_88() -> list[Claim]:
     bessel = scorer.bessel_root()
     return [
         Claim("eq88", "(88)", "mg of self-weight buckling, upper end free to sway", "18.956266",
-              lambda work: Value(*work.buckling_weight(SWAYING))),
+              lambda work: work.buckling_weight(SWAYING)),
         Claim("eq88.bessel", "(88)", "mg of self-weight buckling, upper end free to sway", "J_⅓(⅔√mg) = 0",
-              lambda work: Value(*work.buckling_weight(SWAYING)), FORMULA, bessel),
+              lambda work: work.buckling_weight(SWAYING), FORMULA, bessel),
         Claim("L_cr", "section 5, L_cr", "mg L³/EI of the tallest fixed–fixed column", "74.628569", self_weight(1)),
         Claim("ratio", "section 5", "ratio of critical heights, held to swaying", "1.58", ratio_of_heights),
     ]  # fmt: skip
@@ -210,7 +209,7 @@ def claims_6() -> list[Claim]:
     place = "section 4.1.3, Fig. 6"
     return [
         Claim("fig6.88", place, "mg of self-weight buckling at 88° (α = π/90)", "125.95",
-              lambda work: Value(*work.buckling_weight(nearly))),
+              lambda work: work.buckling_weight(nearly)),
         Claim("fig6.90", place, "mg of self-weight buckling at 90° (α = 0)", "74.63", self_weight(1)),
     ]  # fmt: skip
 
@@ -229,14 +228,13 @@ def claims_12() -> list[Claim]:
 
 
 def _top(mode: int) -> Callable[[Work], Value]:
-    return lambda work: Value(*work.buckling_weight(ON_TOP, mode))
+    return lambda work: work.buckling_weight(ON_TOP, mode)
 
 
 def claims_9() -> list[Claim]:
     """The first mode of the vertical column of Fig. 9, which buckles in tension."""
 
     def first(work: Work) -> Value:
-        mode = work.critical(rod(100.0, VERTICAL))[0]
-        return Value(mode.force, mode.error)
+        return work.critical(rod(100.0, VERTICAL))[0].load
 
     return [Claim("fig9.first", "caption of Fig. 9", "F_c of the first mode, γ = 100, α = 0 [B/L²]", "14.3626", first)]

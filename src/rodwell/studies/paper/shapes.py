@@ -11,7 +11,8 @@ from rodwell.analysis.branch.diagram import diagram
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.errors import NotConvergedError
-from rodwell.studies.paper.claims import FORMULA, Claim, Value
+from rodwell.quantities.value import Value
+from rodwell.studies.paper.claims import FORMULA, Claim
 from rodwell.studies.paper.work import Work, rod
 
 BETWEEN = 9
@@ -90,4 +91,4 @@ def _torque(work: Work, mode: int) -> Value:
     lift = work.branch(rod(15.0), mode).lift_off
     if lift is None:
         raise NotConvergedError(f"mode {mode} has no lift-off")
-    return Value(*lift.solution.number(Measured.TORQUE_0))
+    return lift.solution.number(Measured.TORQUE_0)

@@ -78,7 +78,7 @@ class Stability:
 
 
 @dataclass(frozen=True)
-class Row:
+class StabilityRow:
     """States of one weight under growing compression, Fig. 5: the one at lift-off and its place among them."""
 
     weight: float
@@ -92,7 +92,7 @@ class Fig5:
     """Fig. 5: the diagram, and the panels below it."""
 
     diagram: Stability
-    rows: tuple[Row, ...]
+    rows: tuple[StabilityRow, ...]
 
 
 def fig5(work: Work) -> Fig5:
@@ -125,7 +125,7 @@ def _piece(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArra
     return x, np.interp(x, curve.x, curve.values)
 
 
-def _row(work: Work, weight: float) -> Row:
+def _row(work: Work, weight: float) -> StabilityRow:
     problem = rod(weight)
     lift = work.branch(problem).lift_off
     if lift is None:
@@ -135,7 +135,7 @@ def _row(work: Work, weight: float) -> Row:
     branch = work.branch(problem, 1, forces[-1])
     at_lift = STEPS.index(1.0)
     states = tuple(lift.solution if i == at_lift else branch.at(force) for i, force in enumerate(forces))
-    return Row(weight, states, lift, at_lift)
+    return StabilityRow(weight, states, lift, at_lift)
 
 
 def fig6(work: Work) -> tuple[Stability, ...]:

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import NotConvergedError
-from rodwell.studies.paper.claims import FORMULA, Claim, Known, Value
+from rodwell.quantities.value import Value
+from rodwell.studies.paper.claims import FORMULA, Claim, Known
 from rodwell.studies.paper.work import CLEARANCE, Work, rod
 
 ROWS = (
@@ -123,8 +124,8 @@ def claims() -> list[Claim]:
             Claim(f"{name}.k3", place, "k₃ = mπ", k3, take(lambda p: p.wavenumbers[1])),
             Claim(f"{name}.weight", place, "γ_c of the double point", weight, take(lambda p: p.weight)),
             Claim(f"{name}.force", place, "−F_c of the double point [B/L²]", compression,
-                  take(lambda p: Value(-p.force.value, p.force.error))),
-            Claim(f"{name}.pair", place, "modal pair affected", str(pair), take(lambda p: Value(float(p.pair), 0.0))),
+                  take(lambda p: p.force.times(-1.0))),
+            Claim(f"{name}.pair", place, "modal pair affected", str(pair), take(lambda p: Value(float(p.pair)))),
         ]  # fmt: skip
     for n, weight in ((1, "8.7668"), (2, "62.3418"), (3, "219.1705")):
         out.append(

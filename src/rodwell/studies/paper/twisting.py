@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.curves.states import twist_curve
-from rodwell.studies.paper.claims import Claim, Known, Value
+from rodwell.quantities.value import Value
+from rodwell.studies.paper.claims import Claim, Known
 from rodwell.studies.paper.stability import sound
 from rodwell.studies.paper.work import Work, rod
 
@@ -40,7 +41,7 @@ def claims() -> list[Claim]:
 
 
 def _sense(work: Work, mirror: bool) -> Value:
-    return Value(float(work.twisted(rod(ODD), mirror=mirror).sense), 0.0)
+    return Value(float(work.twisted(rod(ODD), mirror=mirror).sense))
 
 
 def _shift(work: Work) -> Value:

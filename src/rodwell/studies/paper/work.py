@@ -13,6 +13,7 @@ from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
+from rodwell.quantities.value import Value
 
 T = TypeVar("T")
 
@@ -53,12 +54,12 @@ class Work:
 
     def branch(self, problem: Problem, mode: int = 1, until: float | None = None) -> Branch:
         """Branch of a mode, ω₂(1) < 0, to an end force or to lift-off."""
-        found = self.once(("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol))
-        if not found.reached_end:
+        branch = self.once(("branch", problem, mode, until), lambda: follow(problem, mode, until=until, rtol=self.rtol))
+        if not branch.reached_end:
             raise NotConvergedError(
-                f"γ = {problem.weight:g}, α = {problem.alpha:g}, mode {mode}: {found.ended_because}"
+                f"γ = {problem.weight:g}, α = {problem.alpha:g}, mode {mode}: {branch.ended_because}"
             )
-        return found
+        return branch
 
     def twisted(self, problem: Problem, mode: int = 1, *, mirror: bool = False) -> Torsion:
         """What twist does to the rod at its lift-off load."""
@@ -69,34 +70,33 @@ class Work:
 
     def branch_point(self, problem: Problem, mode: int, until: float) -> SpecialPoint:
         """The first secondary bifurcation of a mode's branch."""
-        found = [p for p in self.branch(problem, mode, until).special_points if p.kind == BRANCH_POINT]
-        if not found:
+        points = [p for p in self.branch(problem, mode, until).special_points if p.kind == BRANCH_POINT]
+        if not points:
             raise NotConvergedError(f"γ = {problem.weight:g}: no secondary bifurcation on mode {mode} to F = {until:g}")
-        return found[0]
+        return points[0]
 
-    def buckling_weight(self, problem: Problem, mode: int = 1) -> tuple[float, float]:
-        """Weight γ at which a mode's critical end force is zero, and its error.
+    def buckling_weight(self, problem: Problem, mode: int = 1) -> Value:
+        """Weight γ at which a mode's critical end force is zero.
 
         Between ``WEIGHTS``; the error is that of the load over its slope against the weight.
         """
         return self.once(("weight", problem, mode), lambda: self._zero(problem, mode))
 
-    def _zero(self, problem: Problem, mode: int) -> tuple[float, float]:
+    def _zero(self, problem: Problem, mode: int) -> Value:
         from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
 
-        def load(weight: float) -> tuple[float, float]:
-            found = critical_loads(problem.but(weight=weight), mode, rtol=self.rtol)[-1]
-            return found.force, found.error
+        def load(weight: float) -> Value:
+            return critical_loads(problem.but(weight=weight), mode, rtol=self.rtol)[-1].load
 
-        root = float(brentq(lambda w: load(w)[0], *WEIGHTS, xtol=1e-12, rtol=1e-14))
+        root = float(brentq(lambda w: load(w).value, *WEIGHTS, xtol=1e-12, rtol=1e-14))
         force, error = load(root)
         step = 1e-4 * root
-        slope = (load(root + step)[0] - load(root - step)[0]) / (2.0 * step)
-        return root, float((abs(force) + error) / abs(slope) + 4e-14 * root)
+        slope = (load(root + step).value - load(root - step).value) / (2.0 * step)
+        return Value(root, float((abs(force) + error) / abs(slope) + 4e-14 * root))
 
     def once(self, key: Hashable, compute: Callable[[], T]) -> T:
         """Return what is kept under ``key``, computed when it is first asked for."""
         if key not in self._kept:
             self._kept[key] = compute()
-        found: T = self._kept[key]
-        return found
+        kept: T = self._kept[key]
+        return kept

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, UNKNOWN
 from rodwell.quantities.table import Cell
+from rodwell.quantities.text import minus
+from rodwell.quantities.value import Value
 from rodwell.strength.limits import CYLINDER, LIFTS_OFF, SUPPORT, UNSTABLE, YIELDS
-from rodwell.studies.sweep.loads import BUCKLES, LoadResult, Result
-from rodwell.studies.sweep.points import Point
+from rodwell.studies.sweep.loads import BUCKLES, LoadResult
+from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 
 STATES = {
@@ -71,7 +73,7 @@ def _any(study: Study, name: str) -> bool:
     return any(getattr(one, name) is not None for point in study.points for one in point.loads)
 
 
-def row(study: Study, point: Point) -> list[Cell]:
+def row(study: Study, point: StudyPoint) -> list[Cell]:
     """The cells of one point for these columns."""
     out: list[Cell] = []
     unit, per = point.factor("force"), point.factor("force_per_length")
@@ -79,17 +81,17 @@ def row(study: Study, point: Point) -> list[Cell]:
         one = point.loads[k] if k < len(point.loads) else None
         out += [None, None] if one is None else [one.load.force * unit, STATES[one.what]]
         for kind in kinds(study):
-            out += _pair(None if one is None else one.spare.get(kind), unit)
-        out += _pair(None if one is None else one.contact, per)
+            out += pair(None if one is None else one.spare.get(kind), unit)
+        out += pair(None if one is None else one.contact, per)
         for name in ("stress", "safety"):
             if _any(study, name):
-                out += _pair(None if one is None else getattr(one, name))
+                out += pair(None if one is None else getattr(one, name))
     return out
 
 
-def _pair(found: Result | None, unit: float = 1.0) -> list[Cell]:
-    """Value and error, empty where there is none."""
-    return [None, None] if found is None else [found.value * unit, found.error * unit]
+def pair(number: Value | None, unit: float = 1.0) -> list[Cell]:
+    """The cells of a number and its error, empty where there is none."""
+    return [None, None] if number is None else [number.value * unit, number.error * unit]
 
 
 def head(study: Study, force: str, short: bool = False) -> list[str]:
@@ -118,15 +120,15 @@ LEGEND = (
 
 def fails(one: LoadResult) -> bool:
     """Whether the rod leaves the wall, takes another shape or is not known, or a strength is exceeded."""
-    over = any(found.value < 0.0 for kind, found in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF, UNSTABLE))
+    over = any(spare.value < 0.0 for kind, spare in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF, UNSTABLE))
     weak = one.safety is not None and one.safety.value < 1.0
     return one.what in (LEFT, OTHER_SHAPE, UNKNOWN) or bool(one.exceeded) or over or weak
 
 
-def cells(study: Study, point: Point, scale: float) -> list[list[str]]:
+def cells(study: Study, point: StudyPoint, scale: float) -> list[list[str]]:
     """Rows of one point for reading, one for each load; ``scale`` is the unit of force in N (1 without dimensions)."""
     inputs = [
-        str(v.values[i]) if v.numbers is None else f"{v.numbers[i]:.6g}".replace("-", "−")
+        str(v.values[i]) if v.numbers is None else minus(f"{v.numbers[i]:.6g}")
         for v, i in zip(study.varied, point.at, strict=True)
     ]
     unit = point.factor("force") / scale
@@ -139,19 +141,19 @@ def cells(study: Study, point: Point, scale: float) -> list[list[str]]:
             out += _first(one, unit)
         if _any(study, "safety"):
             out += _texts(one.safety, 1.0)
-        rows.append([*inputs, *(text.replace("-", "−") for text in out)])
+        rows.append([*inputs, *(minus(text) for text in out)])
     return rows
 
 
-def _texts(found: Result | None, unit: float) -> list[str]:
-    return ["–", "–"] if found is None else [f"{found.value * unit:.4g}", f"{found.error * unit:.0e}"]
+def _texts(number: Value | None, unit: float) -> list[str]:
+    return ["–", "–"] if number is None else [f"{number.value * unit:.4g}", f"{number.error * unit:.0e}"]
 
 
 def _first(one: LoadResult, unit: float) -> list[str]:
     """What gives first as compression grows, buckling and lift-off aside."""
     if one.exceeded:
         return [f"{UNTIL[one.exceeded[0]]}: at any load", "–"]
-    others = {kind: found for kind, found in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF)}
+    others = {kind: spare for kind, spare in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF)}
     if not others:
         return ["–", "–"]
     kind = min(others, key=lambda key: others[key].value)
@@ -168,10 +170,10 @@ def load_sentences(study: Study) -> list[str]:
     parts = [f"{STATES[what]} in {count}" for what, count in counts.items() if count]
     out = [f"At the loads that act (load.applied) the rod is {'; '.join(parts)}, of {len(pairs)} states."]
     for kind in (BUCKLES, LIFTS_OFF, UNSTABLE, YIELDS, CYLINDER, SUPPORT):
-        found = [(one.spare[kind].value * point.factor("force"), point, one) for point, one in pairs
+        spare = [(one.spare[kind].value * point.factor("force"), point, one) for point, one in pairs
                  if kind in one.spare]  # fmt: skip
-        if found:
-            least, point, one = min(found, key=lambda item: item[0])
+        if spare:
+            least, point, one = min(spare, key=lambda item: item[0])
             text = "Least to spare until" if least >= 0.0 else "Furthest beyond where"
             out.append(f"{text} {UNTIL[kind]}: {_force(study, abs(least))}, for {_which(study, point, one)}.")
     safe = [(one.safety.value, point, one) for point, one in pairs if one.safety is not None]
@@ -181,11 +183,11 @@ def load_sentences(study: Study) -> list[str]:
     return out
 
 
-def _which(study: Study, point: Point, one: LoadResult) -> str:
+def _which(study: Study, point: StudyPoint, one: LoadResult) -> str:
     """A point, and its load where there are several or where it does not vary."""
     force = one.load.force * point.factor("force")
     return study.inputs(point) + ("" if study.load_varies else f", F = {_force(study, force)} at s = 1")
 
 
 def _force(study: Study, value: float) -> str:
-    return study.system.text(value, "force", 4) if study.physical else f"{value:.4g} B/L²".replace("-", "−")
+    return study.system.text(value, "force", 4) if study.physical else minus(f"{value:.4g} B/L²")

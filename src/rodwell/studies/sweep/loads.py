@@ -11,19 +11,12 @@ from rodwell.answers.result.assessment import STRAIGHT, UNKNOWN, Assessment, AtL
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
+from rodwell.quantities.value import Value
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.section import RodStress, rod_section
 
 BUCKLES = "buckling"
 """Key of ``limits.NAMES`` for the first critical load."""
-
-
-@dataclass(frozen=True)
-class Result:
-    """A number of one point in units B = L = 1, with its error estimate."""
-
-    value: float
-    error: float
 
 
 @dataclass(frozen=True)
@@ -52,11 +45,11 @@ class LoadResult:
     load: AppliedLoad
     what: str
     why: str = ""
-    spare: Mapping[str, Result] = field(default_factory=dict)
+    spare: Mapping[str, Value] = field(default_factory=dict)
     exceeded: tuple[str, ...] = ()
-    contact: Result | None = None
-    stress: Result | None = None
-    safety: Result | None = None
+    contact: Value | None = None
+    stress: Value | None = None
+    safety: Value | None = None
 
 
 def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadResult, ...]:
@@ -69,9 +62,9 @@ def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadR
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:
     force, limits = at.load.force, a.window.limits
-    spare = {BUCKLES: Result(force - a.critical.force, a.critical.error)}
-    spare |= {one.kind: Result(force - one.force, one.error) for one in limits if one.force is not None}
-    exceeded = tuple(one.kind for one in limits if one.force is None)
+    spare = {BUCKLES: _to_spare(force, a.critical.load)}
+    spare |= {limit.kind: _to_spare(force, limit.load) for limit in limits if limit.load is not None}
+    exceeded = tuple(limit.kind for limit in limits if limit.load is None)
     state, why = at.state, at.why
     if state is not None and state.solution is not None and not state.solution.converged:
         why = "the state does not meet the tolerance: its errors say how well it is known"
@@ -79,19 +72,22 @@ def _at(a: Assessment, at: AtLoad) -> LoadResult:
     return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress))
 
 
-def _of_state(state: LoadedRod | None, found: RodStress | None) -> tuple[Result | None, Result | None, Result | None]:
+def _to_spare(force: float, limit: Value) -> Value:
+    """How much more compression can be added to an end force until a limit."""
+    return Value(force - limit.value, limit.error)
+
+
+def _of_state(state: LoadedRod | None, stress: RodStress | None) -> tuple[Value | None, Value | None, Value | None]:
     """Contact, stress and safety factor of a state."""
-    contact = None if state is None else Result(state.contact.value, state.contact.error)
-    if found is None:
-        return contact, None, None
-    return contact, Result(found.value, found.error), None if found.safety is None else Result(*found.safety)
+    contact = None if state is None else state.contact
+    return contact, stress, None if stress is None else stress.safety
 
 
 def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadResult, ...]:
     """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known."""
     out, first, section = [], critical[0], rod_section(case)
     for load in case.applied:
-        spare = {BUCKLES: Result(load.force - first.force, first.error)}
+        spare = {BUCKLES: _to_spare(load.force, first.load)}
         if load.force < first.force:
             out.append(LoadResult(load, UNKNOWN, why, spare))
             continue

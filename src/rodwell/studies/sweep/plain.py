@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.studies.sweep.loads import LoadResult, Result
-from rodwell.studies.sweep.points import Point
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Value
+from rodwell.studies.sweep.loads import LoadResult
+from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import LOADS, sentences
 
@@ -28,7 +30,7 @@ def study_dict(study: Study) -> dict[str, Any]:
     }
 
 
-def _point_dict(study: Study, point: Point) -> dict[str, Any]:
+def _point_dict(study: Study, point: StudyPoint) -> dict[str, Any]:
     problem = None if point.case is None else point.case.problem
     out: dict[str, Any] = {
         "point": point.number + 1,
@@ -44,43 +46,32 @@ def _point_dict(study: Study, point: Point) -> dict[str, Any]:
         "reasons": dict(point.reasons or {}),
     }  # fmt: skip
     out["applied"] = [load_dict(point, one) for one in point.loads]
-    out["used_at_lift_off"] = {kind: {"value": r.value, "error": r.error} for kind, r in point.used.items()}
+    out["used_at_lift_off"] = {kind: _number(used) for kind, used in point.used.items()}
     for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
-        found = getattr(point, name)
-        if found is None:
-            out[name] = None
-            continue
-        out[name] = {"value": found.value, "error": found.error}
-        if point.case is not None and point.case.scales is not None:
-            unit = point.factor(dimension)
-            si = "N" if dimension == "force" else "N/m"
-            out[name]["si"] = {"value": found.value * unit, "error": found.error * unit, "unit": si}
+        out[name] = _number(getattr(point, name), point.scales, dimension)
     return out
 
 
-def load_dict(point: Point, one: LoadResult) -> dict[str, Any]:
+def _number(number: Value | None, scales: Scales | None = None, dimension: str = "1") -> dict[str, Any] | None:
+    """A number with its error, and both in SI where there are dimensions."""
+    if number is None:
+        return None
+    out: dict[str, Any] = {"value": number.value, "error": number.error}
+    return out if scales is None else out | {"si": scales.si(number, dimension)}
+
+
+def load_dict(point: StudyPoint, one: LoadResult) -> dict[str, Any]:
     """One load as plain data, for JSON: units B = L = 1, SI beside where there are dimensions; stress in Pa."""
-    scaled = point.case is not None and point.case.scales is not None
-
-    def quantity(found: Result | None, dimension: str, si: str) -> dict[str, Any] | None:
-        if found is None:
-            return None
-        out: dict[str, Any] = {"value": found.value, "error": found.error}
-        if scaled:
-            unit = point.factor(dimension)
-            out["si"] = {"value": found.value * unit, "error": found.error * unit, "unit": si}
-        return out
-
     return {
         "given": one.load.given,
         "at": "bottom" if one.load.bottom else "top",
         "kind": "real" if one.load.real else "effective",
-        "force": quantity(Result(one.load.force, 0.0), "force", "N"),
+        "force": _number(Value(one.load.force), point.scales, "force"),
         "what": one.what,
         "why": one.why,
-        "to_spare": {kind: quantity(found, "force", "N") for kind, found in one.spare.items()},
+        "to_spare": {kind: _number(spare, point.scales, "force") for kind, spare in one.spare.items()},
         "exceeded_at_any_load": list(one.exceeded),
-        "largest_wall_force": quantity(one.contact, "force_per_length", "N/m"),
-        "rod_stress_Pa": None if one.stress is None else {"value": one.stress.value, "error": one.stress.error},
-        "safety_factor": None if one.safety is None else {"value": one.safety.value, "error": one.safety.error},
+        "largest_wall_force": _number(one.contact, point.scales, "force_per_length"),
+        "rod_stress_Pa": _number(one.stress),
+        "safety_factor": _number(one.safety),
     }

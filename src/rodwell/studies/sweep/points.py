@@ -8,20 +8,20 @@ from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
-from rodwell.studies.sweep.loads import LoadResult, Result, at_loads, without_branch
-
-__all__ = ["LoadResult", "Point", "Result", "Rod", "computed", "point"]
+from rodwell.studies.sweep.loads import LoadResult, at_loads, without_branch
 
 
 @dataclass(frozen=True)
-class Point:
+class StudyPoint:
     """One case of a study.
 
     Attributes
@@ -54,36 +54,38 @@ class Point:
     number: int
     at: tuple[int, ...]
     case: Case | None
-    critical: Result | None = None
+    critical: Value | None = None
     half_waves: float | None = None
-    lift_off: Result | None = None
+    lift_off: Value | None = None
     places: tuple[float, ...] = ()
-    contact: Result | None = None
-    used: Mapping[str, Result] = field(default_factory=dict)
+    contact: Value | None = None
+    used: Mapping[str, Value] = field(default_factory=dict)
     loads: tuple[LoadResult, ...] = ()
     reasons: Mapping[str, str] | None = None
 
+    @property
+    def scales(self) -> Scales | None:
+        """Units of the case; None without dimensions."""
+        return None if self.case is None else self.case.scales
+
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of this point; 1 without dimensions."""
-        if self.case is None or self.case.scales is None:
-            return 1.0
-        return self.case.scales.factor(dimension)
+        return 1.0 if self.scales is None else self.scales.factor(dimension)
 
-    def compression(self, name: str, bottom: bool = False) -> tuple[float, float] | None:
+    def compression(self, name: str, bottom: bool = False) -> Value | None:
         """Compression at "critical" or "lift_off", **positive**, and its error, in N (or B/L²).
 
         At s = 1, where the end force acts, or at the ``bottom``, s = 0.
         """
-        found: Result | None = getattr(self, name)
-        if found is None or self.case is None:
+        force: Value | None = getattr(self, name)
+        if force is None or self.case is None:
             return None
-        unit = self.factor("force")
         extra = self.case.problem.axial_weight if bottom else 0.0
-        return (extra - found.value) * unit, found.error * unit
+        return Value(extra - force.value, force.error).times(self.factor("force"))
 
 
 @dataclass(frozen=True)
-class Rod:
+class SharedResults:
     """What points share that differ in loads and strengths only.
 
     Attributes
@@ -101,66 +103,63 @@ class Rod:
     why: str = ""
 
 
-def computed(case: Case) -> Rod:
+def computed(case: Case) -> SharedResults:
     """Critical load and first branch of a case; what goes wrong is told in ``why``."""
     try:
         critical = critical_loads(case.problem, 1, rtol=case.rtol)
-    except NotConvergedError as problem:
-        return Rod(None, why=str(problem))
+    except NotConvergedError as error:
+        return SharedResults(None, why=str(error))
     try:
-        return Rod(critical, follow(case.problem, critical[0], rtol=case.rtol))
-    except (InputError, NotConvergedError) as problem:
-        return Rod(critical, why=str(problem))
+        return SharedResults(critical, follow(case.problem, critical[0], rtol=case.rtol))
+    except (InputError, NotConvergedError) as error:
+        return SharedResults(critical, why=str(error))
 
 
-def point(number: int, at: tuple[int, ...], case: Case, rod: Rod) -> Point:
-    """Results of one case, whose critical load and branch are those of ``rod``; reasons for what is missing."""
-    out = Point(number, at, case)
-    if rod.critical is None:
-        return replace(out, reasons={"critical": rod.why, "lift_off": "no critical load", "contact": "no lift-off"})
-    mode = rod.critical[0]
+def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedResults) -> StudyPoint:
+    """Results of one case, whose critical load and branch are those of ``shared``; reasons for what is missing."""
+    out = StudyPoint(number, at, case)
+    if shared.critical is None:
+        return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
+    mode = shared.critical[0]
     reasons: dict[str, str] = {}
-    out = replace(out, critical=Result(mode.force, mode.error), half_waves=mode.wavenumber / math.pi)
+    out = replace(out, critical=mode.load, half_waves=mode.wavenumber / math.pi)
     try:
-        if rod.branch is None:
-            raise NotConvergedError(rod.why)
-        lift_off, places, contact = _at_lift_off(rod.branch, reasons)
-        used = {} if contact is None else _used(case, rod.branch)
-        loads = at_loads(case, rod.critical, rod.branch)
+        if shared.branch is None:
+            raise NotConvergedError(shared.why)
+        lift_off, places, contact = _at_lift_off(shared.branch, reasons)
+        used = {} if contact is None else _used(case, shared.branch)
+        loads = at_loads(case, shared.critical, shared.branch)
         out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads)
-    except (InputError, NotConvergedError) as problem:
-        reasons = {"lift_off": str(problem), "contact": "no lift-off"}
-        out = replace(out, loads=without_branch(case, rod.critical, str(problem)))
+    except (InputError, NotConvergedError) as error:
+        reasons = {"lift_off": str(error), "contact": "no lift-off"}
+        out = replace(out, loads=without_branch(case, shared.critical, str(error)))
     amiss = "; ".join(dict.fromkeys(one.why for one in out.loads if one.why))
     if amiss:
         reasons["applied"] = amiss
     return replace(out, reasons=reasons or None)
 
 
-def _used(case: Case, branch: Branch) -> dict[str, Result]:
+def _used(case: Case, branch: Branch) -> dict[str, Value]:
     """Parts of the strengths used at lift-off, with errors from the two meshes."""
     assert branch.lift_off is not None
     lift = branch.lift_off
     state = LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution)
     out = {}
     for use in uses(case):
-        coarse, fine = (use.size(mesh, ZOOMS)[0] for mesh in state.along)
-        out[use.kind] = Result(fine, float(estimated_error(fine, coarse)))
+        out[use.kind] = compared(*(use.size(mesh, ZOOMS)[0] for mesh in state.along))
     return out
 
 
-def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Result | None, tuple[float, ...], Result | None]:
+def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Value | None, tuple[float, ...], Value | None]:
     lift = branch.lift_off
     if lift is None:
         reasons.update(lift_off=f"was not found: {branch.ended_because}", contact="no lift-off")
         return None, (), None
-    found = Result(lift.force, lift.error)
     if branch.lift_off_at_buckling:
         reasons["contact"] = "lift-off coincides with buckling: no lateral weight"
-        return found, lift.s, None
+        return lift.load, lift.s, None
     if not branch.converged:
         reasons["lift_off"] = (
             "the branch to it does not meet the tolerance everywhere: its error says how well it is known"
         )
-    peak = lift.solution.wall.contact
-    return found, lift.s, Result(peak.value, peak.error)
+    return lift.load, lift.s, lift.solution.wall.contact

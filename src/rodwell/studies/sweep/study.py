@@ -14,7 +14,7 @@ from rodwell.case.file import read_toml
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
-from rodwell.studies.sweep.points import Point, computed, point
+from rodwell.studies.sweep.points import StudyPoint, computed, computed_point
 from rodwell.studies.sweep.varied import LISTS, Varied, may_vary, varied_inputs
 
 APPLIED = "load.applied"
@@ -43,33 +43,32 @@ class Study:
     text: str
     given: Mapping[str, Any]
     varied: tuple[Varied, ...]
-    points: tuple[Point, ...]
+    points: tuple[StudyPoint, ...]
 
     @property
     def system(self) -> System:
         """The units in which results are shown."""
-        found = (p.case.scales for p in self.points if p.case is not None and p.case.scales is not None)
-        return next((scales.system for scales in found), SI)
+        return next((point.scales.system for point in self.points if point.scales is not None), SI)
 
     @property
     def physical(self) -> bool:
         """Whether the cases have dimensions."""
-        return any(point.case is not None and point.case.scales is not None for point in self.points)
+        return any(point.scales is not None for point in self.points)
 
-    def worst(self, name: str = "critical") -> Point | None:
+    def worst(self, name: str = "critical") -> StudyPoint | None:
         """The point with the least compression at s = 1 at "critical" or "lift_off"; None if none has one.
 
         Physical forces are compared, in N, since the unit B/L² may differ from point to point.
         """
-        found = [(load[0], point) for point in self.points if (load := point.compression(name)) is not None]
-        return min(found, key=lambda pair: pair[0])[1] if found else None
+        loads = [(load.value, point) for point in self.points if (load := point.compression(name)) is not None]
+        return min(loads, key=lambda pair: pair[0])[1] if loads else None
 
     @property
-    def incomplete(self) -> tuple[Point, ...]:
+    def incomplete(self) -> tuple[StudyPoint, ...]:
         """Points that lack a result; their ``reasons`` say why."""
         return tuple(point for point in self.points if point.reasons)
 
-    def inputs(self, point: Point) -> str:
+    def inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point in words."""
         return ", ".join(f"{v.name} = {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
 
@@ -78,20 +77,20 @@ class Study:
         """Whether ``load.applied`` varies, which changes neither the critical load nor lift-off."""
         return any(varied.name == APPLIED for varied in self.varied)
 
-    def rod_inputs(self, point: Point) -> str:
+    def rod_inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point that change its critical load and lift-off, in words; may be empty."""
         pairs = zip(self.varied, point.at, strict=True)
         return ", ".join(f"{v.name} = {v.text(i)}" for v, i in pairs if v.name != APPLIED)
 
     @property
-    def rods(self) -> tuple[Point, ...]:
+    def rods(self) -> tuple[StudyPoint, ...]:
         """A point for each combination of the inputs other than the load, one that was computed if there is one."""
-        found: dict[tuple[int, ...], Point] = {}
-        for one in self.points:
-            key = tuple(i for v, i in zip(self.varied, one.at, strict=True) if v.name != APPLIED)
-            if key not in found or (found[key].critical is None and one.critical is not None):
-                found[key] = one
-        return tuple(found.values())
+        rods: dict[tuple[int, ...], StudyPoint] = {}
+        for point in self.points:
+            key = tuple(i for v, i in zip(self.varied, point.at, strict=True) if v.name != APPLIED)
+            if key not in rods or (rods[key].critical is None and point.critical is not None):
+                rods[key] = point
+        return tuple(rods.values())
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain data, for JSON."""
@@ -122,8 +121,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     data, source, text = _read(case)
     try:
         varied = varied_inputs(data)
-    except InputError as problem:
-        raise CaseError(source, [(problem.field, problem.value, problem.problem)]) from None
+    except InputError as error:
+        raise CaseError(source, [(error.field, error.value, error.reason)]) from None
     if not varied:
         raise CaseError(
             source, [("study", None, 'has no input that varies: give one a list, or a range "30..90 deg in 13"')]
@@ -132,7 +131,7 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
     folder = Path.cwd() if isinstance(case, Mapping) else Path(case).parent
     cases = [_case(data, varied, at, source, folder, units) for at in grid]
-    if all(isinstance(found, InputError) for found in cases):
+    if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
     points = _points(grid, cases, tell)
     tell("done", 1.0)
@@ -140,23 +139,23 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, points)
 
 
-def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[Point, ...]:
+def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[StudyPoint, ...]:
     """All points in their order; those that differ in loads or strengths only share what is computed once."""
     same: dict[Any, list[int]] = {}
     for number, case in enumerate(cases):
         same.setdefault((case.problem, case.rtol) if isinstance(case, Case) else number, []).append(number)
-    points: list[Point] = []
+    points: list[StudyPoint] = []
     for numbers in same.values():
-        rod = None
+        shared = None
         for number in numbers:
             tell(f"point {number + 1} of {len(grid)}", len(points) / len(grid))
             case = cases[number]
             if not isinstance(case, Case):
-                points.append(Point(number, grid[number], None, reasons={"case": str(case)}))
+                points.append(StudyPoint(number, grid[number], None, reasons={"case": str(case)}))
                 continue
-            rod = computed(case) if rod is None else rod
-            points.append(point(number, grid[number], case, rod))
-    return tuple(sorted(points, key=lambda found: found.number))
+            shared = computed(case) if shared is None else shared
+            points.append(computed_point(number, grid[number], case, shared))
+    return tuple(sorted(points, key=lambda point: point.number))
 
 
 def is_study(path: Path) -> bool:
@@ -190,9 +189,9 @@ def _case(
 ) -> Case | InputError:
     """The case of one point, or what is wrong with it."""
     single: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in data.items()}
-    for one, i in zip(varied, at, strict=True):
-        single[one.section][one.key] = one.values[i]
+    for v, i in zip(varied, at, strict=True):
+        single[v.section][v.key] = v.values[i]
     try:
         return Case.from_dict(single, source=source, folder=folder).in_units(units)
-    except InputError as problem:
-        return problem
+    except InputError as error:
+        return error

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from rodwell.quantities.table import Cell, Table
-from rodwell.quantities.text import amount, percent
+from rodwell.quantities.text import amount, minus, percent
 from rodwell.studies.sweep import load_columns
-from rodwell.studies.sweep.points import Point
+from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import APPLIED, Study
 
 NOTES = (
@@ -58,7 +58,7 @@ def _told(study: Study) -> list[str]:
     return [kind for kind in STRENGTHS if any(kind in point.used for point in study.points)]
 
 
-def _row(study: Study, point: Point) -> tuple[Cell, ...]:
+def _row(study: Study, point: StudyPoint) -> tuple[Cell, ...]:
     cells: list[Cell] = [point.number + 1]
     for varied, i in zip(study.varied, point.at, strict=True):
         cells.append(str(varied.values[i]) if varied.numbers is None else varied.numbers[i])
@@ -66,22 +66,15 @@ def _row(study: Study, point: Point) -> tuple[Cell, ...]:
     cells += [None] * 3 if problem is None else [problem.weight, problem.alpha, problem.clearance]
     for name in LOADS:
         top, bottom = point.compression(name), point.compression(name, bottom=True)
-        cells += [
-            None if top is None else top[0],
-            None if top is None else top[1],
-            None if bottom is None else bottom[0],
-        ]
-    unit = point.factor("force_per_length")
-    contact = point.contact
+        cells += [*(top or (None, None)), None if bottom is None else bottom.value]
     cells += [point.half_waves, ", ".join(f"{s:.6g}" for s in point.places) or None]
-    cells += [None, None] if contact is None else [contact.value * unit, contact.error * unit]
+    cells += load_columns.pair(point.contact, point.factor("force_per_length"))
     for kind in _told(study):
-        used = point.used.get(kind)
-        cells += [None, None] if used is None else [used.value, used.error]
+        cells += load_columns.pair(point.used.get(kind))
     return (*cells, *load_columns.row(study, point), remarks(study, point))
 
 
-def remarks(study: Study, point: Point) -> str:
+def remarks(study: Study, point: StudyPoint) -> str:
     """Worst case, and why results are missing."""
     parts = [
         f"worst case: least compression that {'buckles it' if name == 'critical' else 'lifts it off'}"
@@ -96,7 +89,7 @@ def remarks(study: Study, point: Point) -> str:
 
 def load_text(study: Study, value: float) -> str:
     """A force for reading."""
-    return study.system.text(value, "force", 5) if study.physical else f"{value:.6g} B/L²".replace("-", "−")
+    return study.system.text(value, "force", 5) if study.physical else minus(f"{value:.6g} B/L²")
 
 
 def scales(study: Study) -> tuple[float, str, float, str]:
@@ -104,9 +97,9 @@ def scales(study: Study) -> tuple[float, str, float, str]:
     force, per_length = units(study)
     if not study.physical:
         return 1.0, force, 1.0, per_length
-    pairs = [found for point in study.points for name in LOADS if (found := point.compression(name)) is not None]
+    loads = [load for point in study.points for name in LOADS if (load := point.compression(name)) is not None]
     contacts = [p.contact.value * p.factor("force_per_length") for p in study.points if p.contact is not None]
-    scale, force = study.system.unit("force", max((abs(value) for value, _ in pairs), default=1.0))
+    scale, force = study.system.unit("force", max((abs(load.value) for load in loads), default=1.0))
     per, per_length = study.system.unit("force_per_length", max(contacts, default=1.0))
     return scale, force, per, per_length
 
@@ -124,21 +117,21 @@ def head(study: Study, short: bool = False) -> list[str]:
     ]  # fmt: skip
 
 
-def cells(study: Study, point: Point) -> list[str]:
+def cells(study: Study, point: StudyPoint) -> list[str]:
     """One row of the table of rods for reading; a dash where there is no result."""
     scale, _, per, _ = scales(study)
     shown = [(v, i) for v, i in zip(study.varied, point.at, strict=True) if v.name != APPLIED]
     out = [str(v.values[i]) if v.numbers is None else f"{v.numbers[i]:.6g}" for v, i in shown]
     for name in LOADS:
-        found, bottom = point.compression(name), point.compression(name, bottom=True)
-        out += ["–", "–"] if found is None else [f"{found[0] / scale:.5g}", f"{found[1] / scale:.0e}"]
+        top, bottom = point.compression(name), point.compression(name, bottom=True)
+        out += ["–", "–"] if top is None else [f"{top.value / scale:.5g}", f"{top.error / scale:.0e}"]
         if name == "critical":
-            out.append("–" if bottom is None else f"{bottom[0] / scale:.5g}")
+            out.append("–" if bottom is None else f"{bottom.value / scale:.5g}")
     out.append(", ".join(f"{s:.3g}" for s in point.places) or "–")
     unit = point.factor("force_per_length") / per
     out.append("–" if point.contact is None else f"{point.contact.value * unit:.4g}")
     names = len(shown)
-    return [*out[:names], *(cell.replace("-", "−") for cell in out[names:])]
+    return [*out[:names], *(minus(cell) for cell in out[names:])]
 
 
 def sentences(study: Study) -> list[str]:
@@ -150,22 +143,22 @@ def sentences(study: Study) -> list[str]:
         if worst is None or load is None:
             out.append(f"No point has a load at which it {what}.")
             continue
-        others = [found[0] for point in study.points if (found := point.compression(name)) is not None]
-        text = f"compression at which it {what} is {load_text(study, load[0])} at s = 1"
+        others = [other.value for point in study.points if (other := point.compression(name)) is not None]
+        text = f"compression at which it {what} is {load_text(study, load.value)} at s = 1"
         if study.rod_inputs(worst):
             text = f"Worst case: the least {text}, for {study.rod_inputs(worst)}"
             out.append(f"{text}; the largest over the study is {load_text(study, max(others))}.")
         else:
             out.append(f"The least {text}, whatever the load.")
-        if load[0] < 0.0:
+        if load.value < 0.0:
             out.append(
                 "Negative compression is tension: there the rod buckles under its own weight unless it is pulled."
             )
     for kind in _told(study):
         used = {point.number: point.used[kind] for point in study.points if kind in point.used}
         most = max(used, key=lambda number: used[number].value)
-        part, error = used[most].value, used[most].error
-        share = percent(part, error) if part < 10.0 else f"{amount(part, error, 3)} times all of it"
+        part = used[most]
+        share = percent(part) if part.value < 10.0 else f"{amount(part, 3)} times all of it"
         where = study.rod_inputs(study.points[most])
         out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}{f', for {where}' if where else ''}.")
     out += load_columns.load_sentences(study)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.errors import InputError
+from rodwell.quantities.text import minus
 from rodwell.quantities.units import in_unit_of
 
 MOST_POINTS = 400
@@ -68,7 +69,7 @@ class Varied:
         """Value number ``i`` for reading."""
         if self.numbers is None:
             return str(self.values[i])
-        return f"{self.numbers[i]:.6g} {self.unit}".strip().replace("-", "−").replace(" deg", "°")
+        return minus(f"{self.numbers[i]:.6g} {self.unit}".strip()).replace(" deg", "°")
 
 
 def is_varied(value: object) -> bool:
@@ -125,8 +126,8 @@ def _range(section: str, key: str, text: str) -> Varied:
     unit = found[1][2]
     try:
         first = _in(found[0][2] or unit, unit, first)
-    except ValueError as problem:
-        raise InputError(name, text, f"{problem}; {ALLOWED}") from None
+    except ValueError as error:
+        raise InputError(name, text, f"{error}; {ALLOWED}") from None
     if not 2 <= count <= MOST_POINTS:
         raise InputError(name, text, f"must have from 2 to {MOST_POINTS} values")
     if not (math.isfinite(first) and math.isfinite(last)) or first == last:

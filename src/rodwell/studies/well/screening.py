@@ -9,7 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.loads.by_inclination import Loads, Precision, loads_at
-from rodwell.analysis.loads.long_rod import LocalLoad, String, critical_compression, length_effect, lift_off_compression
+from rodwell.analysis.loads.long_rod import (
+    LocalLoad,
+    PipeString,
+    critical_compression,
+    length_effect,
+    lift_off_compression,
+)
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.formulas import FORMULAS
@@ -54,7 +60,7 @@ class Screening:
 
     case: Case
     survey: Survey
-    string: String
+    string: PipeString
     critical: Loads
     lift_off: Loads
     formulas: dict[str, FloatArray]
@@ -175,7 +181,7 @@ def screen(
     return Screening(case, survey, string, critical, lift_off, _formulas(string, survey), compression, effect)
 
 
-def _string(case: Case) -> String:
+def _string(case: Case) -> PipeString:
     if not isinstance(case, Case):
         raise InputError("case", case, "must be a rodwell.Case")
     if case.scales is None:
@@ -184,11 +190,11 @@ def _string(case: Case) -> String:
     if problem.weight == 0.0:
         raise InputError("case", case.source, "has a weightless rod: nothing presses it to the wall of a well")
     weight = problem.weight * scales.factor("force_per_length")
-    return String(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
+    return PipeString(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
 
 
 def _compression(
-    string: String, survey: Survey, bit_force: float | None, hook_force: float | None
+    string: PipeString, survey: Survey, bit_force: float | None, hook_force: float | None
 ) -> FloatArray | None:
     """Effective compression at the stations in N."""
     given = {"a force column": survey.force, "bit_force": bit_force, "hook_force": hook_force}
@@ -208,7 +214,7 @@ def _compression(
     return None
 
 
-def _formulas(string: String, survey: Survey) -> dict[str, FloatArray]:
+def _formulas(string: PipeString, survey: Survey) -> dict[str, FloatArray]:
     out: dict[str, FloatArray] = {}
     for key in BESIDE:
         formula, values = FORMULAS[key], []

@@ -95,8 +95,8 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         raise InputError("survey", str(path), "is a folder; name a CSV file in it") from None
     except UnicodeDecodeError:
         raise InputError("survey", str(path), "is not text in UTF-8; export the survey as CSV in UTF-8") from None
-    except OSError as problem:
-        raise InputError("survey", str(path), f"cannot be read: {problem.strerror}") from None
+    except OSError as error:
+        raise InputError("survey", str(path), f"cannot be read: {error.strerror}") from None
     rows = text.splitlines()
     first = next((row for row in rows if row.strip() and not row.lstrip().startswith("#")), "")
     if not first:
@@ -109,8 +109,8 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         if row.strip(" \t,;") and not row.lstrip().startswith("#"):
             try:
                 out.append((number, next(csv.reader([row], delimiter=delimiter))))
-            except csv.Error as problem:
-                raise InputError(f"{path.name}, line {number}", None, f"is not CSV: {problem}") from None
+            except csv.Error as error:
+                raise InputError(f"{path.name}, line {number}", None, f"is not CSV: {error}") from None
     return out
 
 

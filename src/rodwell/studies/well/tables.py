@@ -11,6 +11,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.text import amount, percent
 from rodwell.quantities.units import in_unit_of
+from rodwell.quantities.value import Value
 from rodwell.studies.well.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
 
 FORCE_UNITS = {"m": "kN", "ft": "klbf"}
@@ -69,7 +70,7 @@ def sentences(screening: Screening) -> list[str]:
         return f"{survey.md[i] / metre:.6g} {depth}, {survey.inclination[i]:.3g}° from the vertical"
 
     def load(value: float, error: float = 0.0) -> str:
-        return f"{amount(value / newton, error / newton)} {force}"
+        return f"{amount(Value(value / newton, error / newton))} {force}"
 
     exact = screening.critical
 
@@ -80,7 +81,7 @@ def sentences(screening: Screening) -> list[str]:
         bent = int(np.sum(np.logical_and(screening.dropping, above)))
         verdict = "The string buckles" if past else "By the straight-hole loads the string does not buckle"
         out.append(
-            f"{verdict}: the largest utilisation is {percent(*_used(screening, worst))} at {at(worst)}, where it bears "
+            f"{verdict}: the largest utilisation is {percent(_used(screening, worst))} at {at(worst)}, where it bears "
             f"{load(screening.compression[worst])} and buckles at {load(exact.values[worst], exact.errors[worst])}."
         )
         if past:
@@ -106,7 +107,7 @@ def sentences(screening: Screening) -> list[str]:
     if np.any(inclined):
         known = [i for i in np.flatnonzero(inclined) if np.isfinite(ratio[i])]
         low, high = min(known, key=lambda i: ratio[i]), max(known, key=lambda i: ratio[i])
-        least, most = (percent(ratio[i], ratio[i] * exact.errors[i] / exact.values[i]) for i in (low, high))
+        least, most = (percent(Value(ratio[i], ratio[i] * exact.errors[i] / exact.values[i])) for i in (low, high))
         out.append(
             f"Dawson–Paslay, which is 0 in a vertical hole, is {least} to {most} of the exact "
             "load at the inclined stations."
@@ -123,11 +124,11 @@ def sentences(screening: Screening) -> list[str]:
     return out
 
 
-def _used(screening: Screening, i: int) -> tuple[float, float]:
-    """Utilisation at a station and its error: that of the exact load."""
+def _used(screening: Screening, i: int) -> Value:
+    """Utilisation at a station; its error is that of the exact load."""
     assert screening.utilisation is not None
     used = float(screening.utilisation[i])
-    return used, abs(used) * float(screening.critical.errors[i] / screening.critical.values[i])
+    return Value(used, abs(used) * float(screening.critical.errors[i] / screening.critical.values[i]))
 
 
 def assumptions(screening: Screening) -> list[str]:

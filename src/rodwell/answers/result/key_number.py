@@ -1,4 +1,4 @@
-"""A key figure: a number with its error, and what it is."""
+"""A key number: a number with its error, and what it is."""
 
 from __future__ import annotations
 
@@ -10,47 +10,57 @@ from rodwell.case.case import Case
 from rodwell.quantities.names import SI_UNITS, UNITS
 from rodwell.quantities.text import supported
 from rodwell.quantities.units import SI
+from rodwell.quantities.value import Value
 
 
 @dataclass(frozen=True)
-class Figure:
-    """A number of the answer: value and error estimate in units B = L = 1, and what it is.
+class KeyNumber:
+    """A number of the answer in units B = L = 1, and what it is.
 
     ``scale`` is the size of its kind, against which the error is judged.
     """
 
     name: str
     label: str
-    value: float
-    error: float
+    number: Value
     dimension: str
     scale: float
     note: str = ""
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        return self.number.value
+
+    @property
+    def error(self) -> float:
+        """Estimate of its error."""
+        return self.number.error
 
     def physical(self, case: Case) -> tuple[float, float, str] | None:
         """Value, error and unit in SI, or None for a case without dimensions."""
         if case.scales is None:
             return None
-        factor = case.scales.factor(self.dimension)
-        return self.value * factor, self.error * factor, SI_UNITS[self.dimension]
+        number = self.number.times(case.scales.factor(self.dimension))
+        return number.value, number.error, SI_UNITS[self.dimension]
 
     def text(self, case: Case, digits: int = 6) -> str:
         """Value in the case's units with the digits that its error supports, or nothing for one without dimensions."""
         if case.scales is None:
             return ""
-        count = supported(self.value, self.error, digits)
+        count = supported(self.number, digits)
         return case.scales.text(self.value if count else 0.0, self.dimension, max(count, 1))
 
     def as_dict(self, case: Case) -> dict[str, Any]:
         """Everything about the number, for JSON."""
+        scales = case.scales
         out: dict[str, Any] = {
             "label": self.label, "value": self.value, "error": self.error, "unit": UNITS[self.dimension],
         }  # fmt: skip
-        physical = self.physical(case)
-        if physical is not None:
-            out["si"] = {"value": physical[0], "error": physical[1], "unit": physical[2]}
-        if case.scales is not None and case.scales.system != SI:
-            out[case.scales.system.name] = case.scales.shown(self.value, self.error, self.dimension)
+        if scales is not None:
+            out["si"] = scales.si(self.number, self.dimension)
+            if scales.system != SI:
+                out[scales.system.name] = scales.shown(self.number, self.dimension)
         if self.note:
             out["note"] = self.note
         return out

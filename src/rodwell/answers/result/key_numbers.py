@@ -1,27 +1,27 @@
-"""Key figures of an answer: numbers with errors, and what they are."""
+"""Key numbers of an answer: numbers with errors, and what they are."""
 
 from __future__ import annotations
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.state.wall import Peak
 from rodwell.analysis.straight.critical import EULER, Mode
-from rodwell.answers.result.figure import Figure, force_scale
+from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case
 from rodwell.case.cylinder import Cylinder
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import percent
+from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
 
 
-def critical_figure(mode: Mode) -> Figure:
+def critical_number(mode: Mode) -> KeyNumber:
     """Critical load of a mode."""
     symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
     label = f"Critical load of mode {mode.number}, end force at s = 1"
     scale = force_scale(mode.force) + mode.problem.axial_weight
-    return Figure(f"critical_load_{mode.number}", label, mode.force, mode.error, "force", scale, symmetry)
+    return KeyNumber(f"critical_load_{mode.number}", label, mode.load, "force", scale, symmetry)
 
 
 STANDING = {
@@ -38,56 +38,53 @@ of the first zeros of the Bessel functions J of order 1/3 and −1/3.
 ROUNDED = 5e-7
 
 
-def critical_length(problem: Problem) -> list[Figure]:
+def critical_length(problem: Problem) -> list[KeyNumber]:
     """Length at which a vertical rod of this stiffness and weight just stands without end force, if it is known."""
     number = STANDING.get(problem.ends)
     if number is None or problem.axial_weight != problem.weight or problem.weight == 0.0:
         return []
-    value = (number / problem.weight) ** (1.0 / 3.0)
+    length = (number / problem.weight) ** (1.0 / 3.0)
+    value = Value(length, length * ROUNDED / number / 3.0)
     note = f"L_cr = ({number:g} B/mg)^⅓: a longer rod buckles under its own weight, F = 0 at s = 1"
     label = "Critical length under self-weight, vertical"
-    return [Figure("critical_length", label, value, value * ROUNDED / number / 3.0, "length", value, note)]
+    return [KeyNumber("critical_length", label, value, "length", length, note)]
 
 
-def real_force(figure: Figure, case: Case) -> list[Figure]:
+def real_force(key: KeyNumber, case: Case) -> list[KeyNumber]:
     """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
     if case.rod is None or case.scales is None:
         return []
     less = case.fluids.effective_minus_real(case.rod, 0.0) / case.scales.factor("force")
     if less == 0.0:
         return []
-    value = figure.value - less
-    label = f"{figure.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
-    scale = abs(figure.value) + abs(less) + EULER
-    return [Figure(f"{figure.name}_real", label, value, figure.error, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
+    label = f"{key.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
+    scale = abs(key.value) + abs(less) + EULER
+    real = Value(key.value - less, key.error)
+    return [KeyNumber(f"{key.name}_real", label, real, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
 
 
-def stress_figure(state: Solution, cylinder: Cylinder, scales: Scales) -> Figure:
+def stress_number(state: Solution, cylinder: Cylinder, scales: Scales) -> KeyNumber:
     """Largest equivalent stress in the cylinder in one state, as a multiple of the unit of stress B/L⁴."""
     stress = cylinder_stress(state, cylinder, scales)
     unit = scales.factor("stress")
-    part = stress.utilisation * stress.error / stress.value
-    note = f"{percent(stress.utilisation, part)} of the yield strength, at s/L = {stress.s:.4g}"
+    used = Value(stress.utilisation, stress.utilisation * stress.error / stress.value)
+    note = f"{percent(used)} of the yield strength, at s/L = {stress.s:.4g}"
     label = "Largest equivalent (von Mises) stress in the cylinder"
-    value, error = stress.value / unit, stress.error / unit
-    return Figure("cylinder_stress", label, value, error, "stress", value, note)
+    value = Value(stress.value / unit, stress.error / unit)
+    return KeyNumber("cylinder_stress", label, value, "stress", value.value, note)
 
 
-def state_figures(state: Solution) -> list[Figure]:
+def state_numbers(state: Solution) -> list[KeyNumber]:
     """Wall and support loads of one state."""
-    wall = state.wall
-    shortening, shortening_error = state.number(Measured.SHORTENING)
+    wall, shortening, end = state.wall, state.number(Measured.SHORTENING), state.problem.ends[1]
 
-    def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> Figure:
+    def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> KeyNumber:
         place = f"at s/L = {peak.s:.4g}"
-        return Figure(name, label, peak.value, peak.error, QUANTITIES[field].dimension, scale or peak.value, place)
+        return KeyNumber(name, label, peak, QUANTITIES[field].dimension, scale or peak.value, place)
 
-    in_rod = Peak(*state.largest("rod_M2"))
-    largest_torque = largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", wall.twisting)
-    largest_bending = largest(
-        "largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod
-    )
-    wall_force = wall.total
+    in_rod = state.largest("rod_M2")
+    torque = Value(wall.torque.value if wall.needs_torque else 0.0, wall.torque.error)
+    balanced = "" if wall.needs_torque else "none: the twisting moment balances itself"
     return [
         largest(
             "largest_wall_force",
@@ -95,22 +92,21 @@ def state_figures(state: Solution) -> list[Figure]:
             "Largest contact force on the wall per length, outward",
             wall.contact,
         ),
-        Figure(
+        KeyNumber(
             "total_wall_force",
             "Total contact force on the wall, all directions added",
-            *wall_force,
+            wall.total,
             "force",
-            wall_force[0],
+            wall.total.value,
         ),
-        largest_torque,
-        Figure(
+        largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", wall.twisting),
+        KeyNumber(
             "support_torque",
             "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
-            wall.torque[0] if wall.needs_torque else 0.0,
-            wall.torque[1],
+            torque,
             "moment",
-            largest_torque.value,
-            "" if wall.needs_torque else "none: the twisting moment balances itself",
+            wall.twisting.value,
+            balanced,
         ),
         # μ and λ are differences of moments of the size of the rod's: they are judged against that
         largest(
@@ -123,20 +119,20 @@ def state_figures(state: Solution) -> list[Figure]:
             wall.bending_lambda,
             in_rod.value,
         ),
-        largest_bending,
-        Figure(
+        largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod),
+        KeyNumber(
             "end_shear",
-            f"Sideways force at the end s = 1 ({state.problem.ends[1]}), F₃(1)",
-            *state.end_reactions["shear"],
+            f"Sideways force at the end s = 1 ({end}), F₃(1)",
+            state.end_reactions["shear"],
             "force",
             force_scale(state.force),
         ),
-        Figure(
+        KeyNumber(
             "end_moment",
-            f"Bending moment at the end s = 1 ({state.problem.ends[1]}), M₂(1)",
-            *state.end_reactions["moment"],
+            f"Bending moment at the end s = 1 ({end}), M₂(1)",
+            state.end_reactions["moment"],
             "moment",
-            largest_bending.value,
+            in_rod.value,
         ),
-        Figure("end_shortening", "Approach of the ends, 1 − z(1)", shortening, shortening_error, "length", shortening),
+        KeyNumber("end_shortening", "Approach of the ends, 1 − z(1)", shortening, "length", shortening.value),
     ]
