@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.family import MIRROR, Family
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -88,4 +88,19 @@ def family(
         scale_c=problem.clearance,
         slope_scale=problem.clearance * wavenumber,
         lam_scale=scale,
+        reflections=reflections(problem, parameter),
+        first_integral=problem.axial_weight == 0.0 and problem.ends == ("clamped", "clamped") and parameter != "alpha",
     )
+
+
+def reflections(problem: Problem, parameter: str = "force") -> tuple[tuple[int, bool], ...]:
+    """Reflections (sign, turned), y(s) → ± y(s) or ± y(1 − s), that the problem has for any value of a parameter.
+
+    The twisting moment forbids all but y(s) → −y(1 − s); axial weight or unequal ends forbid to turn the rod round;
+    a coil forbids to change one sign alone. The identity is left out.
+    """
+    turnable = problem.symmetric and parameter != "alpha"
+    plain = problem.twist == 0.0 and problem.turns == 0 and parameter != "twist"
+    found = [MIRROR] if plain else []
+    found += [(1, True)] if plain and turnable else []
+    return (*found, (-1, True)) if turnable else tuple(found)

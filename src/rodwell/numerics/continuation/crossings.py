@@ -59,6 +59,9 @@ CLOSE = 3e-3
 FOLD_OFFSET = 1e-3
 """How far from a turning point, as a part of the segment, the index is compared."""
 
+DROWNED = 1e3
+"""An eigenvalue below this many times its round-off tells nothing by its sign."""
+
 CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
 
@@ -100,9 +103,11 @@ def _located(
     coarse: Segment, fine: Segment, turns: Sequence[float], low: float, high: float, before: int, after: int
 ) -> Crossing:
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
+    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
+    if not fold and not fine.family.may_branch(fine(low), fine(high)):
+        return _unexplained(fine, low, high, before, after)
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
     steady = fine.family.parity == 0 and not fold
     if steady:
         low, high = _shrunk(fine, low, high, before)
@@ -125,6 +130,15 @@ def _located(
         after,
         fold,
     )
+
+
+def _unexplained(fine: Segment, low: float, high: float, before: int, after: int) -> Crossing:
+    """A change of the index where nothing may branch: round-off in an eigenvalue, or the step has left the branch."""
+    for place in (low, high):
+        eigenvalue = _Eigenvalue(fine, place)
+        if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
+            return Crossing(None, low, before, after, fold=False)
+    raise LocationError("the stability index changes where nothing may branch: the step has left the branch")
 
 
 def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:

@@ -6,8 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
 from rodwell.numerics.continuation.location import LocatedZero, LocationError, Segment, locate
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
@@ -30,6 +28,12 @@ NEARLY = 1e-2
 
 SHORT_OF = 0.98
 """Part of the way to where a branch meets its mirror image up to which its index is looked at."""
+
+LEFT_THE_BRANCH = "the step has left the branch: the stability index and the sense in λ do not go together"
+"""The sign of det H, which the index tells, and the sense of travel in λ change together along a branch of regular
+points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there. What
+may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods in
+Bifurcation Problems* (1987), chapter 5."""
 
 MOST_REFINEMENTS = 2
 """How often the meshes are refined for a located point that does not meet the tolerance."""
@@ -87,6 +91,8 @@ def events_between(
         turn = segment.turn()
         placed = segment.index_changes(turn)
         if turn is not None and not any(found.fold for _, found in placed):
+            if not meshes.fine.meets_mirror_image(turn.fine, NEARLY) and all(found.certain for _, found in placed):
+                raise LocationError(LEFT_THE_BRANCH)
             index = _index_at(turn.t, before.fine.index, placed)
             placed.append((turn.t, _found(TURN, meshes, turn, index, index)))
     changes = sorted(placed, key=lambda item: item[0])
@@ -109,26 +115,17 @@ class _Stretch:
         return Segment(coarse, self.before.coarse, self.after.coarse), Segment(fine, self.before.fine, self.after.fine)
 
     def index_changes(self, turn: LocatedZero | None = None) -> list[_Placed]:
-        """Changes of the stability index; together they make up the whole difference of the two ends."""
+        """Changes of the stability index; together they make up the whole difference of the two ends.
+
+        Where a branch meets its own mirror image the index is the same on both sides, and its softest eigenvalue, which
+        vanishes there without changing sign, must not be looked at.
+        """
         if turn is None and self.before.fine.index == self.after.fine.index:
             return []
         turns, end = [] if turn is None else [turn.t], 1.0
-        if turn is not None and self._meets(turn.fine):
+        if turn is not None and self.meshes.fine.meets_mirror_image(turn.fine, NEARLY):
             turns, end = [], SHORT_OF * turn.t
         return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.segments, turns, end)]
-
-    def _meets(self, state: State) -> bool:
-        """Whether a branch turns back since it meets its own mirror image.
-
-        The index is then the same on both sides, and its softest eigenvalue, which vanishes there without changing
-        sign, must not be looked at. The reflection that leaves the state as it is turns the branch round, so the
-        tangent has the other symmetry; where a branch of symmetric states folds, it has theirs.
-        """
-        family = self.meshes.fine
-        if np.max(np.abs(state.c)) < NEARLY * family.scale_c:
-            return True
-        parity = state.symmetry_within(NEARLY) if family.parity == 0 and state.space.symmetric else 0
-        return parity != 0 and family.loses(state, parity)
 
     def _changed(self, crossing: Crossing) -> LocatedEvent:
         index = crossing.before, crossing.after
@@ -151,7 +148,7 @@ class _Stretch:
         if first * last >= 0.0:
             return None
         place = locate(*self.segments, _sense, (first, last), ROUGHLY)
-        if not self._meets(place.fine):
+        if not self.meshes.fine.meets_mirror_image(place.fine, NEARLY):
             place = locate(*self.segments, _sense, (first, last))
         return place
 

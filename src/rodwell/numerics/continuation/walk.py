@@ -85,7 +85,11 @@ def trace(
 
 @dataclass
 class _Walk:
-    """What happens step by step, see :func:`trace`."""
+    """What happens step by step, see :func:`trace`.
+
+    After a step that had to be repeated, steps are ``careful`` until they are as long as the first: next to a sharp
+    turn the Hessian is nearly singular, and tangent and index that belong to the iterate before the last will not do.
+    """
 
     stepping: Stepping
     events: Sequence[Event]
@@ -94,6 +98,7 @@ class _Walk:
     trace: Trace
     predictor: Predictor
     softest: SoftestEigenvalues = field(default_factory=SoftestEigenvalues)
+    careful: bool = False
     work: float = 0.0
 
     def to_the_end(self, progress: Progress | None) -> None:
@@ -107,7 +112,7 @@ class _Walk:
             if trace.end:
                 return
             if isinstance(turn, str):
-                length = 0.5 * length
+                length, self.careful = 0.5 * length, True
                 self.predictor.restart(trace.points[-1].coarse)
                 trace.end = turn if length < stepping.smallest else ""
                 continue
@@ -118,6 +123,7 @@ class _Walk:
                 continue
             if progress is not None:
                 progress(trace.points[-1])
+            self.careful = self.careful and length < stepping.first
             length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
 
     def _limit(self) -> str:
@@ -167,9 +173,10 @@ class _Walk:
     ) -> tuple[str, TwoMeshes, MeshedState | None, float, FloatArray | None]:
         """Try one step: what went wrong (or ""), meshes, point or None, turn of the tangent, coarse factors."""
         expected = self.predictor.ahead(length)
-        outcome, coarse, prediction_error, factors = meshes.coarse.step_to(
-            state, length, *expected, meshes.coarse_tolerance
-        )
+        family, tolerance = meshes.coarse, meshes.coarse_tolerance
+        if self.careful:
+            family, tolerance = family.with_exact_tangent(), family.tolerance
+        outcome, coarse, prediction_error, factors = family.step_to(state, length, *expected, tolerance)
         if coarse is None:
             return meshes.coarse.advice(outcome), meshes, None, 0.0, None
         cosine = float(state.row @ coarse.tangent) + state.row_lam * coarse.tangent_lam
@@ -178,5 +185,5 @@ class _Walk:
             return "the branch turns too sharply to be followed", meshes, None, turn, None
         if prediction_error > LARGEST_PREDICTION_ERROR * length:
             return "the steps stray from the branch", meshes, None, turn, None
-        outcome, meshes, point = meshes.resolve(coarse)
+        outcome, meshes, point = meshes.resolve(coarse, exact=self.careful)
         return (meshes.coarse.advice(outcome) if outcome is not Outcome.CONVERGED else ""), meshes, point, turn, factors
