@@ -102,7 +102,7 @@ def wall(out: Path) -> dict[str, str]:
         state = rodwell.follow(problem, mode, until=force)[-1]
         shape = {1: "even", -1: "odd"}[state.point.fine.symmetry]
         load = state.wall
-        support = number(load.torque[0], 5) if load.needs_torque else "0"
+        support = number(load.torque.value, 5) if load.needs_torque else "0"
         rows.append((str(mode), f"{force:g}".replace("-", "−"), shape, f"{load.twisting.value:.5f}", support))
     head = ("Mode", "F", "Shape", "Largest |T₂|", "T₂(0), at the support")
     diagram = rodwell.diagram(problem, modes=2, until=-400.0)
