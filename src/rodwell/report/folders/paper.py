@@ -123,7 +123,7 @@ def write_tables(table: Agreement, folder: Path) -> None:
 
 def cells(finding: Finding) -> tuple[str, ...]:
     """The columns ``HEAD`` of one finding."""
-    claim, computed = finding.claim, finding.found
+    claim, computed = finding.claim, finding.computed
     error = "0" if computed.error == 0.0 else short(computed.error)
     return claim.place, claim.quantity, minus(claim.printed), number(computed), error, finding.verdict
 
