@@ -226,10 +226,10 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = physical(parsed, load, catalogue)
-        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
-                    rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
-                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
+        made = physical(parsed, load, catalogue)
+        case = Case(problem=made.problem, scales=made.scales, until=made.until, cylinder=_cylinder(parsed),
+                    rod=made.rod, fluids=made.fluids, facts=made.facts, applied=made.applied,
+                    supports=parsed.supports, gravity=made.gravity, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
         case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
@@ -251,8 +251,8 @@ def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schem
         return model.model_validate(given)
     except ValidationError as error:
         explained = explain(error, within=("load",))
-        found = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
-        raise CaseError(source, found) from None
+        problems = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
+        raise CaseError(source, problems) from None
 
 
 def _named(field: str, compute: Any) -> Any:

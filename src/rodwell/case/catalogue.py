@@ -54,9 +54,9 @@ def key_of(name: str) -> str:
     return re.sub(r"[\s_-]+", "", text)
 
 
-def _decimal(found: re.Match[str]) -> str:
-    whole, over, under = (int(part or 0) for part in found.groups())
-    return found[0] if under == 0 else f"{whole + over / under:g}"
+def _decimal(match: re.Match[str]) -> str:
+    whole, over, under = (int(part or 0) for part in match.groups())
+    return match[0] if under == 0 else f"{whole + over / under:g}"
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ def _check(kind: str, raw: Raw, file: str) -> None:
         raise InputError("catalogue.files", file, f"{kind} {name!r}: {where} {what}") from None
 
 
-def _add(entries: dict[str, dict[str, Raw]], found: Iterable[tuple[str, Raw]]) -> None:
-    for kind, raw in found:
+def _add(entries: dict[str, dict[str, Raw]], listed: Iterable[tuple[str, Raw]]) -> None:
+    for kind, raw in listed:
         for name in (raw["name"], *raw.get("aliases", ())):
             entries[kind][key_of(name)] = raw

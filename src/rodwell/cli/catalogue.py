@@ -38,8 +38,8 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
         known = read_catalogue([str(file) for file in files], Path())
     except InputError as error:
         raise InputError("--file", error.value, error.reason) from None
-    found = {kind: [getattr(known, kind)(name) for name in known.names(kind)] for kind in KINDS}
-    chosen = {kind: [entry for entry in entries if _holds(entry, words)] for kind, entries in found.items()}
+    every = {kind: [getattr(known, kind)(name) for name in known.names(kind)] for kind in KINDS}
+    chosen = {kind: [entry for entry in entries if _holds(entry, words)] for kind, entries in every.items()}
     if as_json:
         print_json({kind: [e.model_dump(exclude_none=True) for e in entries] for kind, entries in chosen.items()})
         return

@@ -65,8 +65,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
 
     problem = make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
-    lift, found = branch.lift_off, branch.mode
-    assert found is not None
+    lift, buckling = branch.lift_off, branch.mode
+    assert buckling is not None
     if lift is None:
         raise NotConvergedError(
             f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ended_because})"
@@ -75,8 +75,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     if as_json:
         print_json(
             {
-                "critical_load": found.force,
-                "critical_load_error": found.error,
+                "critical_load": buckling.force,
+                "critical_load_error": buckling.error,
                 "lift_off": {"force": lift.force, "error": lift.error, "s": list(places)},
                 "coincides_with_buckling": branch.lift_off_at_buckling,
                 "converged": branch.converged,
@@ -86,7 +86,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         )
         return
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
-    click.echo(f"  buckling of mode {found.number}  {found.force:+.10g}  ± {found.error:.1e}")
+    click.echo(f"  buckling of mode {buckling.number}  {buckling.force:+.10g}  ± {buckling.error:.1e}")
     click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{places_text(places)}")
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")

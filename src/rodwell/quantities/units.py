@@ -76,9 +76,9 @@ def to_si(text: object, kind: str) -> float:
     try:
         value = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        found = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
+        what = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
         hint = _hint(quantity, kind)
-        raise ValueError(f"must be a {kind}, but it {found}; write for example {examples}{hint}") from None
+        raise ValueError(f"must be a {kind}, but it {what}; write for example {examples}{hint}") from None
     except Exception:
         raise ValueError(f"is not a single number with a unit; write for example {examples}") from None
     if not math.isfinite(value):
@@ -104,11 +104,11 @@ def in_unit_of(number: float, unit: str, other: str) -> float:
 
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
-    found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
-    if found is None:
+    match = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
+    if match is None:
         comma = "a decimal point, not a comma, " if "," in text else ""
         raise ValueError(f"is not a number with a unit; write {comma}for example {examples}")
-    return float(found[1]), found[2].strip().replace("·", "*")
+    return float(match[1]), match[2].strip().replace("·", "*")
 
 
 def _hint(quantity: Any, kind: str) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
-from rodwell.analysis.branch.follow import LARGEST_STEP, checked_end
+from rodwell.analysis.branch.follow import LARGEST_STEP, Following, checked_end
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.symmetry import Reflection
 from rodwell.analysis.discrete import first_run
@@ -68,10 +68,10 @@ class Diagram:
         return drawn(self, ax, ordinate=ordinate, scales=scales)
 
     def __getitem__(self, name: str) -> Branch:
-        found = next((branch for branch in self.branches if branch.name == name), None)
-        if found is None:
+        branch = next((branch for branch in self.branches if branch.name == name), None)
+        if branch is None:
             raise InputError("branch", name, "must be one of " + ", ".join(b.name for b in self.branches))
-        return found
+        return branch
 
     def __repr__(self) -> str:
         return f"<Diagram down to F = {self.until:.6g} B/L²: {', '.join(branch.name for branch in self.branches)}>"
@@ -175,22 +175,21 @@ def diagram(
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
     first_run.begin()
-    rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
-    largest_step = checked_step(largest_step)
+    how, modes = Following(checked_rtol(rtol), checked_step(largest_step)), checked_whole("modes", modes, 1, MOST_MODES)
     tell = progress or (lambda _what, _done: None)
     if then is not None and (then[0] not in PATHS or then[0] == "force"):
         raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
     if then is not None:
         checked_end(problem, *then)
     if problem.turns != 0:
-        start = coil(problem, until=until, rtol=rtol, largest_step=largest_step)
+        start = coil(problem, until=until, rtol=how.rtol, largest_step=how.largest_step)
         until = float(start.force[-1]) if until is None else until
-        work = Exploration(problem, CriticalLoads(()), until, rtol, largest_step)
+        work = Exploration(problem, CriticalLoads(()), until, how)
         work.branches.append(start)
     else:
-        critical = critical_loads(problem, modes, rtol=rtol)
+        critical = critical_loads(problem, modes, rtol=how.rtol)
         until = _end(critical, until)
-        work = Exploration(problem, critical, until, rtol, largest_step)
+        work = Exploration(problem, critical, until, how)
         work.follow_primary(tell)
     if secondary:
         work.follow_secondary(tell)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import branch_off, follow
+from rodwell.analysis.branch.follow import Following, branch_off, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.branch.symmetry import images
@@ -38,11 +39,10 @@ class Joint:
 class Exploration:
     """A diagram in the making."""
 
-    def __init__(
-        self, problem: Problem, critical: CriticalLoads, until: float, rtol: float, largest_step: float
-    ) -> None:
+    def __init__(self, problem: Problem, critical: CriticalLoads, until: float, how: Following) -> None:
         self.problem, self.critical, self.until = problem, critical, until
-        self.rtol, self.largest_step = rtol, largest_step
+        self._follow = partial(follow, problem, rtol=how.rtol, largest_step=how.largest_step)
+        self._branch_off = partial(branch_off, until=until, rtol=how.rtol, largest_step=how.largest_step)
         self.branches: list[Branch] = []
         self.joints: list[Joint] = []
         self.unexplored: list[str] = []
@@ -53,22 +53,14 @@ class Exploration:
         for i, mode in enumerate(followed):
             tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
             for mirror in (False, True) if len(images(self.problem, mode.parity)) == 1 else (False,):
-                self.branches.append(
-                    follow(
-                        self.problem, mode, until=self.until, mirror=mirror,
-                        rtol=self.rtol, largest_step=self.largest_step,
-                    )
-                )  # fmt: skip
+                self.branches.append(self._follow(mode, until=self.until, mirror=mirror))
 
     def continue_in(self, parameter: str, until: float) -> None:
         """Continue each branch that reached its end in another parameter."""
         for branch in [b for b in self.branches if b.ended_because == END]:
             name = f"{branch.name}, in {parameter}"
             try:
-                further = follow(
-                    self.problem, start=branch[-1], parameter=parameter, until=until,
-                    rtol=self.rtol, largest_step=self.largest_step,
-                )  # fmt: skip
+                further = self._follow(start=branch[-1], parameter=parameter, until=until)
             except (InputError, NotConvergedError) as error:
                 self.unexplored.append(f"{name}: {error}")
                 continue
@@ -119,14 +111,7 @@ class Exploration:
             number = 1 + sum(b.origin.parent is not None for b in self.branches)
             origin = Origin(f"secondary {number}", switched=True, parent=parent.name)
             try:
-                branch = branch_off(
-                    point,
-                    until=self.until,
-                    mirror=mirror,
-                    rtol=self.rtol,
-                    largest_step=self.largest_step,
-                    origin=origin,
-                )
+                branch = self._branch_off(point, mirror=mirror, origin=origin)
             except NotConvergedError as error:
                 self.unexplored.append(f"{where}: {error}")
                 continue

@@ -187,8 +187,8 @@ def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
                 points.append(meshes.point(turned[0], turned[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        found = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
-        changes = [f for f in found if f.name == INDEX and not f.fold and f.certain]
+        events = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
+        changes = [f for f in events if f.name == INDEX and not f.fold and f.certain]
         if len(changes) == 1:
             return changes[0]
     return None

@@ -62,17 +62,17 @@ def traced(
 
     meetings: dict[float, LocatedEvent | None] = {}
 
-    def meeting(found: LocatedEvent) -> LocatedEvent | None:
-        if found.point.lam not in meetings:
-            meetings[found.point.lam] = rejoined(problem, found)
-        return meetings[found.point.lam]
+    def meeting(event: LocatedEvent) -> LocatedEvent | None:
+        if event.point.lam not in meetings:
+            meetings[event.point.lam] = rejoined(problem, event)
+        return meetings[event.point.lam]
 
-    def stop(found: LocatedEvent) -> str:
-        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * meshes.coarse.scale_c:
+    def stop(event: LocatedEvent) -> str:
+        if event.name == TURN and np.max(np.abs(event.point.fine.c)) <= FLAT * meshes.coarse.scale_c:
             return STRAIGHT
-        if found.name == TURN and meeting(found) is not None:
+        if event.name == TURN and meeting(event) is not None:
             return REJOINS
-        return found.name if found.name in stops else ""
+        return event.name if event.name in stops else ""
 
     report = None if progress is None else lambda p: progress(p.lam)
     result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report)

@@ -132,8 +132,8 @@ def _peaks(sizes: FloatArray) -> FloatArray:
     """Numbers of the peaks of values on a grid that come near the largest, in order; of equal neighbours the first."""
     up = np.concatenate([[True], sizes[1:] > sizes[:-1]])
     down = np.concatenate([sizes[:-1] >= sizes[1:], [True]])
-    found = np.flatnonzero(up & down & (sizes >= (1.0 - NEAR) * np.max(sizes)))
-    return np.asarray(np.sort(found[np.argsort(-sizes[found], kind="stable")[:MOST_PEAKS]]))
+    peaks = np.flatnonzero(up & down & (sizes >= (1.0 - NEAR) * np.max(sizes)))
+    return np.asarray(np.sort(peaks[np.argsort(-sizes[peaks], kind="stable")[:MOST_PEAKS]]))
 
 
 def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:

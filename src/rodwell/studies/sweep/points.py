@@ -133,7 +133,7 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     except (InputError, NotConvergedError) as error:
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
         out = replace(out, loads=without_branch(case, shared.critical, str(error)))
-    amiss = "; ".join(dict.fromkeys(one.why for one in out.loads if one.why))
+    amiss = "; ".join(dict.fromkeys(state.why for state in out.loads if state.why))
     if amiss:
         reasons["applied"] = amiss
     return replace(out, reasons=reasons or None)

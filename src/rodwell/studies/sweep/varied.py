@@ -118,14 +118,14 @@ def _range(section: str, key: str, text: str) -> Varied:
     """A range "30..90 deg in 13": both ends included, evenly spaced."""
     name = f"{section}.{key}"
     parts = _RANGE.fullmatch(text)
-    found = None if parts is None else (_NUMBER.fullmatch(parts["first"]), _NUMBER.fullmatch(parts["last"]))
-    if parts is None or found is None or found[0] is None or found[1] is None:
+    ends = None if parts is None else (_NUMBER.fullmatch(parts["first"]), _NUMBER.fullmatch(parts["last"]))
+    if parts is None or ends is None or ends[0] is None or ends[1] is None:
         allowed = ALLOWED_LOAD if name in LISTS else ALLOWED
         raise InputError(name, text, f"is not a range; {allowed}")
-    first, last, count = float(found[0][1]), float(found[1][1]), int(parts["count"][:9])
-    unit = found[1][2]
+    first, last, count = float(ends[0][1]), float(ends[1][1]), int(parts["count"][:9])
+    unit = ends[1][2]
     try:
-        first = _in(found[0][2] or unit, unit, first)
+        first = _in(ends[0][2] or unit, unit, first)
     except ValueError as error:
         raise InputError(name, text, f"{error}; {ALLOWED}") from None
     if not 2 <= count <= MOST_POINTS:
