@@ -15,6 +15,7 @@ from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.events import INDEX, NEARLY, LocatedEvent, events_between
+from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.equilibria.family import Family, State
 from rodwell.numerics.equilibria.newton import symmetrise
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -187,7 +188,10 @@ def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
                 points.append(meshes.point(turned[0], turned[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        events = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
+        try:
+            events = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
+        except LocationError:
+            continue
         changes = [f for f in events if f.name == INDEX and not f.fold and f.certain]
         if len(changes) == 1:
             return changes[0]

@@ -33,12 +33,15 @@ class Crossing:
     fold: bool
 
 
-def index_crossings(coarse: Segment, fine: Segment, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
+def index_crossings(
+    coarse: Segment, fine: Segment, turns: Sequence[float] = (), end: float = 1.0, *, doubted: bool = False
+) -> list[Crossing]:
     """All places up to ``end`` where the stability index changes, each stretch with a change resolved by bisection.
 
     The segment is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
     back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
     crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
+    A change that nothing explains means that the step has left the branch, unless counts are to be ``doubted``.
     """
     cuts = [0.0, end]
     for turn in turns:
@@ -47,7 +50,7 @@ def index_crossings(coarse: Segment, fine: Segment, turns: Sequence[float] = (),
     brackets = []
     for low, high in pairwise(cuts):
         brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
-    return [_located(coarse, fine, turns, *bracket) for bracket in brackets]
+    return [_located(coarse, fine, turns, *bracket, doubted=doubted) for bracket in brackets]
 
 
 ALONE = 0.1
@@ -100,12 +103,22 @@ def _changes_sign(segment: Segment, low: float, high: float) -> bool:
 
 
 def _located(
-    coarse: Segment, fine: Segment, turns: Sequence[float], low: float, high: float, before: int, after: int
+    coarse: Segment,
+    fine: Segment,
+    turns: Sequence[float],
+    low: float,
+    high: float,
+    before: int,
+    after: int,
+    *,
+    doubted: bool,
 ) -> Crossing:
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
     fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
     if not fold and not fine.family.may_branch(fine(low), fine(high)):
-        return _unexplained(fine, low, high, before, after)
+        if doubted or _drowned(fine, low, high):
+            return Crossing(None, low, before, after, fold=False)
+        raise LocationError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
     steady = fine.family.parity == 0 and not fold
@@ -132,13 +145,13 @@ def _located(
     )
 
 
-def _unexplained(fine: Segment, low: float, high: float, before: int, after: int) -> Crossing:
-    """A change of the index where nothing may branch: round-off in an eigenvalue, or the step has left the branch."""
+def _drowned(fine: Segment, low: float, high: float) -> bool:
+    """Whether the eigenvalue that changes its sign between two places is round-off."""
     for place in (low, high):
         eigenvalue = _Eigenvalue(fine, place)
         if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
-            return Crossing(None, low, before, after, fold=False)
-    raise LocationError("the stability index changes where nothing may branch: the step has left the branch")
+            return True
+    return False
 
 
 def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:

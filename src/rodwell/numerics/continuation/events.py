@@ -122,10 +122,12 @@ class _Stretch:
         """
         if turn is None and self.before.fine.index == self.after.fine.index:
             return []
-        turns, end = [] if turn is None else [turn.t], 1.0
         if turn is not None and self.meshes.fine.meets_mirror_image(turn.fine, NEARLY):
-            turns, end = [], SHORT_OF * turn.t
-        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.segments, turns, end)]
+            found = index_crossings(*self.segments, end=SHORT_OF * turn.t, doubted=True)
+            found = [crossing for crossing in found if crossing.place is not None]
+        else:
+            found = index_crossings(*self.segments, [] if turn is None else [turn.t])
+        return [(crossing.t, self._changed(crossing)) for crossing in found]
 
     def _changed(self, crossing: Crossing) -> LocatedEvent:
         index = crossing.before, crossing.after

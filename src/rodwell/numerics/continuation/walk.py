@@ -57,7 +57,7 @@ class Trace:
 
 Progress = Callable[[MeshedState], None]
 Stop = Callable[[LocatedEvent], str]
-"""Why the branch ends at something located, or "" if it goes on."""
+"""Why the branch ends at something located, or "" if it goes on; a LocationError if that is not to be trusted."""
 
 
 def trace(
@@ -151,10 +151,10 @@ class _Walk:
             opening = len(trace.points) == 1
             leaves = opening and self.switched
             found = events_between(new_meshes, base, point, self.events, opening=opening, leaves=leaves)
+            end = next((i for i, item in enumerate(found) if self.stop(item)), None)
         except LocationError as problem:
             return str(problem)
         trace.points[-1], trace.meshes[-1] = base, new_meshes
-        end = next((i for i, item in enumerate(found) if self.stop(item)), None)
         if end is not None:
             found = found[: end + 1]
             trace.end, point, new_meshes = self.stop(found[end]), found[end].point, found[end].meshes
