@@ -38,11 +38,15 @@ PLACES = 4001
 STARTS, SHARES = 8, (0.0, 0.5, 1.0)
 """Phases of the first mode from which the cone is searched, and shares of the second that are added."""
 
+MANY, ROUGHLY = 20.0, 1e-7
+"""Twist in B/L from which contact in several places competes; relative change with which a start has settled."""
+
 BELOW = 0.02
 """How far below the first eigenvalue the shift lies, as a part of the distance to the next."""
 
-ROUNDS, STRONG, ALIKE = 12, 1e-3, 1e-9
-"""Refinements at most; part of the largest multiplier from which the mesh is refined; loads that are the same."""
+ROUNDS, STRONG, STEADY = 12, 1e-3, 0.25
+"""Refinements at most; part of the largest multiplier from which the mesh is refined; part of its predecessor that
+a change is not believed to be below: how it falls depends on where mesh points happen to lie."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,8 @@ def _inward_mode(
 ) -> tuple[ComplexArray, float] | None:
     """The mode turned or reversed so that x ≥ 0, and by how many radians it misses that; None if it cannot be."""
     if pencil.twist == 0.0:  # x and y are independent, and x = 0 is held no less: the first load is that of y
-        part = mode.real if turns else mode.imag
+        whole = turns and np.linalg.norm(mode.real) > np.linalg.norm(mode.imag)  # then both are multiples of one mode
+        part = mode.real if whole else mode.imag
         return np.asarray(1j * part, dtype=np.complex128), 0.0
     inner = np.linspace(0.0, 1.0, PLACES)[1:-1]
     u = pair.evaluate(space, mode, np.concatenate([[NEAR_END], inner, [1.0 - NEAR_END]]), 1)[0]
@@ -104,21 +109,24 @@ def _search(pencil: Pencil, space: SplineSpace, modes: tuple[FloatArray, Complex
     shift = float(values[0] - BELOW * (values[-1] - values[0])) + pencil.lift
     cone, held, places = _cone(pencil, space, shift)
     quotient = partial(_quotient, pencil, space, held)
-    found = [cone.lowest(pair.as_real(start)[held.free], quotient) for start in _starts(vectors)]
+    many = abs(pencil.twist) > MANY
+    starts = [pair.as_real(start)[held.free] for start in _starts(vectors, SHARES if many else SHARES[:1])]
+    found = [cone.lowest(start, quotient, ROUGHLY) for start in starts]
     value, z, active, forces = min(found, key=lambda result: result[0])
-    change = np.inf
+    before = change = np.inf
     for _ in range(ROUNDS):
         finer = space.refined(_marked(space, places[active], forces))
-        up, before = Prolongation(space, finer), _full(held, z)
-        moved = up(np.ascontiguousarray(before.real)) + 1j * up(np.ascontiguousarray(before.imag))
+        up, coarse = Prolongation(space, finer), _full(held, z)
+        moved = up(np.ascontiguousarray(coarse.real)) + 1j * up(np.ascontiguousarray(coarse.imag))
         space = finer
         cone, held, places = _cone(pencil, space, shift)
         better, z, active, forces = cone.lowest(pair.as_real(moved)[held.free], partial(_quotient, pencil, space, held))
-        change, value = abs(better - value), better
+        before, change, value = change, abs(better - value), better
         if change <= 0.1 * tolerance:
             break
     mode = _full(held, z)
-    return Touching(value, 2.0 * change, False, _contacts(space, mode, places, active), space, mode)
+    error = 2.0 * max(change, STEADY * min(before, 10.0 * tolerance))
+    return Touching(value, error, False, _contacts(space, mode, places, active), space, mode)
 
 
 def _quotient(pencil: Pencil, space: SplineSpace, held: Held, z: FloatArray) -> float:
@@ -137,15 +145,15 @@ def _cone(pencil: Pencil, space: SplineSpace, shift: float) -> tuple[OneSided, H
     rows = np.zeros((places.size, 2 * space.size))
     for a in range(space.degree + 1):
         rows[np.arange(places.size), 2 * (first + a)] = table[:, 0, a]
-    free = np.array([held.gather(row) for row in rows])
+    free = rows[:, held.free]  # no coefficient of x follows another: ends hold x, x and x′, or nothing
     looked = np.max(np.abs(free), axis=1) > 0.0  # not where an end holds x
     stiffness, gram = (held.free_part(band) for band in pencil.bands(space))
     return OneSided(stiffness, gram, free[looked], shift), held, places[looked]
 
 
-def _starts(vectors: ComplexArray) -> Iterator[ComplexArray]:
+def _starts(vectors: ComplexArray, shares: tuple[float, ...]) -> Iterator[ComplexArray]:
     """Combinations of the first modes: every phase, alone and with the next modes."""
-    for share in SHARES:
+    for share in shares:
         for k in range(STARTS):
             turn = 2.0 * np.pi * k / STARTS
             first = np.cos(turn) * vectors[0] + np.sin(turn) * vectors[1]

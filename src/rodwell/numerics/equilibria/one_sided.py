@@ -53,10 +53,11 @@ class OneSided:
             raise ValueError("the shift lies above an eigenvalue")
 
     def lowest(
-        self, start: FloatArray, quotient: Callable[[FloatArray], float]
+        self, start: FloatArray, quotient: Callable[[FloatArray], float], settled: float = SETTLED
     ) -> tuple[float, FloatArray, IntArray, FloatArray]:
         """Stationary quotient from ``start`` (n,), its vector, places that are active, and their multipliers.
 
+        ``settled`` is the relative change of the quotient that ends the iteration.
         The multipliers are those of Kz − λGz = Cᵀm for the vector as it is returned, with z·Gz = 1.
         """
         z, last, places = start, np.inf, np.zeros(0, dtype=np.int64)
@@ -66,7 +67,7 @@ class OneSided:
             pushed /= np.sqrt(z @ pushed)
             z, places, forces = self._pushed(pushed, places)
             value = quotient(z)
-            if abs(last - value) <= SETTLED * (abs(value) + 1.0):
+            if abs(last - value) <= settled * (abs(value) + 1.0):
                 break
             last = value
         size = float(np.sqrt(z @ np.asarray(multiply(self.gram, z))))
