@@ -16,11 +16,12 @@ from rodwell._version import __version__
 from rodwell.cli.audit import audit
 from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
+from rodwell.cli.critical import critical
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.paper import paper
-from rodwell.cli.quick import critical, liftoff, sensitivity, twist
+from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
 from rodwell.errors import CacheWarning, InputError, RodwellError

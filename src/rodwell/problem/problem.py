@@ -59,7 +59,9 @@ class Problem:
         The rod lies on the outside of the cylinder: contact asks p > 0.
     ends
         End conditions at s = 0 and s = 1: two of "clamped" (y and y' held), "pinned" (y held), "guided" (y' held: the
-        end slides around the wall) and "free" (none). A text like "clamped-pinned" will do.
+        end slides around the wall) and "free" (none). A text like "clamped-pinned" will do. These ends are radially
+        held: x and x' too. "ball" (x, y held) and "loose" (nothing held) are for critical loads of the straight rod
+        only, since the rod leaves the wall there as soon as it buckles.
 
     Notes
     -----
@@ -105,8 +107,10 @@ class Problem:
     def _check_ends(self) -> None:
         """Refuse what the ends cannot hold."""
         ends = "-".join(self.ends)
-        if self.twist != 0.0 and "free" in self.ends:
-            raise InputError("twist", self.twist, f"a free end takes no torque: twist must be 0 with ends {ends}")
+        untwisted = [end for end in self.ends if end in ("free", "loose")]
+        if self.twist != 0.0 and untwisted:
+            reason = f"a {untwisted[0]} end takes no torque: twist must be 0 with ends {ends}"
+            raise InputError("twist", self.twist, reason)
         if self.turns != 0 and not (self.ends[0] in HOLD_ANGLE and self.ends[1] in HOLD_ANGLE):
             raise InputError("turns", self.turns, f"ends {ends} let the rod unwind: clamp or pin both")
         if self.on_top and self.lateral_weight > 0.0 and not self.holds_angle:
