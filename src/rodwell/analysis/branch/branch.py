@@ -18,7 +18,8 @@ from rodwell.faces import Shown, drawn, face
 from rodwell.numerics.continuation.location import LocationError, Segment, locate
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem

@@ -16,8 +16,9 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.events import INDEX, NEARLY, LocatedEvent, events_between
 from rodwell.numerics.continuation.location import LocationError
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.newton import symmetrise
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem

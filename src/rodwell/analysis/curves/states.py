@@ -18,7 +18,8 @@ from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.analysis.loads.torsion import torsion
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol

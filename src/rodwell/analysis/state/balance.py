@@ -11,7 +11,8 @@ from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.frames import frames
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 from rodwell.problem.problem import Problem

@@ -8,7 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from rodwell.analysis.discrete.measures import shape
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall import braid
 from rodwell.physics.on_wall.strand import contact_pressure

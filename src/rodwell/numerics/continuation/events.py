@@ -9,7 +9,7 @@ from functools import cached_property
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
 from rodwell.numerics.continuation.location import LocatedZero, LocationError, Segment, locate
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
-from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
 
@@ -18,6 +18,15 @@ INDEX, TURN = "index", "turn"
 
 AT_START = 1e-6
 """Part of the first step in which a zero is taken to be the start itself."""
+
+EARLY = (1e-3, 1e-2, 0.1)
+"""Parts of the first step of a branch that leaves another, after which it is looked at, in the order of trial."""
+
+BESIDE_THE_START = 1e-5
+"""Distance from such a start, in the metric of the family, below which round-off may decide the sense of travel."""
+
+EVEN_RISE = (0.5, 3.0)
+"""Bounds of λ′ times the distance from such a start over the rise of λ, which is 1 or 2 without round-off."""
 
 ROUGHLY = 1e-5
 """Part of the step to which a turning point is located first. Where a branch meets its mirror image, the Hessian is
@@ -85,20 +94,13 @@ def events_between(
     ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
     that it is where the branch leaves another: its index and its sense in λ are not this branch's.
     """
-    segment = _Stretch(meshes, before, after)
-    placed: list[_Placed] = []
-    if not leaves:
-        turn = segment.turn()
-        placed = segment.index_changes(turn)
-        if turn is not None and not any(found.fold for _, found in placed):
-            if not meshes.fine.meets_mirror_image(turn.fine, NEARLY) and all(found.certain for _, found in placed):
-                raise LocationError(LEFT_THE_BRANCH)
-            index = _index_at(turn.t, before.fine.index, placed)
-            placed.append((turn.t, _found(TURN, meshes, turn, index, index)))
+    stretch = _Stretch(meshes, before, after)
+    placed = stretch.changes_past_the_start() if leaves else stretch.changes()
     changes = sorted(placed, key=lambda item: item[0])
+    index = before.fine.index if not leaves else changes[0][1].index_before if changes else after.fine.index
     for event in events:
-        if not (opening and segment.starts_at(event)):
-            placed += segment.zeros(event, after.fine.index if leaves else before.fine.index, changes)
+        if not (opening and stretch.starts_at(event)):
+            placed += stretch.zeros(event, index, changes)
     return [found for _, found in sorted(placed, key=lambda item: item[0])]
 
 
@@ -113,6 +115,45 @@ class _Stretch:
         """The stretch on both meshes."""
         coarse, fine = self.meshes.coarse.with_exact_tangent(), self.meshes.fine.with_exact_tangent()
         return Segment(coarse, self.before.coarse, self.after.coarse), Segment(fine, self.before.fine, self.after.fine)
+
+    def changes(self) -> list[_Placed]:
+        """Changes of the stability index, and the turning point that has none, if there is one.
+
+        Raises
+        ------
+        LocationError
+            If index and sense of travel do not go together: the two ends are not on one branch.
+        """
+        turn = self.turn()
+        placed = self.index_changes(turn)
+        if turn is not None and not any(found.fold for _, found in placed):
+            meets = self.meshes.fine.meets_mirror_image(turn.fine, NEARLY)
+            if not meets and all(found.certain for _, found in placed):
+                raise LocationError(LEFT_THE_BRANCH)
+            index = _index_at(turn.t, self.before.fine.index, placed)
+            placed.append((turn.t, _found(TURN, self.meshes, turn, index, index)))
+        return placed
+
+    def changes_past_the_start(self) -> list[_Placed]:
+        """The same where a branch leaves another, from a place on, close by, at which it is by itself."""
+        for early in EARLY:
+            try:
+                coarse, fine = (segment(early) for segment in self.segments)
+            except LocationError:
+                continue
+            if not self._is_steep(fine):
+                continue
+            placed = _Stretch(self.meshes, self.meshes.point(coarse, fine), self.after).changes()
+            return [(early + (1.0 - early) * t, found) for t, found in placed]
+        return []
+
+    def _is_steep(self, state: State) -> bool:
+        """Whether the sense of travel in λ just past the start is known: λ grows like the distance or its square."""
+        start = self.before.fine
+        distance, rise = start.along(state), state.lam - start.lam
+        if distance < BESIDE_THE_START or rise == 0.0:
+            return False
+        return EVEN_RISE[0] < state.tangent_lam * distance / rise < EVEN_RISE[1]
 
     def index_changes(self, turn: LocatedZero | None = None) -> list[_Placed]:
         """Changes of the stability index; together they make up the whole difference of the two ends.

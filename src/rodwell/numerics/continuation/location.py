@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.quantities.arrays import FloatArray
 
 PLACE_TOLERANCE = 1e-12

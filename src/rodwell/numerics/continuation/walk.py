@@ -17,7 +17,8 @@ from rodwell.numerics.continuation.events import Event, LocatedEvent, events_bet
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
-from rodwell.numerics.equilibria.family import Outcome, State
+from rodwell.numerics.equilibria.family import Outcome
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
 

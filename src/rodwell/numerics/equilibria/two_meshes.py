@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error
-from rodwell.numerics.equilibria.family import Family, Outcome, State
+from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.quantities.arrays import FloatArray
