@@ -15,6 +15,7 @@ from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
 from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
@@ -160,7 +161,7 @@ def _from_state(problem: Problem, start: Solution, parameter: str, until: float 
     begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
     result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=how.progress)
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
-    return made(problem, origin, result, result.end == END, result.end, parameter)
+    return made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter)
 
 
 def checked_end(problem: Problem, parameter: str, until: float) -> float:

@@ -149,8 +149,9 @@ STENCIL = 1e-2
 def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatArray:
     """Null vector of the Hessian of a branch point, free of the branch's own direction."""
     equilibria.nearest_curvature(state, vector, INVERSE_ITERATIONS)
-    if state.symmetry != 0:  # the pitchfork breaks the symmetry of the branch
-        vector = 0.5 * (vector - state.symmetry * vector[::-1])
+    lost = 0.5 * (vector - state.symmetry * vector[::-1])
+    if state.symmetry != 0 and np.max(np.abs(lost)) > 0.5 * np.max(np.abs(vector)):
+        vector = lost  # what leaves the branch breaks its symmetry, or else one that shows in the periodic rod only
     else:
         vector = vector - float(state.row @ vector) * state.tangent
     if vector[np.argmax(np.abs(vector))] < 0.0:

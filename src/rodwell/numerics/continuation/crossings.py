@@ -10,6 +10,7 @@ import numpy as np
 
 from rodwell.numerics.continuation.location import (
     PLACE_TOLERANCE,
+    LeftTheBranchError,
     LocatedZero,
     LocationError,
     Segment,
@@ -118,10 +119,10 @@ def _located(
     if not fold and not fine.family.may_branch(fine(low), fine(high)):
         if doubted or _drowned(fine, low, high):
             return Crossing(None, low, before, after, fold=False)
-        raise LocationError("the stability index changes where nothing may branch: the step has left the branch")
+        raise LeftTheBranchError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    steady = fine.family.parity == 0 and not fold
+    steady = not fold and _stays_singular(fine, low)
     if steady:
         low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
@@ -143,6 +144,16 @@ def _located(
         after,
         fold,
     )
+
+
+def _stays_singular(fine: Segment, place: float) -> bool:
+    """Whether Newton's method sees the direction in which the Hessian becomes singular: symmetry may hide it."""
+    parity = fine.family.parity
+    if parity == 0:
+        return True
+    vector = _Eigenvalue(fine, place).vector
+    kept = 0.5 * (vector + parity * vector[::-1])
+    return bool(np.max(np.abs(kept)) > 0.5 * np.max(np.abs(vector)))
 
 
 def _drowned(fine: Segment, low: float, high: float) -> bool:

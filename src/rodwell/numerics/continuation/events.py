@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
-from rodwell.numerics.continuation.location import LocatedZero, LocationError, Segment, locate
+from rodwell.numerics.continuation.location import LeftTheBranchError, LocatedZero, LocationError, Segment, locate
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -19,11 +19,9 @@ INDEX, TURN = "index", "turn"
 AT_START = 1e-6
 """Part of the first step in which a zero is taken to be the start itself."""
 
-EARLY = (1e-3, 1e-2, 0.1)
-"""Parts of the first step of a branch that leaves another, after which it is looked at, in the order of trial."""
-
-BESIDE_THE_START = 1e-5
-"""Distance from such a start, in the metric of the family, below which round-off may decide the sense of travel."""
+EARLY = (1e-4, 1e-3, 1e-2)
+"""Distances from the start of a branch that leaves another, in the metric of the family, at which it is looked at
+first, in the order of trial: what happens before, if anything, changes λ by less than is known of it."""
 
 EVEN_RISE = (0.5, 3.0)
 """Bounds of λ′ times the distance from such a start over the rise of λ, which is 1 or 2 without round-off."""
@@ -87,14 +85,30 @@ _Placed = tuple[float, LocatedEvent]
 
 
 def events_between(
-    meshes: TwoMeshes, before: MeshedState, after: MeshedState, events: Sequence[Event], *, opening: bool, leaves: bool
+    meshes: TwoMeshes,
+    before: MeshedState,
+    after: MeshedState,
+    events: Sequence[Event],
+    *,
+    opening: bool,
+    leaves: bool,
+    doubted: bool = False,
 ) -> list[LocatedEvent]:
     """All that happens between two points on the same meshes, in order.
 
     ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
-    that it is where the branch leaves another: its index and its sense in λ are not this branch's.
+    that it is where the branch leaves another: its index and its sense in λ are not this branch's. ``doubted`` says
+    that branches come closer to each other here than can be told apart: a change of the index that nothing explains is
+    then uncertain, and no error.
+
+    Raises
+    ------
+    LocationError
+        If something cannot be located.
+    LeftTheBranchError
+        If the two points are not on one branch.
     """
-    stretch = _Stretch(meshes, before, after)
+    stretch = _Stretch(meshes, before, after, doubted)
     placed = stretch.changes_past_the_start() if leaves else stretch.changes()
     changes = sorted(placed, key=lambda item: item[0])
     index = before.fine.index if not leaves else changes[0][1].index_before if changes else after.fine.index
@@ -107,8 +121,8 @@ def events_between(
 class _Stretch:
     """The stretch of a branch between two points on the same meshes."""
 
-    def __init__(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> None:
-        self.meshes, self.before, self.after = meshes, before, after
+    def __init__(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState, doubted: bool = False) -> None:
+        self.meshes, self.before, self.after, self.doubted = meshes, before, after, doubted
 
     @cached_property
     def segments(self) -> tuple[Segment, Segment]:
@@ -128,22 +142,23 @@ class _Stretch:
         placed = self.index_changes(turn)
         if turn is not None and not any(found.fold for _, found in placed):
             meets = self.meshes.fine.meets_mirror_image(turn.fine, NEARLY)
-            if not meets and all(found.certain for _, found in placed):
-                raise LocationError(LEFT_THE_BRANCH)
+            if not (meets or self.doubted) and all(found.certain for _, found in placed):
+                raise LeftTheBranchError(LEFT_THE_BRANCH)
             index = _index_at(turn.t, self.before.fine.index, placed)
             placed.append((turn.t, _found(TURN, self.meshes, turn, index, index)))
         return placed
 
     def changes_past_the_start(self) -> list[_Placed]:
         """The same where a branch leaves another, from a place on, close by, at which it is by itself."""
-        for early in EARLY:
+        length = self.before.fine.along(self.after.fine)
+        for early in (distance / length for distance in EARLY if distance < 0.5 * length):
             try:
                 coarse, fine = (segment(early) for segment in self.segments)
             except LocationError:
                 continue
             if not self._is_steep(fine):
                 continue
-            placed = _Stretch(self.meshes, self.meshes.point(coarse, fine), self.after).changes()
+            placed = _Stretch(self.meshes, self.meshes.point(coarse, fine), self.after, self.doubted).changes()
             return [(early + (1.0 - early) * t, found) for t, found in placed]
         return []
 
@@ -151,9 +166,7 @@ class _Stretch:
         """Whether the sense of travel in λ just past the start is known: λ grows like the distance or its square."""
         start = self.before.fine
         distance, rise = start.along(state), state.lam - start.lam
-        if distance < BESIDE_THE_START or rise == 0.0:
-            return False
-        return EVEN_RISE[0] < state.tangent_lam * distance / rise < EVEN_RISE[1]
+        return rise != 0.0 and EVEN_RISE[0] < state.tangent_lam * distance / rise < EVEN_RISE[1]
 
     def index_changes(self, turn: LocatedZero | None = None) -> list[_Placed]:
         """Changes of the stability index; together they make up the whole difference of the two ends.
@@ -167,14 +180,17 @@ class _Stretch:
             found = index_crossings(*self.segments, end=SHORT_OF * turn.t, doubted=True)
             found = [crossing for crossing in found if crossing.place is not None]
         else:
-            found = index_crossings(*self.segments, [] if turn is None else [turn.t])
+            found = index_crossings(*self.segments, [] if turn is None else [turn.t], doubted=self.doubted)
         return [(crossing.t, self._changed(crossing)) for crossing in found]
 
     def _changed(self, crossing: Crossing) -> LocatedEvent:
         index = crossing.before, crossing.after
         if crossing.place is None:  # no place on the coarse mesh: nothing is known of the error but the step
             error = abs(self.after.lam - self.before.lam)
-            point = self.meshes.point(self.segments[0](crossing.t), self.segments[1](crossing.t))
+            try:
+                point = self.meshes.point(self.segments[0](crossing.t), self.segments[1](crossing.t))
+            except LocationError:
+                point = self.before
             return LocatedEvent(INDEX, point, self.meshes, error, *index, certain=False)
 
         def again(finer: _Stretch) -> LocatedZero | None:

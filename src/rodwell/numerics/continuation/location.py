@@ -24,6 +24,10 @@ class LocationError(RuntimeError):
     """A zero known to lie between two points could not be located; a shorter step is needed."""
 
 
+class LeftTheBranchError(LocationError):
+    """The two ends of a step are not on one branch."""
+
+
 @dataclass(frozen=True)
 class Segment:
     """The stretch of a branch between two states of one family, in t from 0 to 1 along the first's tangent."""

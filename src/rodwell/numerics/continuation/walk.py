@@ -13,14 +13,21 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rodwell.numerics.continuation.closing import CLOSED, closes
 from rodwell.numerics.continuation.events import Event, LocatedEvent, events_between
-from rodwell.numerics.continuation.location import LocationError
+from rodwell.numerics.continuation.location import LeftTheBranchError, LocationError
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
 from rodwell.numerics.equilibria.family import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
+
+DOUBTED_STEP = 0.02
+"""A step, as a part of the first, past a place where branches come closer to each other than can be told apart."""
+
+FEWEST_OF_A_LOOP = 6
+"""Points after which a branch may have come back to its start."""
 
 LARGEST_PREDICTION_ERROR = 0.2
 """A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""
@@ -100,6 +107,8 @@ class _Walk:
     predictor: Predictor
     softest: SoftestEigenvalues = field(default_factory=SoftestEigenvalues)
     careful: bool = False
+    left: bool = False
+    doubted: bool = False
     work: float = 0.0
 
     def to_the_end(self, progress: Progress | None) -> None:
@@ -115,8 +124,12 @@ class _Walk:
             if isinstance(turn, str):
                 length, self.careful = 0.5 * length, True
                 self.predictor.restart(trace.points[-1].coarse)
+                if length < stepping.smallest and self.left and not self.doubted:
+                    self.doubted, length = True, DOUBTED_STEP * stepping.first  # branches closer than can be told apart
                 trace.end = turn if length < stepping.smallest else ""
                 continue
+            self.doubted = False
+            self.left = self.left and length < DOUBTED_STEP * stepping.first
             if length > stepping.smallest and self.softest.may_dip() and hidden_change(trace.meshes, trace.points):
                 length = 0.25 * min(length, trace.step_back(2))
                 self.predictor.restart(trace.points[-1].coarse)
@@ -148,26 +161,40 @@ class _Walk:
             if adopted is None:
                 return new_meshes.coarse.advice(outcome)
             base, factors = adopted, None
+        home = self._home(new_meshes, base, point)
+        point = home or point
         try:
             opening = len(trace.points) == 1
             leaves = opening and self.switched
-            found = events_between(new_meshes, base, point, self.events, opening=opening, leaves=leaves)
+            found = events_between(
+                new_meshes, base, point, self.events, opening=opening, leaves=leaves, doubted=self.doubted
+            )
             end = next((i for i, item in enumerate(found) if self.stop(item)), None)
-        except LocationError as problem:
-            return str(problem)
+        except LocationError as error:
+            self.left = self.left or isinstance(error, LeftTheBranchError)
+            return str(error)
         trace.points[-1], trace.meshes[-1] = base, new_meshes
         if end is not None:
             found = found[: end + 1]
             trace.end, point, new_meshes = self.stop(found[end]), found[end].point, found[end].meshes
+        elif home is not None:
+            trace.end = CLOSED
         trace.found += [replace(item, after=len(trace.points) - 1) for item in found]
         trace.points.append(point)
         trace.meshes.append(new_meshes)
-        if end is None:
+        if not trace.end:
             if new_meshes is not meshes:
                 self.predictor.restart(base.coarse)
             self.predictor.add(point.coarse)
             self.softest.add(new_meshes, point, length, factors)
         return turn
+
+    def _home(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> MeshedState | None:
+        """The start of the branch, if it has come back there in a step."""
+        trace = self.trace
+        if self.switched or len(trace.points) < FEWEST_OF_A_LOOP:
+            return None
+        return closes(meshes, before, after, trace.meshes[0], trace.points[0])
 
     def _step(
         self, meshes: TwoMeshes, state: State, length: float
