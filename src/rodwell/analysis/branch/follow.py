@@ -215,7 +215,7 @@ def branch_off(
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return made(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
+    return made(problem, name, result, result.end in (END, REJOINS, CLOSED), result.end, parameter)
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:

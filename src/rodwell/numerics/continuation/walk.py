@@ -192,7 +192,7 @@ class _Walk:
     def _home(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> MeshedState | None:
         """The start of the branch, if it has come back there in a step."""
         trace = self.trace
-        if self.switched or len(trace.points) < FEWEST_OF_A_LOOP:
+        if len(trace.points) < FEWEST_OF_A_LOOP:
             return None
         return closes(meshes, before, after, trace.meshes[0], trace.points[0])
 
