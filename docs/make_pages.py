@@ -214,7 +214,7 @@ def catalogue_tables() -> str:
 
     groups: dict[tuple[str, str, str], list[tuple[str, ...]]] = {}
     for pipe in map(catalogue.pipe, catalogue.names("pipe")):
-        medical = pipe.kind in ("guidewire", "catheter")
+        medical = pipe.kind in ("guidewire", "catheter", "fibre")
         outer, bore = (
             cell(length, "length", System("mm") if medical else system) for length in (pipe.outer_diameter, pipe.bore)
         )

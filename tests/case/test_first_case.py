@@ -1,4 +1,4 @@
-"""First case files of ``rodwell init``: they run, hold the answers, overwrite nothing, are written whole or not at all."""
+"""First cases of ``rodwell init``: they run, hold the answers, overwrite nothing, are written whole or not at all."""
 
 from __future__ import annotations
 
