@@ -29,6 +29,9 @@ _RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$")
 SIMILAR, ALIKE = 0.55, 0.8
 """How alike a known key must be to be offered, and to be offered before a section that has the key as written."""
 
+SHORTEST_PART = 4
+"""Letters that a part of a key must have at least to be taken for it: yield for yield_strength."""
+
 LIST = (
     "; a list of values is a parameter study: declare it with study = true at the top of the file, before the first "
     "section (`rodwell run` then computes one case for each value)"
@@ -54,7 +57,8 @@ def explain(
     for item in error.errors():
         where = ".".join(str(part) or "''" for part in item["loc"])
         if item["type"] == "extra_forbidden":
-            out.append((where, None, unknown((*within, *item["loc"]))))
+            value = None if isinstance(item["input"], dict | list) else item["input"]
+            out.append((where, value, unknown((*within, *item["loc"]))))
         elif item["type"] == "missing":
             out.append((where, None, "is missing; add it"))
         else:
@@ -142,7 +146,8 @@ def plain(name: str) -> str:
 
 
 def _nearest(key: str, known: list[str]) -> str:
-    near = difflib.get_close_matches(key, known, n=1, cutoff=SIMILAR)
+    parts = [name for name in known if len(key) >= SHORTEST_PART and plain(key) in name.split("_")]
+    near = parts if len(parts) == 1 else difflib.get_close_matches(key, known, n=1, cutoff=SIMILAR)
     if near:
         return f"is not known; did you mean {near[0]!r}?"
     return f"is not known; allowed are {', '.join(known)}"
