@@ -137,10 +137,11 @@ def test_no_folder(tmp_path: Path) -> None:
 def test_on_a_terminal_it_asks_and_asks_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(command, "_asks", lambda: True)
     file = tmp_path / "first.toml"
-    typed = "rocket\nrobot\nmm\n\n2 kg\n2 m\n\n50 mm\n"
+    typed = "rocket\nrobot\nmm\nwood\nPEEK\n2 kg\n2 m\n\n50 mm\n"
     result = run("init", str(file), "--diameter", "8 mm", typed=typed + "10 deg\n")
     assert result.exit_code == 0, result.output
     assert "must be a length" in result.output
+    assert "not in the catalogue; it holds" in result.output
     case = Case.read(file)
     assert case.rod is not None
     assert (case.rod.length, case.rod.outer_diameter, case.problem.alpha) == pytest.approx((2.0, 8e-3, 10.0))

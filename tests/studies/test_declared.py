@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -100,6 +101,15 @@ def test_three_dots_are_refused_with_the_range_that_is_meant(text: str, remedy: 
     told = str(caught.value)
     assert f"rod.length = {text!r}" in told
     assert remedy in told or "is not a range" in told
+
+
+@pytest.mark.parametrize("text", ["1." + "1" * 50_000 + ".. 2 in 3", "." * 100_000, "1" + ".. in 3" * 20_000])
+def test_long_texts_are_no_ranges_and_take_no_time(text: str) -> None:
+    start = time.perf_counter()
+    assert varied_inputs({"rod": {"length": text}}) == ()
+    with pytest.raises(InputError, match=r"rod.length"):
+        rodwell.Case.from_dict({"rod": {"length": text}, "hole": {"diameter": "1 m", "angle_from_vertical": "0 deg"}})
+    assert time.perf_counter() - start < 2.0
 
 
 @pytest.mark.parametrize("text", [".1...3 m in 3", "1 .. .2 m in 3", "0.1..0.3 m in 3"])

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from rodwell.case import schema
 from rodwell.case.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
+from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.RodInput,
@@ -100,7 +101,7 @@ def _several(location: tuple[int | str, ...], value: object, declared: bool) -> 
     if len(location) != 2 or location[0] not in SECTIONS or location[0] in ("analysis", "catalogue"):
         return ""
     if isinstance(value, str):
-        return RANGE if _RANGE_LIKE.search(value) else ""
+        return RANGE if len(value) <= LONGEST_VALUE and _RANGE_LIKE.search(value) else ""
     if not isinstance(value, list | tuple) or location[1] in ("until", "applied"):
         return ""
     return (STUDY if declared else LIST) + (TAPER if location[0] == "rod" and location[1] in TAPERED else "")

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rodwell.case.case import Case, CaseError
+from rodwell.case.catalogue import package_catalogue
 from rodwell.case.keys import TOP, Key, every_key, purpose
 from rodwell.errors import InputError
 from rodwell.quantities.units import KINDS as QUANTITIES
@@ -46,10 +47,21 @@ class Question:
         return self.field if units == "field" and self.field else self.default
 
     def checked(self, answer: str) -> str:
-        """Return the answer; raises ValueError with what is wrong if it is a quantity and not of the right kind."""
-        kind = _keys()[self.key].kind.partition(",")[0]
+        """Return the answer.
+
+        Raises
+        ------
+        ValueError
+            With what is wrong with a quantity of another kind, or a name that is not in the catalogue.
+        """
+        kind, name = _keys()[self.key].kind.partition(",")[0], self.key.partition(".")[2]
         if kind in QUANTITIES:
             to_si(answer, kind)
+        if name in ("pipe", "material"):
+            try:
+                getattr(package_catalogue(), name)(answer)
+            except InputError as error:
+                raise ValueError(error.reason) from None
         return answer
 
 

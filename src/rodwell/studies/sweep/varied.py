@@ -16,6 +16,9 @@ from rodwell.quantities.units import in_unit_of
 MOST_POINTS = 400
 """Points that one study may have."""
 
+LONGEST_RANGE = 200
+"""Characters of the longest text that is taken for a range: reading one takes more than linear time."""
+
 LISTS = ("catalogue", "load.applied")
 """Sections and keys in which a list is a list, not an input that varies; a range of ``load.applied`` varies."""
 
@@ -73,13 +76,15 @@ class Varied:
         return minus(f"{self.numbers[i]:.6g} {self.unit}".strip()).replace(" deg", "°")
 
 
-_THREE_DOTS = re.compile(r"\s*[+-]?(?:\d[^.…]*(?:\.\d+[^.…]*)?)?(?:\.{3}|…).*")
+_THREE_DOTS = re.compile(r"\s*[+-]?(?:\d[^.…]*(?:\.\d[^.…]*)?)?(?:\.{3}|…).*")
 """Three dots where a range has two, unless the first number begins with its point: ".1...3" is from .1 to .3."""
 
 
 def is_varied(value: object) -> bool:
     """Whether a value of a case file is a list or looks like a range."""
-    return isinstance(value, list | tuple) or (isinstance(value, str) and _RANGE_LIKE.search(value) is not None)
+    if isinstance(value, str):
+        return len(value) <= LONGEST_RANGE and _RANGE_LIKE.search(value) is not None
+    return isinstance(value, list | tuple)
 
 
 def may_vary(name: str, value: object) -> bool:
