@@ -171,7 +171,7 @@ class Case(Shown):
         try:
             parsed = schema.CaseFile.model_validate(dict(data))
         except ValidationError as error:
-            raise CaseError(source, explain(error)) from None
+            raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
         return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
 
 
@@ -218,7 +218,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     load = _load(parsed.load, with_dimensions, source)
     case: Case
     common = {
-        "title": parsed.title,
+        "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
         "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
         "given": _given(data),
@@ -253,6 +253,18 @@ def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schem
         explained = explain(error, within=("load",))
         problems = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
         raise CaseError(source, problems) from None
+
+
+def _load_problems(data: Mapping[str, Any]) -> list[tuple[str, object, str]]:
+    """What is wrong in [load] of a file in which something else is wrong already."""
+    given = data.get("load", {})
+    if not isinstance(given, Mapping):
+        return []
+    try:
+        _load(given, "dimensionless" not in data or "rod" in data or "hole" in data, "")
+    except CaseError as error:
+        return error.problems
+    return []
 
 
 def _named(field: str, compute: Any) -> Any:

@@ -14,13 +14,13 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from rodwell.case import schema
+from rodwell.case.entries import Entry, Grade, Material, Pipe
 from rodwell.errors import InputError
 
 Raw = dict[str, Any]
-Model = TypeVar("Model", bound=schema.Entry)
+Model = TypeVar("Model", bound=Entry)
 
-KINDS: dict[str, type[schema.Entry]] = {"pipe": schema.Pipe, "material": schema.Material, "grade": schema.Grade}
+KINDS: dict[str, type[Entry]] = {"pipe": Pipe, "material": Material, "grade": Grade}
 """What a catalogue holds: [[pipe]], [[material]] and [[grade]]."""
 
 INSTEAD = {
@@ -65,17 +65,17 @@ class Catalogue:
 
     entries: Mapping[str, Mapping[str, Raw]] = field(default_factory=dict)
 
-    def pipe(self, name: str) -> schema.Pipe:
+    def pipe(self, name: str) -> Pipe:
         """Return a pipe; raises InputError for ``rod.pipe`` with the nearest names."""
-        return self._get(schema.Pipe, "pipe", name, "rod.pipe")
+        return self._get(Pipe, "pipe", name, "rod.pipe")
 
-    def material(self, name: str, key: str = "rod.material") -> schema.Material:
+    def material(self, name: str, key: str = "rod.material") -> Material:
         """Return a material; raises InputError for ``key`` with the nearest names."""
-        return self._get(schema.Material, "material", name, key)
+        return self._get(Material, "material", name, key)
 
-    def grade(self, name: str) -> schema.Grade:
+    def grade(self, name: str) -> Grade:
         """Return a grade; raises InputError for ``rod.grade`` with the nearest names."""
-        return self._get(schema.Grade, "grade", name, "rod.grade")
+        return self._get(Grade, "grade", name, "rod.grade")
 
     def names(self, kind: str) -> list[str]:
         """Names of all entries of a kind."""

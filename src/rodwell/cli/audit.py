@@ -51,7 +51,7 @@ def audit(
 
     For every formula: its load, the exact load at the place where the formula's force is measured, the error in
     percent, safe or unsafe, and whether the case is inside its validity. Compression is positive here. The exact loads
-    are those of a straight hole without friction.
+    are those of a straight hole without friction. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415

@@ -19,6 +19,8 @@ from rodwell.cli.check import verify
 from rodwell.cli.critical import critical
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
+from rodwell.cli.init import init
+from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.paper import paper
 from rodwell.cli.quick import liftoff, sensitivity, twist
@@ -35,13 +37,14 @@ def cli() -> None:
     """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
 
     Forces are those at the end s = 1 (the upper end of an inclined cylinder), tension positive; ends are
-    clamped unless said otherwise. Start with:  rodwell run examples/drill-string.toml
+    clamped unless said otherwise. Start with:  rodwell init, which writes a first case file; rodwell keys
+    explains its keys.
     """
 
 
 for command in (
     *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, catalogue, paper),
+    *(diagram, curve, twist, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 

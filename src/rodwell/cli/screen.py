@@ -43,6 +43,7 @@ def screen(
     At every station: the exact load at which a long straight rod of the station's inclination buckles and leaves the
     wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
     Compression is positive, at the station. Length, inclination and loads of the case are not used.
+    `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415

@@ -69,6 +69,21 @@ def _energies(problem: Problem, family: Family, state: State) -> dict[str, float
     }
 
 
+def end_rotation(solution: Equilibrium) -> Value:
+    """How far the end s = 1 is turned about its axis against the end s = 0, ξ₁ + ξ₂ there, in rad.
+
+    Positive as T₁ turns it: it is what the dead torque T₁ works on. Of the straight rod it is T₁/C. At an end that can
+    turn across the axis it is the angle in the braid's terms.
+    """
+    coarse, fine = (_end_rotation(solution.problem, f, state) for f, state in solution.levels)
+    return compared(coarse, fine)
+
+
+def _end_rotation(problem: Problem, family: Family, state: State) -> float:
+    f = fields_at(problem, family, state, np.array([0.0, 1.0]))
+    return float(np.diff(f["xi1"] + f["xi2"])[0])
+
+
 def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:
     """What the supports exert on rod and cylinder at s = 0 and s = 1.
 
