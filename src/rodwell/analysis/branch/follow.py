@@ -106,7 +106,7 @@ def follow(
     if start is not None:
         if mode is not None or mirror:
             raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
-        return _from_state(problem, start, parameter, until, how)
+        return from_state(problem, start, parameter, until, how)
     if parameter != "force":
         raise InputError("parameter", parameter, "needs a state to start from: give start (for example branch[-1])")
     return _from_straight(problem, 1 if mode is None else mode, until, mirror, how)
@@ -150,7 +150,8 @@ def _from_straight(
     return made(problem, origin, result, reached, result.end)
 
 
-def _from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:
+def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:
+    """Follow a branch from a known state, as :func:`follow` does with ``start``."""
     if until is None:
         raise InputError("until", None, "must be given to follow a branch from a given state")
     until = checked_end(problem, parameter, until)
