@@ -18,9 +18,8 @@ from rodwell.numerics.splines.spaces import SplineSpace
 
 
 def discretised(model: Any, space: SplineSpace) -> Discretisation:
-    n = space.size * len(model)
     quadrature = space.table, space.points, space.weights, space.slope_gram
-    nothing = np.zeros(n, dtype=np.bool_), np.arange(n, dtype=np.int64)
+    nothing = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     return Discretisation(model, *space.tags, *quadrature, *nothing, space.starts, np.empty((space.points.size, 0)), 0)
 
 

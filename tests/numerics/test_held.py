@@ -42,7 +42,7 @@ def some(seed: int) -> tuple[np.ndarray, Held, np.ndarray]:
     spread = np.eye(n)[:, ~held]
     for i in np.flatnonzero(follows != np.arange(n)):
         spread[i] = spread[follows[i]]
-    return band, Held(held, follows), spread
+    return band, Held(n, np.flatnonzero(held), follows[held]), spread
 
 
 @given(st.integers(0, 2**31))

@@ -38,3 +38,26 @@ def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     if function is None:
         return partial(formula, **options)
     return register_jitable(error_model="numpy", forceinline=True, **options)(function)
+
+
+def direct(kernel: Any) -> Callable[..., Any]:
+    """Return a call of a kernel on a mesh that leaves out Numba's look-up of types: it takes as long as a short kernel.
+
+    The first argument is a record with a ``model`` and two tuples, ``local`` and ``per_element``: for each type of it
+    the types of the other arguments are the same at every call, and arrays contiguous: nobody looks at them again.
+    """
+    if not hasattr(kernel, "overloads"):  # NUMBA_DISABLE_JIT: a plain function
+        return kernel  # type: ignore[no-any-return]
+    entries: dict[tuple[type, int, int], Callable[..., Any]] = {}
+
+    def call(mesh: Any, *arguments: Any) -> Any:
+        key = type(mesh.model), len(mesh.local), len(mesh.per_element)
+        entry = entries.get(key)
+        if entry is not None:
+            return entry(mesh, *arguments)
+        result = kernel(mesh, *arguments)  # compiled, or read from the disk
+        signature = tuple(kernel.typeof_pyval(argument) for argument in (mesh, *arguments))
+        entries[key] = kernel.overloads[signature].entry_point
+        return result
+
+    return call

@@ -5,6 +5,7 @@ radial clearance r is the paper's Δ. Any coherent units do. :data:`FORMULAS` ho
 :data:`LEFT_OUT` what is known from memory only or refuted.
 """
 
+from rodwell.formulas import helix, inclined, path, pushing, vertical
 from rodwell.formulas.left_out import LEFT_OUT, LeftOut
 from rodwell.formulas.record import FORMULAS, SYMBOLS, Formula, FormulaInputs
 

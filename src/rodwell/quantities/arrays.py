@@ -11,8 +11,8 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 """Whole numbers: positions in other arrays."""
 
-BoolArray = NDArray[np.bool_]
-"""Marks."""
-
 ComplexArray = NDArray[np.complex128]
 """Numbers of two parts in double precision: lateral displacements x + iy."""
+
+BoolArray = NDArray[np.bool_]
+"""Marks."""

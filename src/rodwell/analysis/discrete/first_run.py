@@ -32,7 +32,7 @@ def _typical() -> tuple[Discretisation, Tolerances]:
     positions = np.empty(0, dtype=np.int64)
     mesh = Discretisation(
         RodOnCylinder(), *tags, np.empty((0, 3, DEGREE + 1)), none, none, np.empty((0, DEGREE + 1)),
-        np.empty(0, dtype=np.bool_), positions, positions, np.empty((0, 0)), 0,
+        positions, positions, positions, np.empty((0, 0)), 0,
     )  # fmt: skip
     return mesh, Tolerances(0.0, 0, 0, 1.0, 1.0, 1.0)
 

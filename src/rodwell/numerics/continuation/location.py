@@ -86,7 +86,7 @@ class Segment:
     @property
     def quick(self) -> Segment:
         """The same segment without the step that makes tangents and index sharp."""
-        return replace(self, family=replace(self.family, extra_steps=0))
+        return replace(self, family=self.family.quick)
 
     def narrowed(self, low: float, high: float) -> Segment:
         """Return the stretch between two places of this one."""

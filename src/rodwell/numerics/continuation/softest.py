@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.compiling.kernels import kernel
+from rodwell.compiling.kernels import direct, kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.continuation.location import LocationError, Segment
 from rodwell.numerics.equilibria.family import Family
@@ -69,7 +69,7 @@ class SoftestEigenvalues:
             factors = family.held.restrict(family.assemble(state.c, state.lam)[2])
             factorise(factors)
         wait_for("softest")
-        even, odd = softest(family.mesh, factors, space.symmetric, iterations, self.vectors)
+        even, odd = _softest_of(family.mesh, factors, space.symmetric, iterations, self.vectors)
         return float(even), float(odd)
 
 
@@ -91,7 +91,7 @@ def softest(mesh, factors, symmetric, iterations, vectors):
             for i in range(n):
                 new[i] /= length
             solve(factors, new)
-            spread(new, mesh.follows)
+            spread(new, mesh.held, mesh.follows)
             if symmetric:
                 symmetrise(new, 1 - 2 * k)
             elif k == 1:
@@ -103,6 +103,9 @@ def softest(mesh, factors, symmetric, iterations, vectors):
             for i in range(n):
                 vectors[k, i] = new[i] / size
     return values[0], values[1]
+
+
+_softest_of = direct(softest)
 
 
 def _dips(place: Sequence[float], values: Sequence[float]) -> bool:

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.compiling.kernels import direct
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
 from rodwell.numerics.equilibria.newton import Tolerances
@@ -49,6 +50,7 @@ ALL_REFLECTIONS = MIRROR, (1, True), (-1, True)
 """u → −u(s), u(1 − s), −u(1 − s)."""
 
 _NOTHING = np.empty(0)
+_newton = direct(newton.newton)
 
 _OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
 
@@ -89,11 +91,19 @@ class Family:
 
     def with_exact_tangent(self) -> Family:
         """Return the same family with tangents and index taken at the converged state, at the cost of a step."""
-        return self._exact
+        return self if self.extra_steps == 1 else self._with_extra_steps
+
+    @property
+    def quick(self) -> Family:
+        """The same family without that step."""
+        return self if self.extra_steps == 0 else self._with_extra_steps
 
     @cached_property
-    def _exact(self) -> Family:
-        return replace(self, extra_steps=1)
+    def _with_extra_steps(self) -> Family:
+        """The family with the other number of extra steps, on the same record of the mesh."""
+        other = replace(self, extra_steps=1 - self.extra_steps)
+        other.__dict__.update(mesh=self.mesh, held=self.held, _with_extra_steps=self)
+        return other
 
     @cached_property
     def held(self) -> Held:
@@ -177,7 +187,7 @@ class Family:
         tangent, new_row = np.empty(c.size), np.empty(c.size)
         direction, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
         wait_for("newton")
-        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = newton.newton(
+        status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = _newton(
             self.mesh, self.tolerances._replace(step=tolerance), self.path, row, row_lam, target, direction, covector,
             c, lam, tangent, new_row,
         )  # fmt: skip
@@ -245,7 +255,7 @@ class Family:
         # Newton's method leaves alone what breaks the symmetry or an end condition: round-off in it would grow
         # from prediction to prediction
         newton.symmetrise(increment, self.parity)
-        spread(increment, self.mesh.follows)
+        spread(increment, self.mesh.held, self.mesh.follows)
         c = state.c + increment
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)

@@ -81,7 +81,7 @@ def solve_within(mesh, factors, x, frozen, covector):
     """Solve H x = b in place for the unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
     solve(factors, x)
-    spread(x, mesh.follows)
+    spread(x, mesh.held, mesh.follows)
     symmetrise(x, mesh.parity)
     deflate(x, frozen, covector)  # ... and out of the solution
 
@@ -156,7 +156,6 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
     band = np.empty((n, len(mesh.local) * len(mesh.model)))
     a, b, w = np.zeros(n), np.zeros(n), np.zeros(n)
     parameters, rates = np.empty(path.shape[1]), np.empty(path.shape[1])
-    inner = np.empty((0, 0))
     previous = np.inf
     status, negative, energy, settled, iteration = NOT_CONVERGED, -1, np.nan, 0, 0
     while status == NOT_CONVERGED and iteration < tolerances.most + tolerances.extra:
@@ -166,16 +165,16 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         if not np.isfinite(energy):
             status = OUT_OF_RANGE
             break
-        inner = restrict(band, mesh.held, mesh.follows)
+        restrict(band, mesh.held, mesh.follows)
         gather(gradient, mesh.held, mesh.follows)
         gather(mixed, mesh.held, mesh.follows)
-        negative = factorise(inner)
+        negative = factorise(band)
         gap = target - row_lam * lam - dot(row, c)
         for i in range(n):
             b[i], w[i] = mixed[i], row[i]
         gather(w, mesh.held, mesh.follows)
-        solve_within(mesh, inner, b, frozen, covector)
-        solve_within(mesh, inner, w, frozen, covector)
+        solve_within(mesh, band, b, frozen, covector)
+        solve_within(mesh, band, w, frozen, covector)
         first_dlam, lever = gap, row_lam
         for i in range(n):
             first_dlam += w[i] * gradient[i]
@@ -183,7 +182,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         first_dlam /= lever
         for i in range(n):
             a[i] = -gradient[i] - mixed[i] * first_dlam
-        solve_within(mesh, inner, a, frozen, covector)
+        solve_within(mesh, band, a, frozen, covector)
         more_dlam = (gap - row_lam * first_dlam - dot(row, a)) / (row_lam - dot(row, b))
         dlam = first_dlam + more_dlam
         largest, work = _move(c, a, b, more_dlam, dlam, gradient, mixed)
@@ -203,7 +202,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
     tangent_lam, new_row_lam = hyperplane(
         mesh.gram, tolerances.size_slope**-2, tolerances.size_lam**-2, tangent, -sign, new_row
     )
-    return status, lam, tangent_lam, new_row_lam, negative, energy, iteration, inner
+    return status, lam, tangent_lam, new_row_lam, negative, energy, iteration, band
 
 
 @kernel
@@ -221,7 +220,7 @@ def inverse_iteration(mesh, factors, iterations, vector):
             largest = max(largest, abs(new[i]))
         for i in range(new.size):
             vector[i] = new[i] / largest
-        spread(vector, mesh.follows)
+        spread(vector, mesh.held, mesh.follows)
 
 
 @kernel

@@ -1,6 +1,6 @@
 """What is held among the coefficients of a spline, and the unknowns that remain.
 
-A mask says which coefficients are held (at zero, for increments). One that *follows* another counts as held, and has
+A list says which coefficients are held (at zero, for increments). One that *follows* another counts as held, and has
 the other's value. A spline's first two coefficients are its value at the end and, with it, its slope there: an end
 condition holds value and slope (2), the value only (1), or none (0); where the slope alone is held (at zero), the
 outermost coefficient follows its neighbour.
@@ -12,72 +12,73 @@ negative ones as it is, and add nothing to any sum.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
-from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 
 @kernel
 def restrict(band, held, follows):
-    """Banded matrix (n, width) in which what follows has joined what it follows, and what is held is the identity."""
+    """Let what follows join what it follows in a banded matrix (n, width), and put the identity at what is held.
+
+    In place. ``held`` (h,) are the coefficients that are held, ``follows`` (h,) those that they follow, or themselves.
+    """
     n, width = band.shape
-    inner = np.empty((n, width))
-    for j in range(n):
-        for k in range(width):
-            inner[j, k] = band[j, k]
-    for i in range(n):
-        j = follows[i]
+    for k in range(held.size):
+        i, j = held[k], follows[k]
         if j != i:
-            inner[j, 0] += band[i, 0] + 2.0 * band[min(i, j), abs(i - j)]
+            band[j, 0] += band[i, 0] + 2.0 * band[min(i, j), abs(i - j)]
             for m in range(max(0, i - width + 1), min(n, i + width)):
                 if m not in (i, j) and abs(m - j) < width:
-                    inner[min(m, j), abs(m - j)] += band[min(m, i), abs(m - i)]
-    for i in range(n):
-        if held[i]:
-            inner[i, 0] = 1.0
-            for k in range(1, width):
-                inner[i, k] = 0.0
-                if i >= k:
-                    inner[i - k, k] = 0.0
-    return inner
+                    band[min(m, j), abs(m - j)] += band[min(m, i), abs(m - i)]
+    for i in held:
+        band[i, 0] = 1.0
+        for k in range(1, width):
+            band[i, k] = 0.0
+            if i >= k:
+                band[i - k, k] = 0.0
 
 
 @kernel
 def gather(x, held, follows):
     """Add entries of a covector ``x`` (n,) to those that they follow, and clear what is held, in place."""
-    for i in range(x.size):
-        if follows[i] != i:
-            x[follows[i]] += x[i]
-    for i in range(x.size):
-        if held[i]:
-            x[i] = 0.0
+    for k in range(held.size):
+        i, j = held[k], follows[k]
+        if j != i:
+            x[j] += x[i]
+    for i in held:
+        x[i] = 0.0
 
 
 @kernel
-def spread(x, follows):
+def spread(x, held, follows):
     """Let entries of a vector of coefficients ``x`` (n,) take the values that they follow, in place."""
-    for i in range(x.size):
-        x[i] = x[follows[i]]
+    for k in range(held.size):
+        i, j = held[k], follows[k]
+        x[i] = x[j]
 
 
 @dataclass(frozen=True)
 class Held:
-    """Which of n coefficients are held, (n,), and which one each follows (itself, mostly), (n,)."""
+    """Which of ``size`` coefficients are held, (h,), and which one each of these follows (itself, mostly), (h,)."""
 
-    held: BoolArray
+    size: int
+    held: IntArray
     follows: IntArray
 
-    @property
+    @cached_property
     def free(self) -> IntArray:
         """Positions of the unknowns."""
-        return np.flatnonzero(~self.held)
+        return np.setdiff1d(np.arange(self.size), self.held)
 
     def restrict(self, band: FloatArray) -> FloatArray:
         """Banded matrix of all coefficients, the identity where they are held."""
-        return np.asarray(restrict(band, self.held, self.follows))
+        out = band.copy()
+        restrict(out, self.held, self.follows)
+        return out
 
     def free_part(self, band: FloatArray) -> FloatArray:
         """Band of the unknowns alone, those between two of which others are held moved together."""
@@ -97,9 +98,9 @@ class Held:
 
     def spread(self, free: FloatArray) -> FloatArray:
         """Coefficients (n,) of a function whose held values are zero, from its unknowns."""
-        x = np.zeros(self.held.size)
+        x = np.zeros(self.size)
         x[self.free] = free
-        spread(x, self.follows)
+        spread(x, self.held, self.follows)
         return x
 
 
@@ -117,11 +118,11 @@ class Ends:
 
 @lru_cache(maxsize=64)
 def _among(ends: Ends, size: int) -> Held:
-    held, follows = np.zeros(size, dtype=np.bool_), np.arange(size, dtype=np.int64)
-    held[: ends.held[0]] = True
-    held[size - ends.held[1] :] = True
+    first, last = ends.held
+    held = np.array([*range(first), *range(size - last, size)], dtype=np.int64)
+    follows = held.copy()
     if ends.tied[0]:
         follows[0] = 1
     if ends.tied[1]:
         follows[-1] = size - 2
-    return Held(held, follows)
+    return Held(size, held, follows)

@@ -26,12 +26,12 @@ def as_real(coefficients: ComplexArray) -> FloatArray:
 
 def held_pair(x: Ends, y: Ends, size: int) -> Held:
     """What end conditions of each field hold among 2 ``size`` coefficients."""
-    held, follows = np.zeros(2 * size, dtype=np.bool_), np.arange(2 * size, dtype=np.int64)
-    for field, ends in enumerate((x, y)):
-        one = ends.among(size)
-        held[field::2] = one.held
-        follows[field::2] = 2 * one.follows + field
-    return Held(held, follows)
+    parts = [ends.among(size) for ends in (x, y)]
+    held, follows = (
+        np.concatenate([2 * getattr(part, name) + field for field, part in enumerate(parts)])
+        for name in ("held", "follows")
+    )
+    return Held(2 * size, held, follows)
 
 
 def derivatives(space: SplineSpace, coefficients: ComplexArray) -> ComplexArray:

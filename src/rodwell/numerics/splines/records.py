@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 
 class Discretisation(NamedTuple):
@@ -24,9 +24,9 @@ class Discretisation(NamedTuple):
     gram
         Band of the integrals of u′v′, (n, p + 1).
     held
-        Whether ends, or contact, hold an unknown, (n,).
+        Unknowns that ends, or contact, hold, (h,).
     follows
-        The unknown that one follows, or itself, (n,): see :mod:`rodwell.numerics.splines.held`.
+        The unknown that each of these follows, or itself, (h,): see :mod:`rodwell.numerics.splines.held`.
     starts
         First basis function of each element, (elements,).
     given
@@ -42,7 +42,7 @@ class Discretisation(NamedTuple):
     points: FloatArray
     weights: FloatArray
     gram: FloatArray
-    held: BoolArray
+    held: IntArray
     follows: IntArray
     starts: IntArray
     given: FloatArray
