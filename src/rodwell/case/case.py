@@ -21,6 +21,7 @@ from rodwell.case.file import read_toml
 from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.physical import physical
 from rodwell.case.pipe import PhysicalRod
+from rodwell.case.signs import check_loads
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
 from rodwell.faces import Shown
@@ -227,6 +228,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     }
     if isinstance(load, schema.LoadInput):
         found = physical(parsed, load, catalogue)
+        check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
                     supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip

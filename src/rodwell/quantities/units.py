@@ -13,6 +13,7 @@ from rodwell.quantities.written import (
     DEFINITIONS,
     NUMBER,
     AmbiguousUnitError,
+    direction,
     number_and_rest,
     plain_unit,
     remedy,
@@ -64,6 +65,8 @@ def _registry() -> Any:
 def to_si(text: object, kind: str) -> float:
     """Return the SI value of ``text`` as a quantity of ``kind``.
 
+    A force may say how it acts: "20 kN compression" is −20 kN, "20 kN tension" 20 kN.
+
     Raises
     ------
     ValueError
@@ -74,7 +77,10 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError(f"needs a unit: write it as text, for example {examples}")
     if not isinstance(text, str):
         raise ValueError(f"must be text with a number and a unit, for example {examples}")
+    text, sign = direction(text) if kind == "force" else (text, 0)
     number, unit_text = _split(text, examples)
+    if sign > 0 > number:
+        raise ValueError("is negative, which is compression: write it without the sign, or without the word")
     import pint  # noqa: PLC0415
 
     try:
@@ -100,7 +106,7 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError("must be finite")
     if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
         raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
-    return value
+    return sign * abs(value) if sign else value
 
 
 def in_unit_of(number: float, unit: str, other: str) -> float:

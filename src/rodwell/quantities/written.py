@@ -126,6 +126,18 @@ def _joined(number: str, unit: str | None) -> str:
     return f"{number} {unit or ''}".rstrip()
 
 
+_DIRECTED = re.compile(r"(.*?)\s*\b(?:of\s+|in\s+)?(tension|pull|pulling|compression|push|pushing)\s*", re.IGNORECASE)
+_PULLS = ("tension", "pull", "pulling")
+
+
+def direction(text: str) -> tuple[str, int]:
+    """A force without the word that says how it acts, and +1 for tension, −1 for compression, 0 for no such word."""
+    found = _DIRECTED.fullmatch(text) if len(text) <= LONGEST else None
+    if found is None:
+        return text, 0
+    return found[1], 1 if found[2].lower() in _PULLS else -1
+
+
 def plain_unit(text: str, kind: str = "") -> str:
     """A unit as the registry reads it: ft-lbf, N.m, kg/m3, in., deg/100 ft, and names of the trade.
 

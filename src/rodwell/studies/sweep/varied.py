@@ -133,7 +133,10 @@ def _range(section: str, key: str, text: str) -> Varied:
     if not (math.isfinite(first) and math.isfinite(last)) or first == last:
         raise InputError(name, text, "must go from one finite value to another")
     numbers = tuple(_tidy(first + (last - first) * i / (count - 1)) for i in range(count))
-    values = tuple(f"{number!r} {unit}" if unit else number for number in numbers)
+    turns = name in LISTS and min(numbers) < 0.0  # a range from compression to tension says that both are meant
+    values = tuple(
+        f"{number!r} {unit}{' tension' if turns and number > 0.0 else ''}" if unit else number for number in numbers
+    )
     return Varied(section, key, text, values, unit, numbers)
 
 
