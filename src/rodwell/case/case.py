@@ -19,8 +19,9 @@ from rodwell.case.explain import SECTIONS, explain
 from rodwell.case.facts import Fact
 from rodwell.case.file import read_toml
 from rodwell.case.fluids import NO_FLUIDS, Fluids
-from rodwell.case.physical import physical
+from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
+from rodwell.case.plausible import implausible
 from rodwell.case.signs import check_loads
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
@@ -227,7 +228,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = physical(parsed, load, catalogue)
+        found = _plausible(parsed, load, catalogue, data, source)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
@@ -240,6 +241,23 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     if not all(math.isfinite(item.force) for item in case.applied):
         raise InputError("load.applied", load.applied, "must be finite")
     return case
+
+
+def _plausible(
+    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, data: Mapping[str, Any], source: str
+) -> Physical:
+    """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
+    try:
+        found = physical(parsed, load, catalogue)
+    except InputError as error:
+        odd = implausible(parsed, load, None, data) if parsed.plausible else []
+        mine = [what for key, _, what in odd if key == error.field]
+        first = (error.field, _as_written(data, error.field, error.value), "; it ".join([error.reason, *mine[:1]]))
+        raise CaseError(source, [first, *(item for item in odd if item[0] != error.field)]) from None
+    odd = implausible(parsed, load, found, data) if parsed.plausible else []
+    if odd:
+        raise CaseError(source, odd)
+    return found
 
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:

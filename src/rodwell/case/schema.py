@@ -72,6 +72,13 @@ def _one_of(*allowed: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
+def _yes_or_no(value: object) -> object:
+    if not isinstance(value, bool):
+        raise ValueError("must be true or false, without quotes")
+    return value
+
+
+YesOrNo = Annotated[bool, BeforeValidator(_yes_or_no)]
 Name = Annotated[str, Field(min_length=1, max_length=80)]
 End = Annotated[Literal["top", "bottom"], _one_of("top", "bottom")]
 ForceKind = Annotated[Literal["effective", "real"], _one_of("effective", "real")]
@@ -225,6 +232,7 @@ class CaseFile(SectionInput):
     pressure: PressureAtEnd | None = None
     catalogue: CatalogueFiles | None = None
     units: Units | None = None
+    plausible: YesOrNo = True
 
 
 class Entry(SectionInput):
