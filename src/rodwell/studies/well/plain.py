@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray
 from rodwell.studies.well.screening import Screening
 from rodwell.studies.well.tables import assumptions, remarks_of, sentences
 from rodwell.studies.well.verdict import LEVELS, found, level_of
@@ -58,6 +58,6 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
     }
 
 
-def _numbers(stations: FloatArray) -> list[int]:
+def _numbers(stations: BoolArray) -> list[int]:
     """Stations, counted from 1."""
     return [i + 1 for i, said in enumerate(stations) if said]

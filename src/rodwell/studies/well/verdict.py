@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray
 from rodwell.quantities.text import amount, percent
 from rodwell.quantities.units import in_unit_of
 from rodwell.quantities.value import Value
@@ -53,10 +53,10 @@ class Found:
         In compression, but without an exact load.
     """
 
-    past: FloatArray
-    close: FloatArray
-    curved: FloatArray
-    unjudged: FloatArray
+    past: BoolArray
+    close: BoolArray
+    curved: BoolArray
+    unjudged: BoolArray
 
     @property
     def level(self) -> int:
@@ -70,9 +70,10 @@ def found(screening: Screening) -> Found:
     exact, lift = screening.critical, screening.lift_off
     force = np.zeros(len(screening.survey)) if screening.compression is None else screening.compression
     pushed = force > 0.0
+    dropping: BoolArray = screening.dropping.astype(bool)
     past = pushed & ((force > exact.values) | (force > lift.values))
     close = pushed & ~past & (force >= exact.values - exact.errors)
-    curved = pushed & screening.dropping & (force > screening.formulas["he_kyllingstad"])
+    curved = pushed & dropping & (force > screening.formulas["he_kyllingstad"])
     return Found(past, close, curved, pushed & ~past & np.isnan(exact.values))
 
 
