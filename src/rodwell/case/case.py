@@ -22,6 +22,7 @@ from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.plausible import implausible
+from rodwell.case.said import gauge_facts, in_written_units
 from rodwell.case.signs import check_loads
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
@@ -162,8 +163,7 @@ class Case(Shown):
         except CaseError:
             raise
         except InputError as error:
-            value = _as_written(data, error.field, error.value)
-            raise CaseError(source, [(error.field, value, error.reason)]) from None
+            raise CaseError(source, [_in_users_words(data, error)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
         return replace(case, uncertain=inputs, given=_given(data))
 
@@ -200,6 +200,12 @@ def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
     return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
 
 
+def _in_users_words(data: Mapping[str, Any], error: InputError) -> tuple[str, object, str]:
+    """Key, value as it was written, and reason in the units that were written."""
+    value = _as_written(data, error.field, error.value)
+    return error.field, value, in_written_units(error.reason, value)
+
+
 def _given(data: Mapping[str, Any]) -> dict[str, Any]:
     """The sections as they were written."""
     return {name: values for name, values in data.items() if name in SECTIONS}
@@ -231,7 +237,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         found = _plausible(parsed, load, catalogue, data, source)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
-                    rod=found.rod, fluids=found.fluids, facts=found.facts, applied=found.applied,
+                    rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
                     supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
@@ -252,8 +258,10 @@ def _plausible(
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible else []
         mine = [what for key, _, what in odd if key == error.field]
-        first = (error.field, _as_written(data, error.field, error.value), "; it ".join([error.reason, *mine[:1]]))
-        raise CaseError(source, [first, *(item for item in odd if item[0] != error.field)]) from None
+        key, value, reason = _in_users_words(data, error)
+        raise CaseError(
+            source, [(key, value, "; it ".join([reason, *mine[:1]])), *(item for item in odd if item[0] != error.field)]
+        ) from None
     odd = implausible(parsed, load, found, data) if parsed.plausible else []
     if odd:
         raise CaseError(source, odd)
