@@ -119,6 +119,21 @@ def test_a_stocky_rod_has_no_plain_verdict(rod: dict[str, str], names: set[str])
     assert sentences(result)[0].startswith("Only a rough guide") == bool(names)
 
 
+def test_the_strain_is_that_of_the_most_loaded_end() -> None:
+    """A rod under its own weight is pressed most at its lower end, a hanging one is pulled most at its upper end."""
+    rod = STEEL["rod"]
+    hole = {"diameter": "70 cm", "angle_from_vertical": "0 deg"}
+    weight = 7800.0 * 9.80665 * 30.0 / 200e9
+    for load, strain in (("-10 kN", weight + 1e4 / (200e9 * math.pi * 0.05**2)), ("60 kN", None)):
+        given = {"rod": rod, "hole": hole, "load": {"applied": f"{load} tension" if strain is None else load}}
+        case = Case.from_dict(given)
+        (applied,) = case.applied
+        state = LoadedRod("here", case.problem, applied.force)
+        found = validity(case, [state], [], math.pi).measures[0]
+        expected = 6e4 / (200e9 * math.pi * 0.05**2) if strain is None else strain
+        assert number(found) == pytest.approx(expected, rel=1e-9)
+
+
 def test_large_slopes_and_shortening_are_seen() -> None:
     """A heavy rod in a wide hole that turns across it: its ends approach by more than a fifth of its length."""
     problem = rodwell.Problem(1000, clearance=0.3)

@@ -198,5 +198,8 @@ def _angle(hole: schema.Hole) -> float:
     name, value = given[0]
     degrees = round(math.degrees(value), 12)  # "90 deg" makes its way through radians
     if not 0.0 <= degrees <= 90.0:
-        raise InputError(f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"')
+        what = 'must be from "0 deg" to "90 deg"'
+        if 90.0 < degrees <= 180.0 and name == "angle_from_vertical":
+            what += f'; uphill, a rod at {degrees:g} deg is one at "{180.0 - degrees:g} deg" with its ends exchanged'
+        raise InputError(f"hole.{name}", f"{degrees:g} deg", what)
     return degrees if name == "angle_from_vertical" else 90.0 - degrees
