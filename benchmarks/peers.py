@@ -21,7 +21,8 @@ from timing import least
 
 import rodwell
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 
 HERE = Path(__file__).parent
 PROBLEM = rodwell.Problem(15.0)

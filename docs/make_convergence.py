@@ -22,7 +22,8 @@ from rodwell.analysis.discrete.family import spline_ends
 from rodwell.analysis.discrete.measures import Measured, measure, measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight import critical
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.physics.exact import pair_loads

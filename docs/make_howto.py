@@ -37,6 +37,7 @@ COMMANDS = {
     "twist-odd": "twist --weight 30 --alpha 90",
     "twist-even": "twist --weight 15 --alpha 90 --mode 2",
     "curve-twist": "curve twist --over weight --from 40 --to 18.5 --alpha 90 --out results/twist",
+    "critical-untouched": "critical --weight 0 --alpha 0 --twist 5 --modes 1",
     "critical-twist": "critical --weight 15 --alpha 90 --twist 5 --modes 2",
     "critical-ends": "critical --weight 15 --alpha 60 --ends clamped-pinned --modes 3",
     "critical-on-top": "critical --weight 65 --alpha 90 --on-top --modes 3",
@@ -63,6 +64,7 @@ def pages(out: Path) -> dict[str, str]:
         "switching.md": switching_table(),
         "coils.md": coil_table(),
         "torsion.md": torsion_table(),
+        "untouched.md": untouched_table(),
         "ends-critical.md": ends_table(lift_off=False),
         "ends-lift-off.md": ends_table(lift_off=True),
         "columns.md": column_table(),
@@ -86,6 +88,20 @@ def _save(ax: Any, path: Path) -> None:
     ax.figure.savefig(path, dpi=DPI)
 
 
+def untouched_table() -> str:
+    """Loads of a weightless clamped rod under twist: without the wall, with its help, kept on it."""
+    rows = []
+    for twist in (0.0, 2.0, 5.0, 8.0, 10.0, 12.0, 15.0):
+        loads = rodwell.critical_loads(rodwell.Problem(0.0, alpha=0.0, twist=twist), 1)
+        touch = loads.without_wall.at_wall
+        assert touch is not None
+        needs = "no" if touch.moves_inward else "yes"
+        numbers = (loads.without_wall.forces[0], touch.force, loads[0].force)
+        rows.append((f"{twist:g}", *(number(force) for force in numbers), needs))
+    head = ("T₁", "F without the wall", "F with its help", "F kept on the wall", "needs the wall")
+    return table(head, rows)
+
+
 def coils(path: Path) -> None:
     """Energies of buckled and coiled states, relative to the straight rod."""
     flat = rodwell.diagram(rodwell.Problem(15), modes=2, until=-260.0, secondary=False)
@@ -102,7 +118,7 @@ def wall(out: Path) -> dict[str, str]:
         state = rodwell.follow(problem, mode, until=force)[-1]
         shape = {1: "even", -1: "odd"}[state.point.fine.symmetry]
         load = state.wall
-        support = number(load.torque[0], 5) if load.needs_torque else "0"
+        support = number(load.torque.value, 5) if load.needs_torque else "0"
         rows.append((str(mode), f"{force:g}".replace("-", "−"), shape, f"{load.twisting.value:.5f}", support))
     head = ("Mode", "F", "Shape", "Largest |T₂|", "T₂(0), at the support")
     diagram = rodwell.diagram(problem, modes=2, until=-400.0)

@@ -26,13 +26,12 @@ import make_wells
 from click.testing import CliRunner
 
 import rodwell
-from rodwell.case import schema
-from rodwell.case.case import SECTIONS
 from rodwell.case.catalogue import package_catalogue
+from rodwell.case.keys import TOP, every_key, purpose
 from rodwell.cli.main import cli
 from rodwell.quantities import names
 from rodwell.quantities.text import readable
-from rodwell.quantities.units import KINDS, SI, System
+from rodwell.quantities.units import SI, System
 
 HERE = Path(__file__).resolve().parent
 OUT = HERE / "_generated"
@@ -43,6 +42,8 @@ COMMANDS = {
     "run-field": "run examples/field-drill-pipe.toml",
     "run-wire": "run examples/guidewire.toml",
     "audit-field": "audit examples/field-drill-pipe.toml --no-chart --out results/audit-field",
+    "keys": "keys hole",
+    "init": "init first.toml --kind well --force",
     "critical": "critical --weight 15 --alpha 90",
     "liftoff": "liftoff --weight 15 --alpha 90",
     "liftoff-json": "liftoff --weight 15 --alpha 90 --json",
@@ -176,97 +177,30 @@ def _branch_point(weight: float, mode: int, until: float) -> str:
     return f"{point.force:.6f} B/L², where its stability index goes from {point.index_before} to {point.index_after}"
 
 
-MEANINGS: dict[str, dict[str, str]] = {
-    "rod": {
-        "length": "length L between the ends; required",
-        "outer_diameter": "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids",
-        "inner_diameter": "0 (solid) if not given",
-        "youngs_modulus": "with the diameters gives the bending stiffness",
-        "bending_stiffness": "B = EI, instead of `youngs_modulus`",
-        "density": "of the material; with diameters and gravity gives the weight",
-        "weight_per_length": "in air with `[mud]`, else mg itself; instead of `density` or a pipe's nominal weight",
-        "poisson": "Poisson's ratio ν, from above −1 to 0.5; that of the `material` if not given",
-        "ends": "conditions at s = 0 and s = 1, two of `clamped`, `pinned`, `guided`, `free`",
-        "pipe": "name in the [catalogue](pipes-and-fluids.md), instead of diameters, modulus and weight",
-        "material": "name in the catalogue, instead of `youngs_modulus` and `density`",
-        "grade": "name in the catalogue: gives the yield strength",
-        "yield_strength": "of the rod, instead of `grade`",
-    },
-    "hole": {
-        "diameter": "inner diameter of the hole; with the rod's outer diameter gives the clearance",
-        "clearance": "Δ, from axis to axis, instead of `diameter`",
-        "angle_from_vertical": "inclination α, from `0 deg` (vertical) to `90 deg` (horizontal)",
-        "angle_from_horizontal": "instead of `angle_from_vertical`; one of the two is required",
-        "gravity": "used with `density`",
-    },
-    "dimensionless": {
-        "weight": "γ = mg L³/B; required",
-        "alpha": "inclination α from the vertical, in degrees",
-        "clearance": "Δ/L",
-        "poisson": "Poisson's ratio ν",
-        "ends": "as in [rod]",
-    },
-    "load": {
-        "until": "end force to which branches are followed, **tension positive** (compression negative); "
-        "chosen from the loads found if not given",
-        "twist": "end twisting moment T₁ at s = 1, a dead load",
-        "applied": "the load that acts, or a list, **tension positive**: [what becomes of the rod there](strength.md); "
-        "a range makes a [study](studies.md)",
-        "at": "where `until` and `applied` act: `top` (s = 1, the upper end) or `bottom` (s = 0)",
-        "kind": "what `until` and `applied` are: the `effective` force, or the `real` one in the wall; must "
-        "be said beside `[pressure]`",
-    },
-    "cylinder": {
-        "outer_diameter": "outer diameter of the cylinder; the whole section, for its strength, may be left out",
-        "inner_diameter": "inner diameter; that of the hole, if hole.diameter is given",
-        "yield_strength": "strength against which the largest equivalent stress is set",
-    },
-    "supports": {
-        "force": "largest force that a support of rod or cylinder can bear, at either end",
-        "moment": "largest bending moment across its axis",
-        "torque": "largest twisting moment about its axis",
-    },
-    "mud": {
-        "density": "of the fluid on both sides of the pipe, instead of `inside` and `outside`",
-        "inside": "of the fluid in the bore; empty if not given",
-        "outside": "of the fluid around the rod; empty if not given",
-    },
-    "pressure": {
-        "inside": "in the bore at s = 1",
-        "outside": "around the rod at s = 1",
-    },
-    "catalogue": {
-        "files": "TOML files with pipes, materials and grades of your own, from the folder of the case file",
-    },
-    "analysis": {
-        "modes": "how many buckling modes, 1 to 12",
-        "rtol": "relative tolerance of every number, 1e-11 to 1e-2",
-    },
+MORE = {
+    "rod.pipe": "pipes-and-fluids.md",
+    "rod.torsional_stiffness": "twist.md",
+    "load.applied": "strength.md",
+    "study": "studies.md",
+    "catalogue.files": "pipes-and-fluids.md",
 }
+"""Pages that say more about a key."""
 
 
 def case_keys() -> str:
-    """Every key of a case file: one table for each section; the schema says which keys there are."""
-    kinds = {"Number": "number", "int": "whole number", "InnerLength": "length", "Stiffness": "bending stiffness"}
-    kinds |= {"ForcePerLength": "force per length", "Ends": "text", "Name": "text", "FluidDensity": "density"}
-    kinds |= {"Forces": "force", "PositiveForce": "force", "PositiveMoment": "moment"}
-    kinds |= {"End": "text", "ForceKind": "text", "list[str]": "list of text"}
+    """Every key of a case file: one table for each section, all from the schema."""
     parts = []
-    for section, model in SECTIONS.items():
-        meanings = MEANINGS[section]
-        if set(meanings) != set(model.model_fields):
-            raise RuntimeError(f"docs/make_pages.py: keys of [{section}] differ from the schema's")
+    for section, listed in every_key().items():
         rows = []
-        for key, field in model.model_fields.items():
-            alias = str(model.__annotations__[key]).split(" | ")[0]
-            kind = kinds.get(alias, alias.lower())
-            examples = KINDS.get(kind, ("", ""))[1]
-            default = "" if field.default is None or field.is_required() else _default(field.default, kind)
-            rows.append(
-                (f"`{key}`", kind, " ".join(f"`{e}`" for e in examples.split(", ") if e), default, meanings[key])
-            )
-        text = (model.__doc__ or "").partition("\n")[0].partition(": ")[2]
-        parts.append(f"### `[{section}]`\n\n{text[:1].upper()}{text[1:]}\n")
+        for key in listed:
+            limits = f" ({key.allowed})" if key.allowed else ""
+            more = f" ([more]({MORE[key.full_name]}))" if key.full_name in MORE else ""
+            default = "required" if key.required else f"`{key.default}`" if key.default else ""
+            examples = " ".join(f"`{example}`" for example in key.examples)
+            rows.append((f"`{key.name}`", key.kind + limits, examples, default, key.meaning + more))
+        title = "Before the first section" if section == TOP else f"`[{section}]`"
+        text = "" if section == TOP else f"{purpose(section)}\n"
+        parts.append(f"### {title}\n\n{text}")
         parts.append(make_howto.table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
     return "\n".join(parts)
 
@@ -280,7 +214,7 @@ def catalogue_tables() -> str:
 
     groups: dict[tuple[str, str, str], list[tuple[str, ...]]] = {}
     for pipe in map(catalogue.pipe, catalogue.names("pipe")):
-        medical = pipe.kind in ("guidewire", "catheter")
+        medical = pipe.kind in ("guidewire", "catheter", "fibre")
         outer, bore = (
             cell(length, "length", System("mm") if medical else system) for length in (pipe.outer_diameter, pipe.bore)
         )
@@ -304,11 +238,6 @@ def catalogue_tables() -> str:
     return "\n".join(parts)
 
 
-def _default(value: Any, kind: str) -> str:
-    unit = KINDS.get(kind, ("", ""))[0].replace("*", " ").replace("^2", "²")
-    return value if isinstance(value, str) else f"{value:g} {unit}".strip()
-
-
 def _numbers(answer: dict[str, Any]) -> dict[str, str]:
     """Numbers of the drill-string case for the text, in SI and dimensionless."""
     out = {}
@@ -330,6 +259,3 @@ def _numbers(answer: dict[str, Any]) -> dict[str, str]:
     for weight, mode, until in ((15, 1, -400.0), (15, 2, -200.0), (30, 3, -2000.0)):
         out[f"branch_point_{weight}_{mode}"] = _branch_point(weight, mode, until).replace("-", "−")
     return out
-
-
-assert {name for name in schema.CaseFile.model_fields if name not in ("title", "units")} == set(SECTIONS)

@@ -30,9 +30,9 @@ def length_table() -> str:
     """Loads of local rods of several lengths."""
     rows = []
     for alpha in (90.0, 85.0, 60.0, 20.0, 1.0, 0.05):
-        buckles = [critical_compression(PIPE, alpha, n).value for n in (10, HALF_WAVES, 2 * HALF_WAVES)]
-        lifts = [lift_off_compression(PIPE, alpha, n).value for n in (12, 24)]
-        cells = [f"{value / 1e3:.3f}" if value else "–" for value in (*buckles, *lifts)]
+        loads = [critical_compression(PIPE, alpha, n).compression for n in (10, HALF_WAVES, 2 * HALF_WAVES)]
+        loads += [lift_off_compression(PIPE, alpha, n).compression for n in (12, 24)]
+        cells = [f"{load.value / 1e3:.3f}" if load else "–" for load in loads]
         rows.append((f"{alpha:g}°", *cells))
     head = ("α", "buckles: 10 half waves", "20", "40", "leaves the wall: 12 half waves", "24")
     return table(head, rows)

@@ -11,7 +11,8 @@ for p in branch.special_points:
 state = branch.at(-110.0)
 print("stable under dead loads:", state.stable)
 print("largest pressure, error, places:", state.highest_pressure)
-print("energy above the straight rod:", state.number(Measured.ENERGY))
+energy, error = state.number(Measured.ENERGY)
+print(f"energy above the straight rod: {energy:.8f} ± {error:.0e} B/L")
 print(f"certificate: {state.certificate.worst:.0e}, passed: {state.certificate.passed}")
 
 fields = state.fields(401)  # every variable of the paper at 401 places

@@ -34,6 +34,7 @@ _HOME = {
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
     "InputError": "rodwell.errors",
+    "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
     "Problem": "rodwell.problem.problem",
@@ -42,9 +43,11 @@ _HOME = {
     "Solution": "rodwell.analysis.branch.solution",
     "Sensitivity": "rodwell.analysis.loads.sensitivity",
     "SpecialPoint": "rodwell.analysis.branch.special",
+    "SpatialMode": "rodwell.analysis.straight.without_wall",
     "Study": "rodwell.studies.sweep.study",
     "Survey": "rodwell.studies.well.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
+    "WallTouch": "rodwell.analysis.straight.without_wall",
     "branch_off": "rodwell.analysis.branch.follow",
     "certify": "rodwell.analysis.proof.certify",
     "coil": "rodwell.analysis.branch.coiled",
@@ -57,6 +60,7 @@ _HOME = {
     "lift_off_curve": "rodwell.analysis.curves.states",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
@@ -88,6 +92,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.state.certificate import Certificate
     from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
     from rodwell.analysis.straight.modes import mode_pairs, switching_table
+    from rodwell.analysis.straight.without_wall import LoadsWithoutWall, SpatialMode, WallTouch, loads_without_wall
     from rodwell.answers.result.answer import Answer, answer
     from rodwell.answers.result.assessment import Assessment
     from rodwell.case.case import Case

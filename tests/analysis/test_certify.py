@@ -18,7 +18,7 @@ from rodwell import InputError, NotConvergedError, Problem, certify, critical_lo
 from rodwell.analysis.proof import inertia as counting
 from rodwell.analysis.proof.certify import ClosedForm, check_sign_change
 from rodwell.analysis.proof.enclosures import Enclosure
-from rodwell.analysis.proof.inertia import Rod, UndecidedError, inertia
+from rodwell.analysis.proof.inertia import EnclosedRod, UndecidedError, inertia
 from rodwell.analysis.proof.paper_values import self_weights
 from rodwell.analysis.proof.roots import Counter, _enclosed, critical_values
 from rodwell.analysis.straight.modes import mode_pairs, switching_table
@@ -160,7 +160,7 @@ def test_counts_are_those_of_polynomials(
     if np.min(np.abs(eigenvalues)) < 1e-6:
         return
     with ctx.workprec(400):
-        found = inertia(Rod(arb(force), arb(axial), arb(b), (first, last))).negative
+        found = inertia(EnclosedRod(arb(force), arb(axial), arb(b), (first, last))).negative
     assert found == np.sum(eigenvalues < 0.0)
 
 
@@ -192,7 +192,7 @@ def test_element_matrices_are_symmetric_and_beams() -> None:
 
 
 def test_intervals_are_believed_only_after_counts_at_their_ends() -> None:
-    counter = Counter(lambda x: Rod(-x, arb(0), arb(0), CLAMPED))
+    counter = Counter(lambda x: EnclosedRod(-x, arb(0), arb(0), CLAMPED))
     with pytest.raises(NotConvergedError, match="lost"):
         _enclosed(counter, 2, Fraction(30), Fraction(50), 10)
     with pytest.raises(NotConvergedError, match="before it"):
@@ -203,24 +203,24 @@ def test_intervals_are_believed_only_after_counts_at_their_ends() -> None:
 def test_no_count_at_a_critical_load() -> None:
     """Where the answer jumps, none is given: F = 0 of a free rod is exact."""
     with ctx.workprec(200), pytest.raises(UndecidedError):
-        inertia(Rod(arb(0), arb(0), arb(0), ("pinned", "free")))
+        inertia(EnclosedRod(arb(0), arb(0), arb(0), ("pinned", "free")))
     load = certify(Problem(0.0, ends=("pinned", "free")), 1)[0].force
     assert 0.0 in load
 
 
 def test_long_elements_are_refused() -> None:
     """Interiors must be proved positive: one element at −F beyond 4π² is not enough."""
-    rod = Rod(arb(-50), arb(0), arb(0), CLAMPED)
+    rod = EnclosedRod(arb(-50), arb(0), arb(0), CLAMPED)
     with pytest.raises(UndecidedError, match="short"):
         counting._check_interiors(rod, 1)
     with pytest.raises(UndecidedError, match="short"):
-        counting._check_interiors(Rod(arb(0), arb(0), arb(-600), CLAMPED), 1)
+        counting._check_interiors(EnclosedRod(arb(0), arb(0), arb(-600), CLAMPED), 1)
     counting._check_interiors(rod, 2)
 
 
 def test_double_loads_are_counted_twice() -> None:
     """At γ_c = 9π⁴Δ, (78): two loads in one enclosure, the first two; −F = 10π²."""
-    counter = Counter(lambda x: Rod(-x, arb(0), 9 * arb.pi() ** 4, CLAMPED))
+    counter = Counter(lambda x: EnclosedRod(-x, arb(0), 9 * arb.pi() ** 4, CLAMPED))
     double, third = critical_values(counter, Fraction(-2), Fraction(40), 3, 25)
     assert (double.number, double.multiplicity, third.number) == (1, 2, 3)
     assert 10.0 * math.pi**2 == pytest.approx(float(double.enclosure), rel=1e-15)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
@@ -14,7 +15,7 @@ import rodwell
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import force_text, place_text, quantity
-from rodwell.quantities.text import amount, certain, percent
+from rodwell.quantities.text import amount, certain, percent, supported
 from rodwell.quantities.units import System
 from rodwell.quantities.value import Value
 
@@ -51,6 +52,28 @@ def test_numbers_as_text() -> None:
     assert quantity(System("si"), Value(139582.0, 3.0), "force", 6) == "139.58 kN"
     assert quantity(System("field"), Value(4448.2216, 44.0), "force") == "1000 lbf"
     assert quantity(System("si"), Value(20.0, 30.0), "force") == "20 N ± 30 N"
+
+
+@given(
+    st.floats(1e-12, 1e12), st.sampled_from([1.0, -1.0]), st.floats(1e-15, 10.0), st.integers(min_value=1, max_value=8)
+)  # fmt: skip
+def test_a_table_shows_a_digit_in_doubt_which_a_sentence_does_not(
+    size: float, sign: float, relative: float, digits: int
+) -> None:
+    """The last digit in a table stands where the error's first does; no digit of a sentence is in doubt."""
+    number = Value(sign * size, size * relative)
+    in_sentence, in_table = certain(number, digits), supported(number, digits)
+    assert in_sentence <= in_table <= min(digits, in_sentence + 2)
+    if 0 < in_table < digits:
+        place = 10.0 ** (math.floor(math.log10(size)) - in_table + 1)
+        assert (1.0 - 1e-9) * place <= number.error < (10.0 + 1e-8) * place
+
+
+def test_digits_without_an_error_or_with_none_that_is_finite() -> None:
+    for rule in (certain, supported):
+        assert rule(Value(123.456), 5) == 5
+        assert rule(Value(0.0, 0.1), 5) == 5
+        assert rule(Value(1.0, float("inf")), 5) == 0
 
 
 def test_tables_keep_one_digit_in_doubt_and_no_more() -> None:

@@ -23,17 +23,18 @@ def area(pipe: object) -> float:
 
 
 def test_every_entry_is_right_and_has_its_source() -> None:
-    assert len(PIPES) == 80
+    assert len(PIPES) == 93
     for kind in ("material", "grade"):
         for name in CATALOGUE.names(kind):
             assert getattr(CATALOGUE, kind)(name).source
     for pipe in PIPES:
         assert pipe.source
         assert pipe.note
-        assert pipe.kind in ("drill pipe", "tubing", "coiled tubing", "guidewire", "catheter")
+        steel = pipe.kind in ("drill pipe", "tubing", "coiled tubing", "sucker rod")
+        assert steel or pipe.kind in ("guidewire", "catheter", "fibre")
         assert pipe.name.endswith(pipe.kind)
         if pipe.material is not None:
-            assert CATALOGUE.material(pipe.material).name == "steel"
+            assert (CATALOGUE.material(pipe.material).name == "steel") is steel
 
 
 @pytest.mark.parametrize(
@@ -85,6 +86,24 @@ def test_french_sizes_and_guidewires() -> None:
             assert (pipe.bending_stiffness, pipe.weight_per_length, pipe.material) == (None, None, None)
 
 
+@pytest.mark.parametrize("pipe", [p for p in PIPES if p.kind == "sucker rod"], ids=lambda p: p.name)
+def test_weight_of_sucker_rods(pipe: object) -> None:
+    """Couplings add about a twelfth to the weight of the body, 3.4 lb/ft for each in²."""
+    body = 3.4 * math.pi / 4.0 * (pipe.outer_diameter / INCH) ** 2  # type: ignore[attr-defined]
+    assert 1.06 < pipe.weight_per_length / (LBF / FOOT) / body < 1.10  # type: ignore[attr-defined]
+    assert pipe.bore is None  # type: ignore[attr-defined]
+    assert not pipe.hollow  # type: ignore[attr-defined]
+
+
+def test_fibres_have_the_stiffness_of_their_section() -> None:
+    for name, modulus, diameter in (("0.125 mm optical fibre", 72.7e9, 125e-6), ("0.007 mm carbon fibre", 230e9, 7e-6)):
+        case = Case.from_dict({
+            "rod": {"pipe": name, "length": "10 mm"}, "hole": {"diameter": "1 mm", "angle_from_vertical": "90 deg"},
+        })  # fmt: skip
+        assert case.scales is not None
+        assert case.scales.stiffness == pytest.approx(modulus * math.pi / 64.0 * diameter**4, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("written", "name"),
     [
@@ -96,6 +115,9 @@ def test_french_sizes_and_guidewires() -> None:
         ("5 French catheter", "5 Fr catheter"),
         ("5F catheter", "5 Fr catheter"),
         (".035in guide wire", "0.035 in guidewire"),
+        ("7/8 in Sucker Rod", "7/8 in sucker rod"),
+        ('1 1/8" sucker rod', "1-1/8 in sucker rod"),
+        ("18F catheter", "18 Fr catheter"),
     ],
 )
 def test_spellings(written: str, name: str) -> None:

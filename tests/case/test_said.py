@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rodwell import Case, InputError
-from rodwell.case.said import gauge_facts, in_written_units
+from rodwell.case.checks.said import gauge_facts, in_written_units
 
 FIELD: dict[str, Any] = {
     "rod": {"outer_diameter": "5 in", "inner_diameter": "4.276 in", "length": "300 ft", "material": "steel"},
@@ -32,7 +32,7 @@ def refused(**changes: str) -> str:
         ({"hole__diameter": "4.9 in"}, "above the rod's outer diameter of 0.127 m (5 in)"),
         ({"rod__inner_diameter": "5.5 in"}, "below the outer diameter of 0.127 m (5 in)"),
         ({"rod__length": "2 in", "hole__diameter": "12 in"}, "the rod's length of 0.0508 m (2 in)"),
-        ({"hole__angle_from_vertical": "92 deg"}, 'one at "88 deg" with its ends exchanged'),
+        ({"hole__angle_from_vertical": "92 deg"}, 'write "88 deg"'),
         ({"mud__outside": "90 lb/gal"}, "lbf/ft)"),
         (
             {"cylinder__outer_diameter": "8 in", "cylinder__yield_strength": "36 ksi"},

@@ -7,7 +7,7 @@ import pytest
 
 from rodwell import Problem, critical_loads, follow
 from rodwell.numerics.continuation.prediction import MOST_POINTS, Predictor
-from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 
 SPACE = SplineSpace(np.linspace(0.0, 1.0, 3), 2)

@@ -19,9 +19,10 @@ from scipy.special import ellipe, ellipk
 
 from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import newton
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace

@@ -53,11 +53,6 @@ LBF, FOOT, POUND = 4.4482216152605, 0.3048, 0.45359237
         ('8.5"', "length", 8.5 * 0.0254),
         ("5 mil", "length", 5 * 25.4e-6),
         ("6 Fr", "length", 2e-3),
-        ("3 deg/100 ft", "curvature", math.radians(3.0) / 30.48),
-        ("3 deg/30 m", "curvature", math.radians(3.0) / 30.0),
-        ("3°/30m", "curvature", math.radians(3.0) / 30.0),
-        ("3 deg/10 m", "curvature", math.radians(3.0) / 10.0),
-        ("0.1 deg/ft", "curvature", math.radians(0.1) / 0.3048),
     ],
 )
 def test_units_of_the_trade(text: str, kind: str, value: float) -> None:
@@ -101,7 +96,6 @@ def test_capitals_get_the_unit_that_was_meant(text: str, kind: str, meant: str) 
         ("200 bara", "pressure", ["barg", "1.01325"]),
         ("0.52 psi/ft", "density", ["1199 kg/m^3"]),
         ("19.5 lb/ft", "force per length", ["lbf, not lb"]),
-        ("3 deg/95 ft", "curvature", ["deg/100 ft"]),
         ("2 7/8 in", "length", ['"2.875 in"']),
         ("2-7/8 in", "length", ['"2.875 in"']),
     ],
@@ -172,6 +166,23 @@ def test_units_of_ranges_are_those_of_the_trade() -> None:
     assert in_unit_of(1.0, "deg/30 m", "deg/100 ft") == pytest.approx(30.48 / 30.0)
     assert in_unit_of(1.0, "sg", "kg/m3") == pytest.approx(1000.0)
     assert in_unit_of(1.0, "kNm", "ft-lbf") == pytest.approx(1000.0 / (LBF * FOOT))
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("deg/100 ft", math.radians(1.0) / 30.48),
+        ("deg/100ft", math.radians(1.0) / 30.48),
+        ("deg/30 m", math.radians(1.0) / 30.0),
+        ("°/30m", math.radians(1.0) / 30.0),
+        ("deg/10 m", math.radians(1.0) / 10.0),
+        ("deg/ft", math.radians(1.0) / 0.3048),
+    ],
+)
+def test_degrees_per_lengths_of_the_field(text: str, value: float) -> None:
+    assert in_unit_of(1.0, text, "rad/m") == pytest.approx(value, rel=1e-12)
+    with pytest.raises(ValueError, match="do not go together"):
+        in_unit_of(1.0, "deg/95 ft", "rad/m")
 
 
 def test_long_text_is_read_in_no_time() -> None:

@@ -467,7 +467,7 @@ def test_bad_loads_and_supports_are_refused(more: dict[str, Any], field: str, ph
     with pytest.raises(InputError) as found:
         Case.from_dict({**PIPE, **more})
     assert found.value.field == field
-    assert phrase in found.value.problem
+    assert phrase in found.value.reason
 
 
 def test_bad_loads_without_dimensions() -> None:

@@ -172,7 +172,7 @@ def test_what_cannot_be_judged_is_said() -> None:
 def test_studies_say_where_small_strain_is_left(tmp_path: Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text(
-        '[rod]\nlength = ["40 mm", "100 mm"]\nouter_diameter = "1.75 mm"\nyoungs_modulus = "26 MPa"\n'
+        'study = true\n[rod]\nlength = ["40 mm", "100 mm"]\nouter_diameter = "1.75 mm"\nyoungs_modulus = "26 MPa"\n'
         'density = "1200 kg/m^3"\n[hole]\ndiameter = "2 mm"\nangle_from_vertical = "90 deg"\n'
         '[analysis]\nrtol = 1e-6\n[load]\napplied = "-4 N"\n', encoding="utf-8",
     )  # fmt: skip
@@ -186,7 +186,7 @@ def test_studies_say_where_small_strain_is_left(tmp_path: Path) -> None:
 def test_a_study_within_the_theory_says_nothing_of_it(tmp_path: Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text(
-        '[rod]\nlength = ["30 m", "31 m"]\nouter_diameter = "10 cm"\nmaterial = "steel"\n'
+        'study = true\n[rod]\nlength = ["30 m", "31 m"]\nouter_diameter = "10 cm"\nmaterial = "steel"\n'
         '[hole]\ndiameter = "70 cm"\nangle_from_vertical = "90 deg"\n[analysis]\nrtol = 1e-6\n', encoding="utf-8",
     )  # fmt: skip
     found = study(file)

@@ -67,10 +67,10 @@ def test_every_printed_number_is_there_and_agrees(table: Agreement) -> None:
     assert len(found) == len(table), "keys are unique"
     for key, printed in PAPER.items():
         assert found[key].claim.printed == printed
-        assert found[key].agrees, (key, found[key].found)
+        assert found[key].agrees, (key, found[key].computed)
     for finding in table:
         assert finding.agrees == (finding.claim.key not in DIFFERENT), finding
-        assert 0.0 <= finding.found.error < 1e-6, finding
+        assert 0.0 <= finding.computed.error < 1e-6, finding
 
 
 def test_differences_are_those_that_are_known(table: Agreement) -> None:
@@ -78,7 +78,7 @@ def test_differences_are_those_that_are_known(table: Agreement) -> None:
     assert set(differing) == set(DIFFERENT)
     for key, right in DIFFERENT.items():
         assert differing[key].documented
-        assert differing[key].found.value == pytest.approx(right, rel=1e-9)
+        assert differing[key].computed.value == pytest.approx(right, rel=1e-9)
         assert len(differing[key].evidence) > 60
     assert table.passed
     assert f"{len(table) - 5} agree" in table.summary
@@ -86,7 +86,7 @@ def test_differences_are_those_that_are_known(table: Agreement) -> None:
 
 def test_table_1_is_the_formula_printed_below_it(table: Agreement) -> None:
     """(78) in closed form, to many more digits than are printed."""
-    found = {finding.claim.key: finding.found for finding in table}
+    found = {finding.claim.key: finding.computed for finding in table}
     assert len(ROWS) == 20
     for n, m, *_ in ROWS:
         row = {name: found[f"table1.{n}-{m}.{name}"] for name in ("k1", "k3", "weight", "force", "pair")}

@@ -217,6 +217,7 @@ def test_end_conditions_can_vary() -> None:
 
 LOADS_FILE = """
 title = "Two loads"
+study = true
 [rod]
 length = "30 m"
 outer_diameter = "10 cm"

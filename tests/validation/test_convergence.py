@@ -11,7 +11,8 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.family import family as equilibria
 from rodwell.analysis.discrete.family import spline_ends
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.strand import contact_pressure
 

@@ -13,6 +13,9 @@ from pydantic import ValidationError
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.case.checks.plausible import implausible
+from rodwell.case.checks.said import gauge_facts, in_written_units
+from rodwell.case.checks.signs import check_loads
 from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.explain import SECTIONS, explain
@@ -21,9 +24,6 @@ from rodwell.case.file import read_toml
 from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
-from rodwell.case.plausible import implausible
-from rodwell.case.said import gauge_facts, in_written_units
-from rodwell.case.signs import check_loads
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
 from rodwell.faces import Shown
@@ -173,7 +173,7 @@ class Case(Shown):
         try:
             parsed = schema.CaseFile.model_validate(dict(data))
         except ValidationError as error:
-            raise CaseError(source, explain(error)) from None
+            raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
         return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
 
 
@@ -226,7 +226,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     load = _load(parsed.load, with_dimensions, source)
     case: Case
     common = {
-        "title": parsed.title,
+        "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
         "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
         "given": _given(data),
@@ -256,13 +256,13 @@ def _plausible(
     try:
         found = physical(parsed, load, catalogue)
     except InputError as error:
-        odd = implausible(parsed, load, None, data) if parsed.plausible else []
+        odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]
         key, value, reason = _in_users_words(data, error)
         raise CaseError(
             source, [(key, value, "; it ".join([reason, *mine[:1]])), *(item for item in odd if item[0] != error.field)]
         ) from None
-    odd = implausible(parsed, load, found, data) if parsed.plausible else []
+    odd = implausible(parsed, load, found, data) if parsed.plausible is not False else []
     if odd:
         raise CaseError(source, odd)
     return found
@@ -279,8 +279,20 @@ def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schem
         return model.model_validate(given)
     except ValidationError as error:
         explained = explain(error, within=("load",))
-        found = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
-        raise CaseError(source, found) from None
+        problems = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
+        raise CaseError(source, problems) from None
+
+
+def _load_problems(data: Mapping[str, Any]) -> list[tuple[str, object, str]]:
+    """What is wrong in [load] of a file in which something else is wrong already."""
+    given = data.get("load", {})
+    if not isinstance(given, Mapping):
+        return []
+    try:
+        _load(given, "dimensionless" not in data or "rod" in data or "hole" in data, "")
+    except CaseError as error:
+        return error.problems
+    return []
 
 
 def _named(field: str, compute: Any) -> Any:

@@ -14,13 +14,13 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from rodwell.case import schema
+from rodwell.case.entries import Entry, Grade, Material, Pipe
 from rodwell.errors import InputError
 
 Raw = dict[str, Any]
-Model = TypeVar("Model", bound=schema.Entry)
+Model = TypeVar("Model", bound=Entry)
 
-KINDS: dict[str, type[schema.Entry]] = {"pipe": schema.Pipe, "material": schema.Material, "grade": schema.Grade}
+KINDS: dict[str, type[Entry]] = {"pipe": Pipe, "material": Material, "grade": Grade}
 """What a catalogue holds: [[pipe]], [[material]] and [[grade]]."""
 
 INSTEAD = {
@@ -54,9 +54,9 @@ def key_of(name: str) -> str:
     return re.sub(r"[\s_-]+", "", text)
 
 
-def _decimal(found: re.Match[str]) -> str:
-    whole, over, under = (int(part or 0) for part in found.groups())
-    return found[0] if under == 0 else f"{whole + over / under:g}"
+def _decimal(match: re.Match[str]) -> str:
+    whole, over, under = (int(part or 0) for part in match.groups())
+    return match[0] if under == 0 else f"{whole + over / under:g}"
 
 
 @dataclass(frozen=True)
@@ -65,17 +65,17 @@ class Catalogue:
 
     entries: Mapping[str, Mapping[str, Raw]] = field(default_factory=dict)
 
-    def pipe(self, name: str) -> schema.Pipe:
+    def pipe(self, name: str) -> Pipe:
         """Return a pipe; raises InputError for ``rod.pipe`` with the nearest names."""
-        return self._get(schema.Pipe, "pipe", name, "rod.pipe")
+        return self._get(Pipe, "pipe", name, "rod.pipe")
 
-    def material(self, name: str, key: str = "rod.material") -> schema.Material:
+    def material(self, name: str, key: str = "rod.material") -> Material:
         """Return a material; raises InputError for ``key`` with the nearest names."""
-        return self._get(schema.Material, "material", name, key)
+        return self._get(Material, "material", name, key)
 
-    def grade(self, name: str) -> schema.Grade:
+    def grade(self, name: str) -> Grade:
         """Return a grade; raises InputError for ``rod.grade`` with the nearest names."""
-        return self._get(schema.Grade, "grade", name, "rod.grade")
+        return self._get(Grade, "grade", name, "rod.grade")
 
     def names(self, kind: str) -> list[str]:
         """Names of all entries of a kind."""
@@ -170,7 +170,7 @@ def _check(kind: str, raw: Raw, file: str) -> None:
         raise InputError("catalogue.files", file, f"{kind} {name!r}: {where} {what}") from None
 
 
-def _add(entries: dict[str, dict[str, Raw]], found: Iterable[tuple[str, Raw]]) -> None:
-    for kind, raw in found:
+def _add(entries: dict[str, dict[str, Raw]], listed: Iterable[tuple[str, Raw]]) -> None:
+    for kind, raw in listed:
         for name in (raw["name"], *raw.get("aliases", ())):
             entries[kind][key_of(name)] = raw

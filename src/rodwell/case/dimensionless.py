@@ -36,12 +36,13 @@ def dimensionless(
             alpha=given.alpha,
             clearance=given.clearance,
             poisson=given.poisson,
+            torsion=given.torsion,
             twist=load.twist,
             ends=checked_ends(given.ends),
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
+        raise InputError(f"{section}.{error.field}", error.value, error.reason + _turned(error)) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
@@ -50,3 +51,10 @@ def dimensionless(
     applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
     check_reach(until, applied)
     return problem, until, applied
+
+
+def _turned(error: InputError) -> str:
+    """What to do about an inclination beyond horizontal."""
+    if error.field != "alpha" or not isinstance(error.value, int | float) or not 90.0 < error.value <= 180.0:
+        return ""
+    return f"; s = 1 is the upper end: turn the rod round, alpha = {180.0 - error.value:g} with ends in reverse order"

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import re
 
 from pydantic import BaseModel, ValidationError
 
 from rodwell.case import schema
+from rodwell.case.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
+from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.RodInput,
@@ -22,56 +25,130 @@ SECTIONS: dict[str, type[BaseModel]] = {
 }
 """Sections of a case file."""
 
+_RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$")
 
-def explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple[str, object, str]]:
-    """Return validation errors in the user's words: (key, value, what to do)."""
+SIMILAR, ALIKE = 0.55, 0.8
+"""How alike a known key must be to be offered, and to be offered before a section that has the key as written."""
+
+SHORTEST_PART = 4
+"""Letters that a part of a key must have at least to be taken for it: yield for yield_strength."""
+
+LIST = (
+    "; a list of values is a parameter study: declare it with study = true at the top of the file, before the first "
+    "section (`rodwell run` then computes one case for each value)"
+)
+TAPER = "; a taper is not taken, a rod has one section from end to end"
+RANGE = "; this is a range, a parameter study: compute it with `rodwell run`, or give one value here"
+STUDY = "; the file is a parameter study: compute it with `rodwell run`, or give one value here"
+TAPERED = (
+    "outer_diameter", "inner_diameter", "youngs_modulus", "bending_stiffness", "torsional_stiffness", "density",
+    "weight_per_length", "poisson", "pipe", "material", "grade", "yield_strength",
+)  # fmt: skip
+"""Keys of [rod] of which a list may be meant as a taper."""
+
+
+def explain(
+    error: ValidationError, declared: bool = False, within: tuple[str, ...] = ()
+) -> list[tuple[str, object, str]]:
+    """Return validation errors in the user's words: (key, value, what to do).
+
+    ``declared`` says that the file is a parameter study, ``within`` that what was validated is a section of it.
+    """
     out: list[tuple[str, object, str]] = []
     for item in error.errors():
         where = ".".join(str(part) or "''" for part in item["loc"])
-        value = item["input"]
-        kind, text = item["type"], item["msg"]
-        if kind == "extra_forbidden":
-            out.append((where, None, _unknown((*within, *item["loc"]))))
-        elif kind == "missing":
+        if item["type"] == "extra_forbidden":
+            value = None if isinstance(item["input"], dict | list) else item["input"]
+            out.append((where, value, unknown((*within, *item["loc"]))))
+        elif item["type"] == "missing":
             out.append((where, None, "is missing; add it"))
-        elif kind in ("model_type", "model_attributes_type", "dict_type"):
-            out.append((where, value, f"must be a section: write [{where}] with its keys below it"))
-        elif kind == "value_error":
-            out.append((where, value, text.removeprefix("Value error, ")))
-        elif kind.startswith("int") or kind in ("greater_than_equal", "less_than_equal"):
-            out.append((where, value, f"must be a whole number from 1 to {schema.MOST_MODES}"))
-        elif kind.startswith("float"):
-            out.append((where, value, "must be a number"))
-        elif kind == "string_too_short":
-            out.append((where, value, "must be a name, not empty"))
-        elif kind == "string_too_long":
-            out.append((where, value, "is too long for a name; write it as in the catalogue"))
-        elif kind.startswith("list"):
-            out.append((where, value, 'must be a list in square brackets, for example ["my-pipes.toml"]'))
-        elif kind.startswith("string"):
-            out.append((where, value, "must be text in quotes"))
         else:
-            out.append((where, value, text[:1].lower() + text[1:]))
+            location = (*within, *item["loc"])
+            what = _reason(item["type"], item["msg"], where) + _several(location, item["input"], declared)
+            out.append((where, item["input"], what))
     return out
 
 
-def _unknown(location: tuple[int | str, ...]) -> str:
-    """What to say of an unknown key: the nearest known one, or the section it belongs to."""
-    key = str(location[-1])
-    if len(location) == 1:
-        known = list(schema.CaseFile.model_fields)
-        for section, model in SECTIONS.items():
-            if key in model.model_fields:
-                return f"is not a section; it belongs into [{section}]"
-    else:
-        section = str(location[0])
-        known = list(SECTIONS[section].model_fields)
+_WHOLE = f"must be a whole number from 1 to {schema.MOST_MODES}"
+_SECTION = "must be a section: write [{where}] with its keys below it"
+REASONS = {
+    "model_type": _SECTION,
+    "model_attributes_type": _SECTION,
+    "dict_type": _SECTION,
+    "int": _WHOLE,
+    "greater_than_equal": _WHOLE,
+    "less_than_equal": _WHOLE,
+    "float": "must be a number",
+    "bool": "must be true or false, without quotes",
+    "string_too_short": "must be a name, not empty",
+    "string_too_long": "is too long for a name; write it as in the catalogue",
+    "list": 'must be a list in square brackets, for example ["my-pipes.toml"]',
+    "string": "must be text in quotes",
+}
+"""What is wrong with a value, by the beginning of the kind of pydantic's error."""
+
+
+def _reason(kind: str, text: str, where: str) -> str:
+    """What is wrong with a value, by the kind of pydantic's error; its own words for kinds that are not known."""
+    if kind == "value_error":
+        return text.removeprefix("Value error, ")
+    known = next((words for start, words in REASONS.items() if kind.startswith(start)), None)
+    return text[:1].lower() + text[1:] if known is None else known.format(where=where)
+
+
+def _several(location: tuple[int | str, ...], value: object, declared: bool) -> str:
+    """What to say of a list or range where one value is asked for, beside what is wrong with it."""
+    if len(location) != 2 or location[0] not in SECTIONS or location[0] in ("analysis", "catalogue"):
+        return ""
+    if isinstance(value, str):
+        return RANGE if len(value) <= LONGEST_VALUE and _RANGE_LIKE.search(value) else ""
+    if not isinstance(value, list | tuple) or location[1] in ("until", "applied"):
+        return ""
+    return (STUDY if declared else LIST) + (TAPER if location[0] == "rod" and location[1] in TAPERED else "")
+
+
+def unknown(location: tuple[int | str, ...]) -> str:
+    """What to say of an unknown key or section: what is written instead, the nearest, or the section it belongs to."""
+    return (
+        _unknown_section(str(location[0])) if len(location) == 1 else _unknown_key(str(location[0]), str(location[1]))
+    )
+
+
+def _unknown_section(key: str) -> str:
+    known = list(schema.CaseFile.model_fields)
+    if plain(key) in SECTIONS_ELSEWHERE and not any(key in model.model_fields for model in SECTIONS.values()):
+        return SECTIONS_ELSEWHERE[plain(key)]
+    for section, model in SECTIONS.items():
+        if key in model.model_fields:
+            return f"is not a section; it belongs into [{section}]"
+    return _nearest(key, known)
+
+
+def _unknown_key(section: str, key: str) -> str:
+    if section not in SECTIONS:
+        return _unknown_section(section)
+    known = list(SECTIONS[section].model_fields)
+    if key in known:
+        return "needs [rod] and [hole]: it has no meaning beside [dimensionless]"
+    if plain(key) in KEYS_ELSEWHERE.get(section, {}):
+        return KEYS_ELSEWHERE[section][plain(key)]
+    if not difflib.get_close_matches(key, known, n=1, cutoff=ALIKE):
         for other, model in SECTIONS.items():
-            if other != section and key in model.model_fields:
+            if key in model.model_fields:
                 return f"does not belong into [{section}] but into [{other}]"
-        if key in known:
-            return "needs [rod] and [hole]: it has no meaning beside [dimensionless]"
-    near = difflib.get_close_matches(key, known, n=1, cutoff=0.55)
+        if key in ("title", "units", "study"):
+            return f"does not belong into [{section}] but to the top of the file, before the first section"
+    return _nearest(key, known)
+
+
+def plain(name: str) -> str:
+    """Return a name as it is looked up: lower case, with underscores."""
+    return name.strip().lower().replace("-", "_").replace(" ", "_")
+
+
+def _nearest(key: str, known: list[str]) -> str:
+    parts = [name for name in known if len(key) >= SHORTEST_PART and plain(key) in name.split("_")]
+    near = parts if len(parts) == 1 else difflib.get_close_matches(key, known, n=1, cutoff=SIMILAR)
     if near:
         return f"is not known; did you mean {near[0]!r}?"
     return f"is not known; allowed are {', '.join(known)}"

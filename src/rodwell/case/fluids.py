@@ -72,6 +72,10 @@ def fluids_of(mud: schema.Mud | None, pressure: schema.PressureAtEnd | None, rod
             what = "contradicts mud.density, which stands for both sides: give mud.inside and mud.outside, or it alone"
             raise InputError(f"mud.{key}", getattr(mud, key), what)
     for name, side in (("mud", mud), ("pressure", pressure)):
+        if not rod.bore_known and (side.inside or (name == "mud" and mud.density)):
+            key = "density" if name == "mud" and mud.density else "inside"
+            what = f"fills a bore that is not known: give rod.inner_diameter, or {name}.outside alone"
+            raise InputError(f"{name}.{key}", getattr(side, key), what)
         if side.inside and rod.outer_diameter is not None and rod.inner_diameter == 0.0:
             what = "cannot be: the rod is solid; give rod.inner_diameter, or leave this out"
             raise InputError(f"{name}.inside", side.inside, what)

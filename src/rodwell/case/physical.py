@@ -13,7 +13,7 @@ from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
-from rodwell.problem.problem import Problem
+from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import System
 
@@ -55,6 +55,13 @@ def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalog
             hole.clearance or hole.diameter,
             f"leaves a clearance of {clearance:g} m, which must be below the rod's length of {rod.length:g} m",
         )
+    if clearance < SMALLEST_CLEARANCE * rod.length:
+        raise InputError(
+            "hole.clearance" if hole.clearance else "hole.diameter",
+            hole.clearance or hole.diameter,
+            f"leaves a clearance of {clearance:.3g} m, {clearance / rod.length:.1g} of the rod's length; at least "
+            f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
+        )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
     scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
     problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
@@ -74,6 +81,7 @@ def _problem(
             alpha=_angle(hole),
             clearance=clearance / rod.length,
             poisson=rod.poisson,
+            torsion=rod.torsion,
             twist=twist / scales.factor("moment"),
             ends=checked_ends(ends),
         )
@@ -81,6 +89,7 @@ def _problem(
         names = {
             "weight": "rod.length",
             "poisson": "rod.poisson",
+            "torsion": "rod.torsional_stiffness",
             "twist": "load.twist",
             "ends": "rod.ends",
             "clearance": "hole.diameter" if hole.clearance is None else "hole.clearance",
@@ -198,8 +207,19 @@ def _angle(hole: schema.Hole) -> float:
     name, value = given[0]
     degrees = round(math.degrees(value), 12)  # "90 deg" makes its way through radians
     if not 0.0 <= degrees <= 90.0:
-        what = 'must be from "0 deg" to "90 deg"'
-        if 90.0 < degrees <= 180.0 and name == "angle_from_vertical":
-            what += f'; uphill, a rod at {degrees:g} deg is one at "{180.0 - degrees:g} deg" with its ends exchanged'
-        raise InputError(f"hole.{name}", f"{degrees:g} deg", what)
+        raise InputError(
+            f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"' + _turned(name, degrees)
+        )
     return degrees if name == "angle_from_vertical" else 90.0 - degrees
+
+
+def _turned(name: str, degrees: float) -> str:
+    """What to do about a hole that climbs: an angle beyond horizontal."""
+    vertical = degrees if name == "angle_from_vertical" else 90.0 - degrees
+    if not 90.0 < vertical <= 180.0:
+        return ""
+    same = 180.0 - vertical if name == "angle_from_vertical" else vertical - 90.0
+    return (
+        f': s = 1 is the upper end. A hole that climbs is the same hole seen from its other end: write "{same:g} deg" '
+        "and turn the rod round, rod.ends in reverse order, load.at the other end"
+    )

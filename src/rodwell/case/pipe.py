@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rodwell.case import schema
 from rodwell.case.catalogue import Catalogue, key_of
+from rodwell.case.entries import Entry, Material, Pipe
 from rodwell.case.facts import Fact
 from rodwell.errors import InputError
 
@@ -29,10 +30,14 @@ class PhysicalRod:
         Of the material in kg/m³, None where it is not known.
     poisson
         Poisson's ratio ν.
+    torsion
+        Torsional stiffness C/B where it was given; None: it follows from ν.
     yield_strength
         In Pa, None where it is not known.
     facts
         Where the numbers come from.
+    bore_known
+        False for a hollow rod whose bore is not known, which needs stiffness and weight as measured.
     """
 
     length: float
@@ -44,6 +49,8 @@ class PhysicalRod:
     poisson: float
     yield_strength: float | None
     facts: tuple[Fact, ...]
+    torsion: float | None = None
+    bore_known: bool = True
 
     @property
     def bore_area(self) -> float:
@@ -75,7 +82,7 @@ def physical_rod(given: schema.RodInput, gravity: float, catalogue: Catalogue) -
         Naming the key that is missing, contradicts another, or is not in the catalogue.
     """
     pipe = None if given.pipe is None else catalogue.pipe(given.pipe)
-    outer, inner = _diameters(given, pipe)
+    outer, inner, bore_known = _diameters(given, pipe)
     material = _material(given, pipe, catalogue)
     facts = [Fact("pipe", entry.name, note=_why(entry)) for entry in (pipe,) if entry]
     facts += [Fact("material", entry.name, note=_why(entry)) for entry in (material,) if entry]
@@ -86,10 +93,17 @@ def physical_rod(given: schema.RodInput, gravity: float, catalogue: Catalogue) -
     if strength is not None:
         facts.append(Fact("yield strength", strength, "stress", why))
     poisson = given.poisson if material is None or "poisson" in given.model_fields_set else material.poisson
-    return PhysicalRod(given.length, outer, inner, stiffness, weight, density, poisson, strength, tuple(facts))
+    torsion = _torsion(given, stiffness)
+    if torsion is not None:
+        assert given.torsional_stiffness is not None
+        facts.append(
+            Fact("torsional stiffness C", given.torsional_stiffness, "stiffness", f"as given, C/B = {torsion:.4g}")
+        )
+    return PhysicalRod(given.length, outer, inner, stiffness, weight, density, poisson, strength, tuple(facts), torsion,
+                       bore_known)  # fmt: skip
 
 
-def _why(entry: schema.Entry) -> str:
+def _why(entry: Entry) -> str:
     return "; ".join(part for part in (entry.source, entry.note) if part)
 
 
@@ -97,9 +111,18 @@ def _only_one(key: str, value: object, other: str) -> InputError:
     return InputError(key, value, f"contradicts {other}: give only one of the two")
 
 
-def _diameters(rod: schema.RodInput, pipe: schema.Pipe | None) -> tuple[float | None, float]:
-    """Outer diameter, if known, and inner one."""
-    outer, inner = rod.outer_diameter, rod.inner_diameter
+def _torsion(rod: schema.RodInput, stiffness: float) -> float | None:
+    """C/B where the torsional stiffness is given instead of Poisson's ratio."""
+    if rod.torsional_stiffness is None:
+        return None
+    if "poisson" in rod.model_fields_set:
+        raise _only_one("rod.torsional_stiffness", None, "rod.poisson")
+    return rod.torsional_stiffness / stiffness
+
+
+def _diameters(rod: schema.RodInput, pipe: Pipe | None) -> tuple[float | None, float, bool]:
+    """Outer diameter, if known, inner one, and whether the bore is known."""
+    outer, inner, bore_known = rod.outer_diameter, rod.inner_diameter, True
     if pipe is not None:
         if outer is not None:
             raise InputError(
@@ -109,15 +132,30 @@ def _diameters(rod: schema.RodInput, pipe: schema.Pipe | None) -> tuple[float | 
             raise InputError(
                 "rod.inner_diameter", inner, "contradicts rod.pipe, whose bore is in the catalogue: leave it out"
             )
-        if pipe.hollow and inner is None and pipe.bore is None:
-            raise InputError("rod.inner_diameter", None, f"is missing: no bore is standard for {pipe.name!r}; give it")
+        bore_known = not (pipe.hollow and inner is None and pipe.bore is None)
+        if not bore_known:
+            _check_without_bore(rod, pipe)
         outer, inner = pipe.outer_diameter, pipe.bore if inner is None else inner
     if outer is not None and inner is not None and inner >= outer:
         raise InputError("rod.inner_diameter", inner, f"must be below the outer diameter of {outer:g} m")
-    return outer, inner or 0.0
+    return outer, inner or 0.0, bore_known
 
 
-def _material(rod: schema.RodInput, pipe: schema.Pipe | None, catalogue: Catalogue) -> schema.Material | None:
+def _check_without_bore(rod: schema.RodInput, pipe: Pipe) -> None:
+    """Ask for the bore of a hollow rod where something is worked out from it."""
+    needs = {
+        "to work out the stiffness from material or modulus": rod.bending_stiffness is None,
+        "to work out the weight": rod.weight_per_length is None,
+        "for stresses, with rod.grade or rod.yield_strength": rod.grade is not None or rod.yield_strength is not None,
+    }
+    for why, needed in needs.items():
+        if needed:
+            what = f"is missing: no bore is standard for {pipe.name!r}; it is needed {why}. Give it"
+            more = ", or rod.bending_stiffness and rod.weight_per_length as measured" if "work" in why else ""
+            raise InputError("rod.inner_diameter", None, what + more)
+
+
+def _material(rod: schema.RodInput, pipe: Pipe | None, catalogue: Catalogue) -> Material | None:
     """Material of [rod] or of its pipe."""
     own = None if pipe is None else pipe.material
     if rod.material is None:
@@ -138,14 +176,14 @@ def _material(rod: schema.RodInput, pipe: schema.Pipe | None, catalogue: Catalog
     return material
 
 
-def _is(material: schema.Material, name: str) -> bool:
+def _is(material: Material, name: str) -> bool:
     return key_of(name) in map(key_of, (material.name, *material.aliases))
 
 
 def _stiffness(
     rod: schema.RodInput,
-    pipe: schema.Pipe | None,
-    material: schema.Material | None,
+    pipe: Pipe | None,
+    material: Material | None,
     diameters: tuple[float | None, float],
 ) -> float:
     """Bending stiffness: as given, or E I."""
@@ -174,7 +212,7 @@ def _stiffness(
 
 def _weight(
     rod: schema.RodInput,
-    pipe: schema.Pipe | None,
+    pipe: Pipe | None,
     density: float | None,
     diameters: tuple[float | None, float],
     gravity: float,
@@ -207,7 +245,7 @@ def _section(diameters: tuple[float | None, float], reason: str) -> tuple[float,
     return math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
 
 
-def _strength(rod: schema.RodInput, material: schema.Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
+def _strength(rod: schema.RodInput, material: Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
     """Yield strength and where it is from."""
     if rod.grade is None:
         return rod.yield_strength, "as given"

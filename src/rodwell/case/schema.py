@@ -1,107 +1,52 @@
-"""What a case file may hold. Each value is checked on its own here; how they fit together, in ``case``."""
+"""What a case file may hold. Each value is checked on its own here; how they fit together, in ``case``.
+
+Meaning, examples and what is allowed stand with each key: ``rodwell keys``, the table of keys in the documentation and
+``rodwell init`` take them from here.
+"""
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, Any, Literal
+from typing import Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
-from rodwell.errors import InputError
-from rodwell.problem.ends import checked_ends
-from rodwell.quantities.units import SYSTEMS, to_si
-
-
-def _quantity(kind: str, above: float = -math.inf, least: float = -math.inf) -> BeforeValidator:
-    """Validator from text to an SI number, which must be above ``above`` and at least ``least``."""
-
-    def parse(text: object) -> float:
-        value = to_si(text, kind)
-        if not value > above:
-            raise ValueError("must be above 0")
-        if not value >= least:
-            raise ValueError("must not be negative")
-        return value
-
-    return BeforeValidator(parse)
-
-
-def _plain(text: object) -> object:
-    if isinstance(text, str):
-        raise ValueError("must be a plain number, without quotes or unit")
-    if isinstance(text, bool):
-        raise ValueError("must be a number")
-    return text
-
-
-Length = Annotated[float, _quantity("length", above=0.0)]
-InnerLength = Annotated[float, _quantity("length", least=0.0)]
-Angle = Annotated[float, _quantity("angle")]
-Force = Annotated[float, _quantity("force")]
-Moment = Annotated[float, _quantity("moment")]
-PositiveForce = Annotated[float, _quantity("force", above=0.0)]
-PositiveMoment = Annotated[float, _quantity("moment", above=0.0)]
-Stress = Annotated[float, _quantity("stress", above=0.0)]
-Density = Annotated[float, _quantity("density", above=0.0)]
-ForcePerLength = Annotated[float, _quantity("force per length", least=0.0)]
-Stiffness = Annotated[float, _quantity("bending stiffness", above=0.0)]
-Acceleration = Annotated[float, _quantity("acceleration", least=0.0)]
-Pressure = Annotated[float, _quantity("pressure", least=0.0)]
-FluidDensity = Annotated[float, _quantity("density", least=0.0)]
-Number = Annotated[float, BeforeValidator(_plain)]
-
-
-def _ends(text: object) -> str:
-    try:
-        return "-".join(checked_ends(text))
-    except InputError as error:
-        raise ValueError(error.reason) from None
-
-
-Ends = Annotated[str, BeforeValidator(_ends)]
-
-
-def _one_of(*allowed: str) -> BeforeValidator:
-    """Validator of text that must be one of a few words."""
-
-    def check(text: object) -> object:
-        if text not in allowed:
-            raise ValueError("must be " + " or ".join(f'"{word}"' for word in allowed))
-        return text
-
-    return BeforeValidator(check)
-
-
-def _yes_or_no(value: object) -> object:
-    if not isinstance(value, bool):
-        raise ValueError("must be true or false, without quotes")
-    return value
-
-
-YesOrNo = Annotated[bool, BeforeValidator(_yes_or_no)]
-Name = Annotated[str, Field(min_length=1, max_length=80)]
-End = Annotated[Literal["top", "bottom"], _one_of("top", "bottom")]
-ForceKind = Annotated[Literal["effective", "real"], _one_of("effective", "real")]
-Units = Annotated[Literal["si", "field", "mm"], _one_of(*SYSTEMS)]
+from rodwell.case.kinds import (
+    Acceleration,
+    Angle,
+    Density,
+    End,
+    Ends,
+    FluidDensity,
+    Force,
+    ForceKind,
+    ForcePerLength,
+    Forces,
+    InnerLength,
+    Length,
+    Moment,
+    Name,
+    Number,
+    Numbers,
+    PositiveForce,
+    PositiveMoment,
+    Pressure,
+    Stiffness,
+    Stress,
+    TorsionalStiffness,
+    Units,
+)
 
 MOST_MODES = 12
 """Branches that one case may ask for."""
 
-MOST_LOADS = 12
-"""Loads that one case may apply."""
+REQUIRED: Any = ...
 
 
-def _several(value: object) -> object:
-    """One value as a list of one."""
-    if not isinstance(value, list | tuple):
-        return [value]
-    if not 1 <= len(value) <= MOST_LOADS:
-        raise ValueError(f"must hold from 1 to {MOST_LOADS} forces")
-    return value
-
-
-Forces = Annotated[tuple[Force, ...], BeforeValidator(_several)]
-Numbers = Annotated[tuple[Number, ...], BeforeValidator(_several)]
+def _key(default: Any, meaning: str, *examples: object, allowed: str = "", **checks: Any) -> Any:
+    """A key with its default (REQUIRED: none), what it means, examples, and what is allowed beyond its kind."""
+    return Field(
+        default, description=meaning, examples=list(examples), json_schema_extra={"allowed": allowed}, **checks
+    )
 
 
 class SectionInput(BaseModel):
@@ -110,48 +55,76 @@ class SectionInput(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
+POISSON, RTOL = "above -1 and at most 0.5", "from 1e-11 to 0.01"
+
+
 class RodInput(SectionInput):
     """[rod]: the pipe, rod or wire."""
 
-    length: Length
-    outer_diameter: Length | None = None
-    inner_diameter: InnerLength | None = None
-    youngs_modulus: Stress | None = None
-    bending_stiffness: Stiffness | None = None
-    density: Density | None = None
-    weight_per_length: ForcePerLength | None = None
-    poisson: Number = 0.3
-    ends: Ends = "clamped-clamped"
-    pipe: Name | None = None
-    material: Name | None = None
-    grade: Name | None = None
-    yield_strength: Stress | None = None
+    length: Length = _key(REQUIRED, "length L between the ends", "30 m", "300 ft")
+    outer_diameter: Length | None = _key(
+        None, "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids", "5 in", "0.89 mm"
+    )
+    inner_diameter: InnerLength | None = _key(None, "bore; 0 (solid) if not given", "4.276 in", "0 mm")
+    youngs_modulus: Stress | None = _key(None, "with the diameters gives the bending stiffness", "200 GPa", "30e6 psi")
+    bending_stiffness: Stiffness | None = _key(None, "B = EI, instead of `youngs_modulus`", "9.8e5 N m^2", "1400 N·mm²")
+    torsional_stiffness: TorsionalStiffness | None = _key(
+        None, "C = GJ as measured, instead of `poisson`; B/(1 + ν) if not given", "7.5e5 N m^2", "1800 N·mm²"
+    )
+    density: Density | None = _key(
+        None, "of the material; with diameters and gravity gives the weight", "7800 kg/m^3", "65.5 lb/gal"
+    )
+    weight_per_length: ForcePerLength | None = _key(
+        None, "in air with `[mud]`, else mg itself; instead of `density` or a pipe's nominal weight",
+        "19.5 lbf/ft", "0.04 N/m",
+    )  # fmt: skip
+    poisson: Number = _key(0.3, "Poisson's ratio ν; that of the `material` if not given", 0.3, allowed=POISSON)
+    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
+    pipe: Name | None = _key(
+        None, "name in the catalogue (`rodwell catalogue`), instead of diameters, modulus and weight",
+        "5 in 19.5 lb/ft drill pipe",
+    )  # fmt: skip
+    material: Name | None = _key(None, "name in the catalogue, instead of `youngs_modulus` and `density`", "steel")
+    grade: Name | None = _key(None, "name in the catalogue: gives the yield strength", "S-135")
+    yield_strength: Stress | None = _key(None, "of the rod, instead of `grade`", "135000 psi", "930 MPa")
 
 
 class Hole(SectionInput):
     """[hole]: the borehole, vessel or pipe around it."""
 
-    diameter: Length | None = None
-    clearance: Length | None = None
-    angle_from_vertical: Angle | None = None
-    angle_from_horizontal: Angle | None = None
-    gravity: Acceleration = 9.80665
+    diameter: Length | None = _key(
+        None, "inner diameter of the hole; with the rod's outer diameter gives the clearance", "8.5 in", "6 mm"
+    )
+    clearance: Length | None = _key(None, "Δ, from axis to axis, instead of `diameter`", "1.75 in", "2.5 mm")
+    angle_from_vertical: Angle | None = _key(
+        None, "inclination α, from vertical to horizontal", "30 deg", allowed='"0 deg" to "90 deg"'
+    )
+    angle_from_horizontal: Angle | None = _key(
+        None, "instead of `angle_from_vertical`; one of the two is required", "60 deg", allowed='"0 deg" to "90 deg"'
+    )
+    gravity: Acceleration = _key(9.80665, "used with `density`", "9.80665 m/s^2")
 
 
 class CylinderInput(SectionInput):
     """[cylinder]: section and strength of the pipe around it, for the check of its capacity."""
 
-    outer_diameter: Length
-    inner_diameter: Length | None = None
-    yield_strength: Stress
+    outer_diameter: Length = _key(REQUIRED, "outer diameter of the cylinder", "9.625 in", "75 cm")
+    inner_diameter: Length | None = _key(
+        None, "inner diameter; that of the hole, if `hole.diameter` is given", "8.535 in"
+    )
+    yield_strength: Stress = _key(
+        REQUIRED, "strength against which the largest equivalent stress is set", "80000 psi", "300 MPa"
+    )
 
 
 class Supports(SectionInput):
     """[supports]: what each support of the rod's ends and of the cylinder's ends can bear, for the check against it."""
 
-    force: PositiveForce | None = None
-    moment: PositiveMoment | None = None
-    torque: PositiveMoment | None = None
+    force: PositiveForce | None = _key(
+        None, "largest force that a support of rod or cylinder can bear, at either end", "50 kN", "12000 lbf"
+    )
+    moment: PositiveMoment | None = _key(None, "largest bending moment across its axis", "2 kN m", "1500 ft lbf")
+    torque: PositiveMoment | None = _key(None, "largest twisting moment about its axis", "1 kN m", "800 ft lbf")
 
     @model_validator(mode="after")
     def _something(self) -> Supports:
@@ -163,64 +136,84 @@ class Supports(SectionInput):
 class Mud(SectionInput):
     """[mud]: the fluids in and around the rod, whose weight and lift make its weight the buoyed one."""
 
-    density: FluidDensity | None = None
-    inside: FluidDensity | None = None
-    outside: FluidDensity | None = None
+    density: FluidDensity | None = _key(
+        None, "of the fluid on both sides of the pipe, instead of `inside` and `outside`", "10 lb/gal", "1.2 g/cm^3"
+    )
+    inside: FluidDensity | None = _key(None, "of the fluid in the bore; empty if not given", "8.34 lb/gal")
+    outside: FluidDensity | None = _key(None, "of the fluid around the rod; empty if not given", "1060 kg/m^3")
 
 
 class PressureAtEnd(SectionInput):
     """[pressure]: fluid pressures at the end s = 1, which make the force in the pipe wall the effective one."""
 
-    inside: Pressure = 0.0
-    outside: Pressure = 0.0
+    inside: Pressure = _key(0.0, "in the bore at s = 1", "2500 psi", "17 MPa")
+    outside: Pressure = _key(0.0, "around the rod at s = 1", "1500 psi", "10 MPa")
 
 
 class CatalogueFiles(SectionInput):
     """[catalogue]: the user's own pipes, materials and grades."""
 
-    files: list[str]
+    files: list[str] = _key(
+        REQUIRED, "TOML files with pipes, materials and grades of your own, from the folder of the case file",
+        ["my-pipes.toml"],
+    )  # fmt: skip
 
 
 class Dimensionless(SectionInput):
     """[dimensionless]: instead of [rod] and [hole]."""
 
-    weight: Number
-    alpha: Number = 90.0
-    clearance: Number = 0.01
-    poisson: Number = 0.3
-    ends: Ends = "clamped-clamped"
+    weight: Number = _key(REQUIRED, "γ = mg L³/B", 16.5, allowed="from 0 to 1e9")
+    alpha: Number = _key(90.0, "inclination α from the vertical, in degrees", 60, allowed="from 0 to 90")
+    clearance: Number = _key(0.01, "Δ/L, from axis to axis", 0.01, allowed="above 0 and below 1")
+    poisson: Number = _key(0.3, "Poisson's ratio ν", 0.3, allowed=POISSON)
+    torsion: Number | None = _key(None, "C/B, instead of `poisson`; 1/(1 + ν) if not given", 13.0, allowed="above 0")
+    ends: Ends = _key("clamped-clamped", "as in [rod]", "clamped-pinned")
+
+
+UNTIL = (
+    "end force to which branches are followed, **tension positive** (compression negative); chosen from the loads "
+    "found if not given"
+)
+APPLIED = (
+    "the load that acts, or a list, **tension positive**: what becomes of the rod there; a range makes a study of it"
+)
+TWIST = "end twisting moment T₁ at s = 1, a dead load"
+AT = "where `until` and `applied` act: `top` (s = 1, the upper end) or `bottom` (s = 0); `top` if not given"
 
 
 class LoadInput(SectionInput):
-    """[load]: what is applied at the ends (in physical units)."""
+    """[load]: what is applied at the ends; beside [dimensionless] plain numbers, in B/L² and B/L."""
 
-    until: Force | None = None
-    applied: Forces | None = None
-    twist: Moment = 0.0
-    at: End | None = None
-    kind: ForceKind | None = None
+    until: Force | None = _key(None, UNTIL, "-60000 lbf", "-5 N")
+    applied: Forces | None = _key(None, APPLIED, "-35000 lbf", ["-20 kN", "-40 kN"])
+    twist: Moment = _key(0.0, TWIST, "800 ft lbf", "5 N mm")
+    at: End | None = _key(None, AT, "bottom")
+    kind: ForceKind | None = _key(
+        None, "what `until` and `applied` are: the `effective` force, or the `real` one in the wall; must be said "
+        "beside `[pressure]`", "real",
+    )  # fmt: skip
 
 
 class DimensionlessLoad(SectionInput):
     """[load] beside [dimensionless]."""
 
-    until: Number | None = None
-    applied: Numbers | None = None
-    twist: Number = 0.0
-    at: End | None = None
+    until: Number | None = _key(None, UNTIL, -200)
+    applied: Numbers | None = _key(None, APPLIED, -120, [-100, -120])
+    twist: Number = _key(0.0, TWIST, 0.5)
+    at: End | None = _key(None, AT, "bottom")
 
 
 class Analysis(SectionInput):
     """[analysis]: what is computed, and how exactly."""
 
-    modes: int = Field(default=4, strict=True, ge=1, le=MOST_MODES)
-    rtol: Number = 1e-8
+    modes: int = _key(4, "how many buckling modes", 3, strict=True, ge=1, le=MOST_MODES)
+    rtol: Number = _key(1e-8, "relative tolerance of every number", 1e-6, allowed=RTOL)
 
 
 class CaseFile(SectionInput):
-    """The whole file."""
+    """At the top of the file, before the first section."""
 
-    title: str = "Untitled case"
+    title: str | None = _key(None, "for report and summary; the name of the file if not given", "Drill pipe at 30°")
     rod: RodInput | None = None
     hole: Hole | None = None
     cylinder: CylinderInput | None = None
@@ -231,56 +224,10 @@ class CaseFile(SectionInput):
     mud: Mud | None = None
     pressure: PressureAtEnd | None = None
     catalogue: CatalogueFiles | None = None
-    units: Units | None = None
-    plausible: YesOrNo = True
-
-
-class Entry(SectionInput):
-    """An entry of a catalogue."""
-
-    name: Name
-    source: str = Field(min_length=1)
-    note: str = ""
-
-
-class Pipe(Entry):
-    """[[pipe]]: diameters (inner, or wall; solid without, unless hollow), and what else is known of it."""
-
-    kind: str = "pipe"
-    hollow: bool = False
-    outer_diameter: Length
-    inner_diameter: Length | None = None
-    wall: Length | None = None
-    weight_per_length: ForcePerLength | None = None
-    plain_end_weight: ForcePerLength | None = None
-    bending_stiffness: Stiffness | None = None
-    material: str | None = None
-
-    @model_validator(mode="after")
-    def _bore(self) -> Pipe:
-        if self.wall is not None and self.inner_diameter is not None:
-            raise ValueError("has both inner_diameter and wall: give only one of the two")
-        if self.bore is not None and not 0.0 < self.bore < self.outer_diameter:
-            raise ValueError("must have a bore below its outer diameter: check inner_diameter or wall")
-        return self
-
-    @property
-    def bore(self) -> float | None:
-        """Inner diameter in m; None where the catalogue has none."""
-        return self.inner_diameter if self.wall is None else self.outer_diameter - 2.0 * self.wall
-
-
-class Material(Entry):
-    """[[material]]: what follows from a material's name."""
-
-    youngs_modulus: Stress
-    density: Density
-    poisson: Number = 0.3
-    aliases: tuple[str, ...] = ()
-
-
-class Grade(Entry):
-    """[[grade]]: strength, and the material that has it."""
-
-    yield_strength: Stress
-    material: str | None = None
+    units: Units | None = _key(None, "units of the results; `si` if not given", "field")
+    study: StrictBool | None = _key(
+        None, "`true` makes each list of values a parameter study; a range makes one by itself", True
+    )
+    plausible: StrictBool | None = _key(
+        None, "`false` lets values pass that no rod has (a modulus of 30e6 GPa, a density of 7850 lb/gal)", False
+    )

@@ -41,7 +41,7 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
         If an uncertainty cannot be read.
     """
     clean: dict[str, Any] = {}
-    found: dict[tuple[str, str], tuple[str, str]] = {}
+    moved: dict[tuple[str, str], tuple[str, str]] = {}
     for section, values in data.items():
         clean[section] = values
         if not isinstance(values, Mapping):
@@ -51,9 +51,9 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
             parts = _PLUS_MINUS.fullmatch(text.replace("−", "-")) if isinstance(text, str) else None
             if parts is None:
                 continue
-            nominal, found[section, key] = _moved(f"{section}.{key}", text, parts[1], parts[2])
+            nominal, moved[section, key] = _moved(f"{section}.{key}", text, parts[1], parts[2])
             clean[section][key] = nominal
-    return clean, found
+    return clean, moved
 
 
 def _moved(key: str, written: str, nominal: str, spread: str) -> tuple[Any, Any]:

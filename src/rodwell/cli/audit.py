@@ -52,7 +52,7 @@ def audit(
     For every formula: its load, the exact load at the place where the formula's force is measured, the error in
     percent, safe (where the formula is valid for the rod) or unsafe. Formulas of pitch, contact, stress, shortening and
     lock-up are shown at the first critical load and at each load.applied. Compression is positive here. The exact loads
-    are those of a straight hole without friction.
+    are those of a straight hole without friction. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415

@@ -10,7 +10,7 @@ import click
 from rodwell.cli.options import print_json
 
 if TYPE_CHECKING:
-    from rodwell.case import schema
+    from rodwell.case.entries import Entry
     from rodwell.quantities.units import System
 
 KINDS = {"pipe": "rod.pipe", "material": "rod.material", "grade": "rod.grade"}
@@ -38,8 +38,8 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
         known = read_catalogue([str(file) for file in files], Path())
     except InputError as error:
         raise InputError("--file", error.value, error.reason) from None
-    found = {kind: [getattr(known, kind)(name) for name in known.names(kind)] for kind in KINDS}
-    chosen = {kind: [entry for entry in entries if _holds(entry, words)] for kind, entries in found.items()}
+    every = {kind: [getattr(known, kind)(name) for name in known.names(kind)] for kind in KINDS}
+    chosen = {kind: [entry for entry in entries if _holds(entry, words)] for kind, entries in every.items()}
     if as_json:
         print_json({kind: [e.model_dump(exclude_none=True) for e in entries] for kind, entries in chosen.items()})
         return
@@ -49,14 +49,14 @@ def catalogue(words: tuple[str, ...], files: tuple[Path, ...], units: str, as_js
         _print(KINDS[kind], entries, System(units))
 
 
-def _holds(entry: schema.Entry, words: tuple[str, ...]) -> bool:
+def _holds(entry: Entry, words: tuple[str, ...]) -> bool:
     from rodwell.case.catalogue import key_of  # noqa: PLC0415
 
     text = " ".join((entry.name, getattr(entry, "kind", ""), entry.source))
     return all(word.lower() in text.lower() or key_of(word) in key_of(entry.name) for word in words)
 
 
-def _print(key: str, entries: list[schema.Entry], system: System) -> None:
+def _print(key: str, entries: list[Entry], system: System) -> None:
     """Entries of one kind, under the sources that they share."""
     source = ""
     for entry in entries:
@@ -66,7 +66,7 @@ def _print(key: str, entries: list[schema.Entry], system: System) -> None:
         click.echo(f"  {entry.name:<36} {_numbers(entry, system)}")
 
 
-def _numbers(entry: schema.Entry, system: System) -> str:
+def _numbers(entry: Entry, system: System) -> str:
     """What the name stands for."""
     dimensions = {
         "outer_diameter": ("OD", "length"), "bore": ("ID", "length"), "weight_per_length": ("", "force_per_length"),

@@ -33,7 +33,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     """Solve CASE, a TOML file, once more as the paper's fifteen equations with SciPy's solve_bvp, and compare.
 
     Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
-    is 1 if the two do not agree.
+    is 1 if the two do not agree. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.analysis.branch.verify import verify as solve_again  # noqa: PLC0415
     from rodwell.answers.result.check import branch_to_verify  # noqa: PLC0415

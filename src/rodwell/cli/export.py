@@ -53,7 +53,7 @@ def export(
     """Write one state of CASE, a TOML file, in space: scene, surface, fields or centreline.
 
     Lengths are in metres and forces in newtons where the case has dimensions, otherwise in units B = L = 1; --units is
-    for what is printed and drawn.
+    for what is printed and drawn. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415

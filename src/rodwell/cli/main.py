@@ -16,11 +16,14 @@ from rodwell._version import __version__
 from rodwell.cli.audit import audit
 from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
+from rodwell.cli.critical import critical
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
+from rodwell.cli.init import init
+from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.paper import paper
-from rodwell.cli.quick import critical, liftoff, sensitivity, twist
+from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
 from rodwell.errors import CacheWarning, InputError, RodwellError
@@ -34,13 +37,14 @@ def cli() -> None:
     """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
 
     Forces are those at the end s = 1 (the upper end of an inclined cylinder), tension positive; ends are
-    clamped unless said otherwise. Start with:  rodwell run examples/drill-string.toml
+    clamped unless said otherwise. Start with:  rodwell init, which writes a first case file; rodwell keys
+    explains its keys.
     """
 
 
 for command in (
     *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, catalogue, paper),
+    *(diagram, curve, twist, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 

@@ -37,6 +37,12 @@ if TYPE_CHECKING:
     help="Continue each branch in this parameter, from its state at --until.",
 )
 @click.option("--to", type=float, help="Value to which --then goes.")
+@click.option(
+    "--search",
+    type=click.Choice(["unfolding", "deflation"]),
+    multiple=True,
+    help="Look for branches that hang together with none of these; can be given twice.",
+)
 @click.option("--largest-step", default=0.06, show_default=True, help="Longest step of continuation.")
 @rtol_option
 @json_option
@@ -47,6 +53,7 @@ def diagram(
     secondary: bool,
     then: str | None,
     to: float | None,
+    search: tuple[str, ...],
     largest_step: float,
     rtol: float,
     as_json: bool,
@@ -74,6 +81,7 @@ def diagram(
             until=until,
             secondary=secondary,
             then=None if then is None or to is None else (then, to),
+            search=search,
             rtol=rtol,
             largest_step=largest_step,
             progress=tell,
@@ -105,6 +113,7 @@ def _print_diagram(result: Diagram) -> None:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
+    click.echo(f"\nSearched: {'; '.join(result.searched)}. There may be other branches.")
     if not result.converged:
         click.echo("Not every number meets the tolerance.")
 

@@ -36,7 +36,8 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 "--ends",
                 default="clamped-clamped",
                 show_default=True,
-                help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free.",
+                help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free; for "
+                "critical loads also ball (joint) or loose, which the wall does not hold.",
             ),
             click.option(
                 "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."

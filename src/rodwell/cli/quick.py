@@ -1,4 +1,4 @@
-"""``rodwell critical``, ``rodwell liftoff`` and ``rodwell twist``: quick answers to dimensionless questions."""
+"""``rodwell liftoff``, ``rodwell sensitivity`` and ``rodwell twist``: quick answers to dimensionless questions."""
 
 from __future__ import annotations
 
@@ -9,43 +9,6 @@ import click
 from rodwell.cli.options import json_option, make_problem, places_text, print_json, problem_options, rtol_option
 
 UNIT = "B/L²"
-
-
-@click.command()
-@problem_options()
-@click.option("--modes", default=5, show_default=True, help="How many critical loads.")
-@rtol_option
-@json_option
-def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
-    """Critical loads of the straight rod.
-
-    End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows. They do not
-    depend on twist.
-    """
-    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
-
-    problem = make_problem(given)
-    loads = critical_loads(problem, modes, rtol=rtol)
-    if as_json:
-        print_json(
-            {
-                "critical_loads": [float(f) for f in loads.forces],
-                "error": [float(e) for e in loads.errors],
-                "unit": "B/L^2",
-                "convention": "end force at s = 1, tension positive; " + ends_text(problem),
-            }
-        )
-        return
-    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
-    for mode in loads:
-        symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
-        click.echo(f"  mode {mode.number:>2}  {mode.force:+.10g}  ± {mode.error:.1e}   {symmetry}")
-    first = loads[0].force
-    if first > 0.0:
-        click.echo(f"The rod buckles under its own weight unless it is held in tension of {first:.6g} {UNIT}.")
-    else:
-        click.echo(f"The straight rod is stable up to a compression of {-first:.6g} {UNIT} at s = 1.")
 
 
 @click.command()
@@ -65,8 +28,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
 
     problem = make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
-    lift, found = branch.lift_off, branch.mode
-    assert found is not None
+    lift, buckling = branch.lift_off, branch.mode
+    assert buckling is not None
     if lift is None:
         raise NotConvergedError(
             f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ended_because})"
@@ -75,8 +38,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     if as_json:
         print_json(
             {
-                "critical_load": found.force,
-                "critical_load_error": found.error,
+                "critical_load": buckling.force,
+                "critical_load_error": buckling.error,
                 "lift_off": {"force": lift.force, "error": lift.error, "s": list(places)},
                 "coincides_with_buckling": branch.lift_off_at_buckling,
                 "converged": branch.converged,
@@ -86,7 +49,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         )
         return
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
-    click.echo(f"  buckling of mode {found.number}  {found.force:+.10g}  ± {found.error:.1e}")
+    click.echo(f"  buckling of mode {buckling.number}  {buckling.force:+.10g}  ± {buckling.error:.1e}")
     click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{places_text(places)}")
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")

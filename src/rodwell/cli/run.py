@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, quiet: bool) -> None:
     """Compute CASE, a TOML file, and write report, figures and data.
 
-    If one or two of its inputs are lists or ranges ("30..90 deg in 13"), a parameter study is made.
+    If one or two of its inputs are ranges ("30..90 deg in 13"), or lists in a file that says study = true at its
+    top, a parameter study is made. `rodwell keys` explains the keys of a case file, `rodwell init` writes a first one.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415

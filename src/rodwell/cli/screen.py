@@ -44,7 +44,7 @@ def screen(
     wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
     Forces given are tension positive: a bit that pulls or a hook that pushes is refused unless the word says so,
     "20 klbf tension". Results are compression positive, at the station. Length, inclination and loads of the case
-    are not used.
+    are not used. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
@@ -73,7 +73,7 @@ def screen(
 
 def _force(option: str, text: str | None) -> float | None:
     """A force of the command line in N; a sign that contradicts the option's name needs a word."""
-    from rodwell.case.signs import pulls, pushes  # noqa: PLC0415
+    from rodwell.case.checks.signs import pulls, pushes  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.quantities.units import to_si  # noqa: PLC0415
     from rodwell.quantities.written import direction  # noqa: PLC0415

@@ -137,7 +137,7 @@ def _curve(
 
 def _most(point: StudyPoint) -> LoadResult | None:
     """The most compressive load that acts at a point."""
-    return min(point.loads, key=lambda one: one.load.force, default=None)
+    return min(point.loads, key=lambda state: state.load.force, default=None)
 
 
 def _safety(study: Study) -> dict[int, Value]:
@@ -157,10 +157,10 @@ def _loads(ax: Any, study: Study, across: int, points: list[StudyPoint], scale: 
     for k in range(most_loads(study)):
         pairs = [(place[p.at[across]], p, p.loads[k]) for p in points if k < len(p.loads)]
         x = [pair[0] for pair in pairs]
-        y = [-one.load.force * p.factor("force") / scale for _, p, one in pairs]
+        y = [-state.load.force * p.factor("force") / scale for _, p, state in pairs]
         ax.plot(x, y, color=colour, ls=joined, lw=1.5, marker="." if joined == "none" else "")
         for style, mark in ((BUCKLED_MARK, BUCKLED), (FAILS_MARK, None)):
-            at = [i for i, (_, _, one) in enumerate(pairs) if (fails(one) if mark is None else one.what == mark)]
+            at = [i for i, (_, _, state) in enumerate(pairs) if (fails(state) if mark is None else state.what == mark)]
             ax.plot([x[i] for i in at], [y[i] for i in at], ls="none", zorder=5, **style)
 
 

@@ -14,6 +14,7 @@ LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
 LARGEST_TURNS = 1000
 SMALLEST_CLEARANCE = 1e-7
+SMALLEST_TORSION, LARGEST_TORSION = 1e-6, 1e6
 
 
 LIMITS = {
@@ -21,6 +22,7 @@ LIMITS = {
     "alpha": (0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
     "clearance": (0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
     "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
+    "torsion": (SMALLEST_TORSION, LARGEST_TORSION, f"from {SMALLEST_TORSION:g} to {LARGEST_TORSION:g}, C/B"),
     "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
 }
 """Lowest and highest value of each number, and what is allowed in words."""
@@ -48,7 +50,8 @@ class Problem:
     clearance
         Δ/L, distance between the axes of rod and cylinder, 0 < Δ < 1.
     poisson
-        Poisson's ratio ν, which sets the torsional stiffness C/B = 1/(1 + ν); −1 < ν ≤ 0.5.
+        Poisson's ratio ν, which sets the torsional stiffness C/B = 1/(1 + ν) of a round rod of one material;
+        −1 < ν ≤ 0.5.
     twist
         Dead end twisting moment T₁ in B/L.
     turns
@@ -59,7 +62,12 @@ class Problem:
         The rod lies on the outside of the cylinder: contact asks p > 0.
     ends
         End conditions at s = 0 and s = 1: two of "clamped" (y and y' held), "pinned" (y held), "guided" (y' held: the
-        end slides around the wall) and "free" (none). A text like "clamped-pinned" will do.
+        end slides around the wall) and "free" (none). A text like "clamped-pinned" will do. These ends are radially
+        held: x and x' too. "ball" (x, y held) and "loose" (nothing held) are for critical loads of the straight rod
+        only, since the rod leaves the wall there as soon as it buckles.
+    torsion
+        C/B as measured, for shafts that are not round rods of one material (braided, coiled, slotted); ``poisson`` then
+        has no effect. None: that of ``poisson``.
 
     Notes
     -----
@@ -82,9 +90,12 @@ class Problem:
     on_top: bool = False
     outside: bool = False
     ends: tuple[str, str] = ("clamped", "clamped")
+    torsion: float | None = None
 
     def __post_init__(self) -> None:
         for name, (low, high, allowed) in LIMITS.items():
+            if name == "torsion" and self.torsion is None:
+                continue
             object.__setattr__(self, name, checked_number(name, getattr(self, name), low, high, allowed))
         object.__setattr__(self, "turns", checked_whole("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS))
         for flag in ("on_top", "outside"):
@@ -105,8 +116,10 @@ class Problem:
     def _check_ends(self) -> None:
         """Refuse what the ends cannot hold."""
         ends = "-".join(self.ends)
-        if self.twist != 0.0 and "free" in self.ends:
-            raise InputError("twist", self.twist, f"a free end takes no torque: twist must be 0 with ends {ends}")
+        untwisted = [end for end in self.ends if end in ("free", "loose")]
+        if self.twist != 0.0 and untwisted:
+            reason = f"a {untwisted[0]} end takes no torque: twist must be 0 with ends {ends}"
+            raise InputError("twist", self.twist, reason)
         if self.turns != 0 and not (self.ends[0] in HOLD_ANGLE and self.ends[1] in HOLD_ANGLE):
             raise InputError("turns", self.turns, f"ends {ends} let the rod unwind: clamp or pin both")
         if self.on_top and self.lateral_weight > 0.0 and not self.holds_angle:
@@ -153,8 +166,13 @@ class Problem:
 
     @property
     def torsional_stiffness(self) -> float:
-        """C/B = 1/(1 + ν)."""
-        return 1.0 / (1.0 + self.poisson)
+        """C/B: ``torsion``, or 1/(1 + ν)."""
+        return 1.0 / (1.0 + self.poisson) if self.torsion is None else self.torsion
+
+    @property
+    def given_torsion(self) -> dict[str, float]:
+        """C/B by name where it was given and does not follow from ν: for what lists the data of a problem."""
+        return {} if self.torsion is None else {"torsion": self.torsion}
 
     def but(self, **changes: Any) -> Problem:
         """Return this problem with some values changed."""

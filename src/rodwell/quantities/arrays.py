@@ -13,3 +13,6 @@ IntArray = NDArray[np.int64]
 
 BoolArray = NDArray[np.bool_]
 """Marks."""
+
+ComplexArray = NDArray[np.complex128]
+"""Numbers of two parts in double precision: lateral displacements x + iy."""

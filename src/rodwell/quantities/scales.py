@@ -23,7 +23,7 @@ class Scales:
     system: System = SI
 
     def factor(self, dimension: str) -> float:
-        """SI value of one dimensionless unit of ``dimension`` (see ``nomenclature.UNITS``)."""
+        """SI value of one dimensionless unit of ``dimension`` (see :data:`rodwell.quantities.names.UNITS`)."""
         stiffness, length = POWERS[dimension]
         return float(self.stiffness**stiffness * self.length**length)
 

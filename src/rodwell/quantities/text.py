@@ -1,8 +1,15 @@
-"""Numbers as text: as many digits as their errors allow, engineering prefixes, a true minus sign."""
+"""Numbers as text: as many digits as their errors allow, engineering prefixes, a true minus sign.
+
+How many digits that is depends on what stands beside them. In a sentence there is no error: every digit must be
+:func:`certain`. In a table the error stands in the next column: the digits go down to the place of its first digit, so
+that the last one is in doubt and the next would say nothing (:func:`supported`). So 123.456 ± 0.3 is "123" in a
+sentence, "123.5" in a table. Both rules are that of :func:`_down_to`, with another last place.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from rodwell.quantities.value import Value
 
@@ -38,12 +45,25 @@ def certain(number: Value, digits: int) -> int:
 
     A digit is allowed if half a unit of it is no less than the error: rounding then hides more than the error changes.
     """
+    return _down_to(lambda error: math.ceil(math.log10(2.0 * error) - 1e-9), number, digits)
+
+
+def supported(number: Value, digits: int) -> int:
+    """Return how many of the first ``digits`` significant digits a table shows beside the error; 0 if none.
+
+    The last one shown stands where the first digit of the error does: it is in doubt.
+    """
+    return _down_to(lambda error: math.floor(math.log10(error)), number, digits)
+
+
+def _down_to(last_place: Callable[[float], int], number: Value, digits: int) -> int:
+    """Significant digits down to the power of ten that ``last_place`` gives for the error; all if there is no error."""
     if not number.error > 0.0 or number.value == 0.0:
         return digits
     if not math.isfinite(number.error):
         return 0
-    unit = math.ceil(math.log10(2.0 * number.error) - 1e-9)
-    return max(0, min(digits, math.floor(math.log10(abs(number.value))) - unit + 1))
+    first = math.floor(math.log10(abs(number.value)))
+    return max(0, min(digits, first - last_place(number.error) + 1))
 
 
 def amount(number: Value, digits: int = 4) -> str:
@@ -55,13 +75,6 @@ def amount(number: Value, digits: int = 4) -> str:
 def percent(part: Value, digits: int = 3) -> str:
     """A part of 1 in percent, rounded like :func:`amount`."""
     return f"{amount(part.times(100.0), digits)} %"
-
-
-def supported(number: Value, most: int) -> int:
-    """How many significant digits of a number a table shows beside its error, the last one in doubt; 0: none."""
-    if number.value == 0.0 or not number.error > 0.0:
-        return most
-    return max(0, min(most, math.floor(math.log10(abs(number.value))) - math.floor(math.log10(number.error)) + 1))
 
 
 def minus(text: str) -> str:

@@ -30,8 +30,8 @@ KINDS: dict[str, tuple[str, str]] = {
     "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal", "1.2 sg"'),
     "force per length": ("N/m", '"315 N/m", "19.5 lbf/ft"'),
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
+    "torsional stiffness": ("N*m^2", '"7.5e5 N m^2", "1800 N·mm²"'),
     "acceleration": ("m/s^2", '"9.80665 m/s^2"'),
-    "curvature": ("rad/m", '"3 deg/30 m", "3 deg/100 ft"'),
 }
 """Kinds of quantity that case files hold: SI unit, and examples for messages."""
 
@@ -97,9 +97,11 @@ def to_si(text: object, kind: str) -> float:
     try:
         value = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        found = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
+        what = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
         hint = _hint(quantity, kind) or _meant(unit_text, unit, kind)
-        raise ValueError(f"must be a {kind}, but it {found}; write for example {examples}{hint}") from None
+        raise ValueError(
+            f"must be {_article(kind)} {kind}, but it {what}; write for example {examples}{hint}"
+        ) from None
     except Exception:
         raise ValueError(f"is not a single number with a unit; write for example {examples}") from None
     if not math.isfinite(value):
@@ -107,6 +109,10 @@ def to_si(text: object, kind: str) -> float:
     if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
         raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
     return sign * abs(value) if sign else value
+
+
+def _article(noun: str) -> str:
+    return "an" if noun[0] in "aeio" else "a"
 
 
 def in_unit_of(number: float, unit: str, other: str) -> float:

@@ -18,6 +18,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import Part, linear_colours, scene
 from rodwell.analysis.space.surfaces import SIDES, Mesh, cylinder, tube
+from rodwell.problem.problem import Problem
 from rodwell.quantities.names import FIELDS, QUANTITIES, SI_UNITS, UNITS
 from rodwell.quantities.scales import Scales
 
@@ -114,7 +115,7 @@ def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]
         f"rodwell {__version__}: heavy rod on a cylinder, equilibrium at end force F = {end_force:.10g} {force} at "
         "s = 1 (tension positive)",
         f"weight mg L^3/B = {p.weight:.10g}, alpha = {p.alpha:.10g} degrees from the vertical, clearance Delta/L = "
-        f"{p.clearance:.10g}, Poisson's ratio {p.poisson:.10g}, T1 = {p.twist:.10g} B/L, turns {p.turns}, "
+        f"{p.clearance:.10g}, {_torsion(p)}, T1 = {p.twist:.10g} B/L, turns {p.turns}, "
         f"ends {'-'.join(p.ends)}, on top {p.on_top}, outside {p.outside}",
         f"lengths in {length}; rod radius {rod.rod_radius * unit:.10g} {length}, "
         f"radius of the wall that it touches {rod.wall_radius / rod.radial_scale * unit:.10g} {length}",
@@ -126,6 +127,13 @@ def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]
         "contact pressure p: the wall pushes the rod along d1 with -p per length; p < 0 is contact inside a cylinder, "
         "p > 0 outside",
     ]  # fmt: skip
+
+
+def _torsion(problem: Problem) -> str:
+    """What sets the torsional stiffness."""
+    if problem.torsion is None:
+        return f"Poisson's ratio {problem.poisson:.10g}"
+    return f"torsional stiffness C/B = {problem.torsion:.10g}"
 
 
 def _errors(solution: Solution, rod: Geometry, scales: Scales | None) -> str:

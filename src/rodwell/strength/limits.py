@@ -13,7 +13,8 @@ from rodwell.analysis.state.fields import ZOOMS
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.location import bracketed_root
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import von_mises

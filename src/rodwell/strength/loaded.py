@@ -12,7 +12,8 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.straight.fields import straight_fields
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray

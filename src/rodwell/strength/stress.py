@@ -58,8 +58,8 @@ class Section:
 
 
 def section_of(rod: PhysicalRod) -> Section | None:
-    """The section of a rod; None where its outer diameter is not known."""
-    if rod.outer_diameter is None:
+    """The section of a rod; None where its outer diameter or its bore is not known."""
+    if rod.outer_diameter is None or not rod.bore_known:
         return None
     return Section(0.5 * rod.outer_diameter, 0.5 * rod.inner_diameter)
 

@@ -15,10 +15,12 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import EULER, Mode
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.faces import Shown, drawn, face
+from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.location import LocationError, Segment, locate
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
@@ -114,6 +116,11 @@ class Branch(Shown):
         return index
 
     @property
+    def closed(self) -> bool:
+        """Whether it is a closed loop, followed once round."""
+        return self.ended_because == CLOSED
+
+    @property
     def images(self) -> tuple[Reflection, ...]:
         """Reflections of the problem that make other branches out of this one, the identity first."""
         middle = self[len(self) // 2]
@@ -188,14 +195,34 @@ class Branch(Shown):
             If the state could not be computed.
         """
         value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
-        inside = np.nonzero((self.values[:-1] - value) * (self.values[1:] - value) <= 0.0)[0]
-        if inside.size == 0:
+        inside = self._steps_across(value)
+        if not inside:
             low, high = self.values.min(), self.values.max()
             unit = " B/L²" if self.parameter == "force" else ""
             raise InputError(
                 self.parameter, value, f"this branch covers {low:.6g} to {high:.6g}{unit}; follow it further"
             )
-        i = int(inside[0])
+        return self._state_within(inside[0], value)
+
+    def states_at(self, value: float) -> tuple[Solution, ...]:
+        """Return all states at a value of the parameter, in order of travel; none if the branch does not pass it.
+
+        Raises
+        ------
+        NotConvergedError
+            If a state could not be computed.
+        """
+        value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
+        steps = self._steps_across(value)
+        return tuple(self._state_within(i, value) for k, i in enumerate(steps) if k == 0 or value != self.values[i])
+
+    def _steps_across(self, value: float) -> list[int]:
+        """Numbers of the points after which the parameter passes a value, or has it."""
+        gaps = self.values - value
+        return [int(i) for i in np.nonzero(gaps[:-1] * gaps[1:] <= 0.0)[0]]
+
+    def _state_within(self, i: int, value: float) -> Solution:
+        """The state at a value between points i and i+1, or at one of them."""
         for near in (i, i + 1):
             if value == self.values[near]:
                 return self[near]

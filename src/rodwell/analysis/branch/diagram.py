@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
-from rodwell.analysis.branch.follow import LARGEST_STEP, checked_end
+from rodwell.analysis.branch.follow import LARGEST_STEP, Following, checked_end
+from rodwell.analysis.branch.searching import WAYS
+from rodwell.analysis.branch.searching import search as search_for_more
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.symmetry import Reflection
 from rodwell.analysis.discrete import first_run
@@ -51,6 +53,8 @@ class Diagram:
         End force in B/L² at s = 1 to which branches were followed.
     unexplored
         Why branch points were left without their secondary branch; empty if none was.
+    searched
+        Where branches were looked for, in words: there may be others.
     """
 
     problem: Problem
@@ -59,6 +63,7 @@ class Diagram:
     joints: tuple[Joint, ...]
     until: float
     unexplored: tuple[str, ...]
+    searched: tuple[str, ...]
 
     def __iter__(self) -> Iterator[Branch]:
         return iter(self.branches)
@@ -68,10 +73,10 @@ class Diagram:
         return drawn(self, ax, ordinate=ordinate, scales=scales)
 
     def __getitem__(self, name: str) -> Branch:
-        found = next((branch for branch in self.branches if branch.name == name), None)
-        if found is None:
+        branch = next((branch for branch in self.branches if branch.name == name), None)
+        if branch is None:
             raise InputError("branch", name, "must be one of " + ", ".join(b.name for b in self.branches))
-        return found
+        return branch
 
     def __repr__(self) -> str:
         return f"<Diagram down to F = {self.until:.6g} B/L²: {', '.join(branch.name for branch in self.branches)}>"
@@ -110,6 +115,7 @@ class Diagram:
             "branches": [self._branch_dict(branch) for branch in self.branches],
             "joints": [vars(joint) for joint in self.joints],
             "unexplored": list(self.unexplored),
+            "searched": list(self.searched),
         }
 
     def _branch_dict(self, branch: Branch) -> dict[str, Any]:
@@ -138,6 +144,7 @@ def diagram(
     until: float | None = None,
     secondary: bool = True,
     then: tuple[str, float] | None = None,
+    search: Sequence[str] = (),
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -162,6 +169,10 @@ def diagram(
     then
         A parameter ("weight", "alpha", "clearance" or "twist") and the value to which each branch is continued in it,
         from its state at ``until`` and at that force; these branches come last, named "…, in weight".
+    search
+        Ways to look for branches that hang together with none of these: "unfolding" (states of the problem without
+        twist, or in a horizontal cylinder, carried over to this one), "deflation" (further states at some loads, sought
+        by Newton's method kept off those that are known). Named "isolated"; ``Diagram.searched`` says what was done.
     rtol, largest_step
         As for :func:`rodwell.follow`.
     progress
@@ -175,29 +186,42 @@ def diagram(
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
     first_run.begin()
-    rtol, modes = checked_rtol(rtol), checked_whole("modes", modes, 1, MOST_MODES)
-    largest_step = checked_step(largest_step)
+    how, modes = Following(checked_rtol(rtol), checked_step(largest_step)), checked_whole("modes", modes, 1, MOST_MODES)
     tell = progress or (lambda _what, _done: None)
+    ways = _checked_ways(problem, search)
     if then is not None and (then[0] not in PATHS or then[0] == "force"):
         raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
     if then is not None:
         checked_end(problem, *then)
     if problem.turns != 0:
-        start = coil(problem, until=until, rtol=rtol, largest_step=largest_step)
+        start = coil(problem, until=until, rtol=how.rtol, largest_step=how.largest_step)
         until = float(start.force[-1]) if until is None else until
-        work = Exploration(problem, CriticalLoads(()), until, rtol, largest_step)
+        work = Exploration(problem, CriticalLoads(()), until, how)
         work.branches.append(start)
     else:
-        critical = critical_loads(problem, modes, rtol=rtol)
+        critical = critical_loads(problem, modes, rtol=how.rtol)
         until = _end(critical, until)
-        work = Exploration(problem, critical, until, rtol, largest_step)
+        work = Exploration(problem, critical, until, how)
         work.follow_primary(tell)
     if secondary:
         work.follow_secondary(tell)
+    searched = search_for_more(work, ways, tell)
     if then is not None:
         work.continue_in(*then)
     tell("done", 1.0)
-    return Diagram(problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored))
+    return Diagram(
+        problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored), searched
+    )
+
+
+def _checked_ways(problem: Problem, search: Sequence[str]) -> tuple[str, ...]:
+    ways = (search,) if isinstance(search, str) else tuple(search)
+    for way in ways:
+        if way not in WAYS:
+            raise InputError("search", way, f"must be among {', '.join(WAYS)}")
+    if ways and problem.turns != 0:
+        raise InputError("search", ways[0], "is for rods that are not coiled: leave it out")
+    return ways
 
 
 def _end(critical: CriticalLoads, until: float | None) -> float:

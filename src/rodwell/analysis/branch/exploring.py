@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import branch_off, follow
+from rodwell.analysis.branch.follow import Following, branch_off, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.branch.symmetry import images
+from rodwell.analysis.discrete.family import reflections
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
@@ -38,11 +40,10 @@ class Joint:
 class Exploration:
     """A diagram in the making."""
 
-    def __init__(
-        self, problem: Problem, critical: CriticalLoads, until: float, rtol: float, largest_step: float
-    ) -> None:
-        self.problem, self.critical, self.until = problem, critical, until
-        self.rtol, self.largest_step = rtol, largest_step
+    def __init__(self, problem: Problem, critical: CriticalLoads, until: float, how: Following) -> None:
+        self.problem, self.critical, self.until, self.how = problem, critical, until, how
+        self._follow = partial(follow, problem, rtol=how.rtol, largest_step=how.largest_step)
+        self._branch_off = partial(branch_off, until=until, rtol=how.rtol, largest_step=how.largest_step)
         self.branches: list[Branch] = []
         self.joints: list[Joint] = []
         self.unexplored: list[str] = []
@@ -53,22 +54,14 @@ class Exploration:
         for i, mode in enumerate(followed):
             tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
             for mirror in (False, True) if len(images(self.problem, mode.parity)) == 1 else (False,):
-                self.branches.append(
-                    follow(
-                        self.problem, mode, until=self.until, mirror=mirror,
-                        rtol=self.rtol, largest_step=self.largest_step,
-                    )
-                )  # fmt: skip
+                self.branches.append(self._follow(mode, until=self.until, mirror=mirror))
 
     def continue_in(self, parameter: str, until: float) -> None:
         """Continue each branch that reached its end in another parameter."""
         for branch in [b for b in self.branches if b.ended_because == END]:
             name = f"{branch.name}, in {parameter}"
             try:
-                further = follow(
-                    self.problem, start=branch[-1], parameter=parameter, until=until,
-                    rtol=self.rtol, largest_step=self.largest_step,
-                )  # fmt: skip
+                further = self._follow(start=branch[-1], parameter=parameter, until=until)
             except (InputError, NotConvergedError) as error:
                 self.unexplored.append(f"{name}: {error}")
                 continue
@@ -103,7 +96,7 @@ class Exploration:
     def _meets_known(self, parent: Branch, point: SpecialPoint) -> bool:
         """Whether the branch that crosses ``parent`` at ``point`` is already there; noted if so."""
         for other in self.branches:
-            if other is not parent and any(_same(p.solution, point.solution) for p in self._branch_points(other)):
+            if other is not parent and any(same_state(p.solution, point.solution) for p in self._branch_points(other)):
                 self.joints.append(Joint(parent.name, other.name, point.force))
                 return True
         return False
@@ -119,14 +112,7 @@ class Exploration:
             number = 1 + sum(b.origin.parent is not None for b in self.branches)
             origin = Origin(f"secondary {number}", switched=True, parent=parent.name)
             try:
-                branch = branch_off(
-                    point,
-                    until=self.until,
-                    mirror=mirror,
-                    rtol=self.rtol,
-                    largest_step=self.largest_step,
-                    origin=origin,
-                )
+                branch = self._branch_off(point, mirror=mirror, origin=origin)
             except NotConvergedError as error:
                 self.unexplored.append(f"{where}: {error}")
                 continue
@@ -141,16 +127,16 @@ class Exploration:
         end = branch[-1]
         for other in self.branches:
             for point in other.special_points:
-                if other is not branch and point.kind == BRANCH_POINT and _same(point.solution, end):
+                if other is not branch and point.kind == BRANCH_POINT and same_state(point.solution, end):
                     self.joints.append(Joint(other.name, branch.name, point.force))
                     return
 
 
-def _same(a: Solution, b: Solution) -> bool:
-    """Whether two states are one, up to reflections."""
+def same_state(a: Solution, b: Solution) -> bool:
+    """Whether two states of a problem are one, up to the reflections that it has."""
     if abs(a.force - b.force) > SAME_LOAD * abs(b.force):
         return False
     s = np.linspace(0.0, 1.0, 65)
     y, other = (x.point.fine.space.evaluate(x.point.fine.c, s, 1)[0] for x in (a, b))
-    gaps = [np.max(np.abs(image - other)) for image in (y, -y, y[::-1], -y[::-1])]
-    return bool(min(gaps) <= SAME_SHAPE * np.max(np.abs(other)))
+    shapes = [y, *(sign * (y[::-1] if turned else y) for sign, turned in reflections(a.problem))]
+    return bool(min(np.max(np.abs(shape - other)) for shape in shapes) <= SAME_SHAPE * np.max(np.abs(other)))

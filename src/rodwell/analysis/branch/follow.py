@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.making import continued, made
@@ -15,6 +15,7 @@ from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
 from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
@@ -33,6 +34,19 @@ RIGID = 0.1
 
 REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
+
+
+@dataclass(frozen=True)
+class Following:
+    """How branches are followed: to which tolerance, with which longest step, and who is told."""
+
+    rtol: float
+    largest_step: float
+    progress: Progress | None = None
+
+    def stepping(self, first: float) -> Stepping:
+        """Steps of which the first is as given, if it is not too long."""
+        return Stepping(first=min(first, self.largest_step), largest=self.largest_step, most_work=MOST_WORK)
 
 
 def follow(
@@ -85,18 +99,17 @@ def follow(
     NotConvergedError
         If the branch cannot even be started.
     """
-    rtol = checked_rtol(rtol)
-    largest_step = checked_step(largest_step)
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress)
     first_run.begin()
     if parameter not in PATHS:
         raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:
         if mode is not None or mirror:
             raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
-        return _from_state(problem, start, parameter, until, rtol, largest_step, progress)
+        return from_state(problem, start, parameter, until, how)
     if parameter != "force":
         raise InputError("parameter", parameter, "needs a state to start from: give start (for example branch[-1])")
-    return _from_straight(problem, 1 if mode is None else mode, until, mirror, rtol, largest_step, progress)
+    return _from_straight(problem, 1 if mode is None else mode, until, mirror, how)
 
 
 def _from_straight(
@@ -104,51 +117,41 @@ def _from_straight(
     mode: int | Mode,
     until: float | None,
     mirror: bool,
-    rtol: float,
-    largest_step: float,
-    progress: Progress | None,
+    how: Following,
 ) -> Branch:
     until = None if until is None else checked_force("until", until)
     if until is None and problem.lateral_weight > 0.0 and not problem.pressed:
         raise InputError("until", None, "must be given: the rod is not pressed to the wall, so there is no lift-off")
-    found = _mode(problem, mode, rtol)
-    if until is not None and until >= found.force:
+    first = _mode(problem, mode, how.rtol)
+    if until is not None and until >= first.force:
         raise InputError(
             "until",
             until,
-            f"must be below the critical load {found.force:.8g} B/L², where the branch starts towards compression",
+            f"must be below the critical load {first.force:.8g} B/L², where the branch starts towards compression",
         )
-    if found.wavenumber < RIGID:
+    if first.wavenumber < RIGID:
         raise NotConvergedError(
-            f"mode {found.number} turns the rod as a whole (its wavenumber is {found.wavenumber:.2g} rad/L): it has no "
+            f"mode {first.number} turns the rod as a whole (its wavenumber is {first.wavenumber:.2g} rad/L): it has no "
             "buckled branch that could be followed; hold an end, or take the next mode"
         )
-    start = at_critical(problem, found, until, mirror, rtol)
-    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
-    limit = found.force - REACH * found.wavenumber**2 if until is None else until
+    start, stepping = at_critical(problem, first, until, mirror, how.rtol), how.stepping(FIRST_STEP)
+    limit = first.force - REACH * first.wavenumber**2 if until is None else until
     if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
-    result = traced(problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=progress)
+    result = traced(problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=how.progress)
     if len(result.points) == 1:
         raise NotConvergedError(
-            f"mode {found.number} could not be followed from its critical load {found.force:.6g} B/L²: {result.end}"
+            f"mode {first.number} could not be followed from its critical load {first.force:.6g} B/L²: {result.end}"
         )
     if until is None and problem.lateral_weight == 0.0:
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
-    origin = Origin(f"mode {found.number}" + (", mirror arm" if mirror else ""), found, switched=True)
+    origin = Origin(f"mode {first.number}" + (", mirror arm" if mirror else ""), first, switched=True)
     return made(problem, origin, result, reached, result.end)
 
 
-def _from_state(
-    problem: Problem,
-    start: Solution,
-    parameter: str,
-    until: float | None,
-    rtol: float,
-    largest_step: float,
-    progress: Progress | None,
-) -> Branch:
+def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:
+    """Follow a branch from a known state, as :func:`follow` does with ``start``."""
     if until is None:
         raise InputError("until", None, "must be given to follow a branch from a given state")
     until = checked_end(problem, parameter, until)
@@ -156,11 +159,10 @@ def _from_state(
         raise InputError("start", start.problem, "belongs to another problem")
     if until == start.value_of(parameter):
         raise InputError("until", until, "must differ from the value at the start")
-    stepping = Stepping(first=min(FIRST_STEP_ON, largest_step), largest=largest_step, most_work=MOST_WORK)
-    begin = at_state(problem, start, parameter, until, rtol)
-    result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=progress)
+    begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
+    result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=how.progress)
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
-    return made(problem, origin, result, result.end == END, result.end, parameter)
+    return made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter)
 
 
 def checked_end(problem: Problem, parameter: str, until: float) -> float:
@@ -208,13 +210,13 @@ def branch_off(
         raise InputError("point", point.kind, "must be a special point of kind branch_point")
     problem, parameter = point.solution.problem, point.parameter
     until = checked_end(problem, parameter, until)
-    start, largest_step = at_branch_point(point, mirror, checked_rtol(rtol)), checked_step(largest_step)
-    stepping = Stepping(first=min(FIRST_STEP, largest_step), largest=largest_step, most_work=MOST_WORK)
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress)
+    start, stepping = at_branch_point(point, mirror, how.rtol), how.stepping(FIRST_STEP)
     result = traced(problem, start, until, stepping, parameter=parameter, switched=True, progress=progress)
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return made(problem, name, result, result.end in (END, REJOINS), result.end, parameter)
+    return made(problem, name, result, result.end in (END, REJOINS, CLOSED), result.end, parameter)
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:

@@ -34,8 +34,8 @@ def made(problem: Problem, origin: Origin, trace: Trace, reached: bool, why: str
 
     ``reached`` says whether it was followed to where it was asked to end, ``why`` why it ended.
     """
-    found = _Finding(problem, origin, trace, parameter).special_points()
-    return Branch(problem, origin, trace, found, reached, why, parameter)
+    points = _Finding(problem, origin, trace, parameter).special_points()
+    return Branch(problem, origin, trace, points, reached, why, parameter)
 
 
 def continued(branch: Branch, trace: Trace, reached: bool, why: str) -> Branch:
@@ -66,9 +66,9 @@ class _Finding:
         trace = self.trace
         out = [self._start()] if self.origin.switched else []
         met = trace.found[-1:] if trace.end in (REJOINS, STRAIGHT) else []
-        for found in trace.found:
-            if found.name in KINDS:
-                out.append(self._special(found, met=any(found is m for m in met)))
+        for event in trace.found:
+            if event.name in KINDS:
+                out.append(self._special(event, met=any(event is m for m in met)))
         if not out or out[-1].kind != END:
             point, number = trace.points[-1], len(trace.points) - 1
             last = self._solution(point, trace.meshes[-1])
@@ -93,17 +93,17 @@ class _Finding:
         reached = Value(point.lam, error)
         return SpecialPoint(kind, first.force, reached, places, before, index, first, 0, self.parameter)
 
-    def _special(self, found: LocatedEvent, *, met: bool) -> SpecialPoint:
+    def _special(self, event: LocatedEvent, *, met: bool) -> SpecialPoint:
         """What was found between two points; ``met``: the branch ends there, at another one."""
-        solution = self._solution(found.point, found.meshes)
-        kind = found.name
+        solution = self._solution(event.point, event.meshes)
+        kind = event.name
         if kind == INDEX:
-            kind = FOLD if found.fold else BRANCH_POINT if found.certain else UNCERTAIN
+            kind = FOLD if event.fold else BRANCH_POINT if event.certain else UNCERTAIN
         elif kind == TURN:
             kind = BRANCH_POINT if met else FOLD
-        elif kind == LIFT_OFF and not found.rising:
+        elif kind == LIFT_OFF and not event.rising:
             kind = TOUCH_DOWN
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
-        error = found.lam_error + LOCATED_NOISE * abs(found.point.lam) if kind != END else 0.0
-        reached, index = Value(found.point.lam, error), (found.index_before, found.index_after)
-        return SpecialPoint(kind, solution.force, reached, places, *index, solution, found.after, self.parameter)
+        error = event.lam_error + LOCATED_NOISE * abs(event.point.lam) if kind != END else 0.0
+        reached, index = Value(event.point.lam, error), (event.index_before, event.index_after)
+        return SpecialPoint(kind, solution.force, reached, places, *index, solution, event.after, self.parameter)

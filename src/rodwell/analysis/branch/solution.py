@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from rodwell.analysis.state.balance import Reaction, energies, reactions
+from rodwell.analysis.state.balance import Reaction, end_rotation, energies, reactions
 from rodwell.analysis.state.certificate import Certificate, certificate_of
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import GRID
@@ -53,6 +53,11 @@ class Solution(Equilibrium, Shown):
     def reactions(self) -> tuple[Reaction, ...]:
         """What the supports exert on rod and cylinder: see :func:`rodwell.analysis.state.balance.reactions`."""
         return reactions(self)
+
+    @cached_property
+    def end_rotation(self) -> Value:
+        """How far the end s = 1 is turned about its axis: see :func:`rodwell.analysis.state.balance.end_rotation`."""
+        return end_rotation(self)
 
     def geometry(
         self, places: int | None = None, *, rod_radius: float | None = None, radial_scale: float | None = 1.0

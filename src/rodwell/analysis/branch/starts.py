@@ -15,8 +15,10 @@ from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.continuation.events import INDEX, NEARLY, LocatedEvent, events_between
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.continuation.location import LocationError
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.newton import symmetrise
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
@@ -147,8 +149,9 @@ STENCIL = 1e-2
 def _null_vector(equilibria: Family, state: State, vector: FloatArray) -> FloatArray:
     """Null vector of the Hessian of a branch point, free of the branch's own direction."""
     equilibria.nearest_curvature(state, vector, INVERSE_ITERATIONS)
-    if state.symmetry != 0:  # the pitchfork breaks the symmetry of the branch
-        vector = 0.5 * (vector - state.symmetry * vector[::-1])
+    lost = 0.5 * (vector - state.symmetry * vector[::-1])
+    if state.symmetry != 0 and np.max(np.abs(lost)) > 0.5 * np.max(np.abs(vector)):
+        vector = lost  # what leaves the branch breaks its symmetry, or else one that shows in the periodic rod only
     else:
         vector = vector - float(state.row @ vector) * state.tangent
     if vector[np.argmax(np.abs(vector))] < 0.0:
@@ -187,8 +190,11 @@ def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
                 points.append(meshes.point(turned[0], turned[1]))
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
-        found = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
-        changes = [f for f in found if f.name == INDEX and not f.fold and f.certain]
+        try:
+            events = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
+        except LocationError:
+            continue
+        changes = [f for f in events if f.name == INDEX and not f.fold and f.certain]
         if len(changes) == 1:
             return changes[0]
     return None

@@ -11,6 +11,7 @@ from rodwell.analysis.branch.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_
 from rodwell.analysis.branch.starts import Start, rejoined
 from rodwell.analysis.discrete.measures import STEEPEST, Measured
 from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
+from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
@@ -62,17 +63,19 @@ def traced(
 
     meetings: dict[float, LocatedEvent | None] = {}
 
-    def meeting(found: LocatedEvent) -> LocatedEvent | None:
-        if found.point.lam not in meetings:
-            meetings[found.point.lam] = rejoined(problem, found)
-        return meetings[found.point.lam]
+    def meeting(event: LocatedEvent) -> LocatedEvent | None:
+        if event.point.lam not in meetings:
+            meetings[event.point.lam] = rejoined(problem, event)
+        return meetings[event.point.lam]
 
-    def stop(found: LocatedEvent) -> str:
-        if found.name == TURN and np.max(np.abs(found.point.fine.c)) <= FLAT * meshes.coarse.scale_c:
+    def stop(event: LocatedEvent) -> str:
+        if event.name != TURN:
+            return event.name if event.name in stops else ""
+        if np.max(np.abs(event.point.fine.c)) <= FLAT * meshes.coarse.scale_c:
             return STRAIGHT
-        if found.name == TURN and meeting(found) is not None:
-            return REJOINS
-        return found.name if found.name in stops else ""
+        if meeting(event) is None:  # without its mirror image, a branch turns back in folds only
+            raise LocationError("the branch turns back near a symmetric one, but the place was not found on it")
+        return REJOINS
 
     report = None if progress is None else lambda p: progress(p.lam)
     result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report)

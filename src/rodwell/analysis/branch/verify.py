@@ -285,10 +285,10 @@ def _highest_pressure(load: Load, dense: Dense, side: float) -> float:
     s = np.linspace(0.0, 1.0, 10 * GRID)
     values = pressure(s)
     i = int(np.argmax(values))
-    found = minimize_scalar(
+    highest = minimize_scalar(
         lambda x: -float(pressure(np.array([x]))[0]),
         bounds=(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)]),
         method="bounded",
         options={"xatol": 1e-9},
     )
-    return max(float(values[i]), -float(found.fun))
+    return max(float(values[i]), -float(highest.fun))

@@ -14,7 +14,8 @@ from rodwell.analysis.curves.curve import CurvePoint
 from rodwell.analysis.discrete.measures import pressure_maxima
 from rodwell.analysis.straight.critical import EULER
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.quantities.arrays import FloatArray

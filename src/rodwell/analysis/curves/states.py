@@ -18,7 +18,8 @@ from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.analysis.loads.torsion import torsion
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
@@ -126,13 +127,13 @@ def secondary_curve(
     first = critical_loads(at_start, mode, rtol=rtol)[-1]
     reach = first.force - 8.0 * first.wavenumber**2 if until is None else until
     branch = follow(at_start, first, until=reach, rtol=rtol)
-    found = [p for p in branch.special_points if p.kind == BRANCH_POINT]
-    if len(found) < number:
+    bifurcations = [p for p in branch.special_points if p.kind == BRANCH_POINT]
+    if len(bifurcations) < number:
         raise NotConvergedError(
-            f"mode {mode} has {len(found)} secondary bifurcations down to F = {branch.force.min():.6g} B/L² at "
+            f"mode {mode} has {len(bifurcations)} secondary bifurcations down to F = {branch.force.min():.6g} B/L² at "
             f"{over} = {start:g}: start elsewhere, or give until"
         )
-    point = found[number - 1]
+    point = bifurcations[number - 1]
     zero = _Branching(problem, over, point.solution)
     points, marks, why = trace_curve(zero, CurveStart(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.family import MIRROR, Family
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.model import RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
+from rodwell.problem.ends import OFF_WALL_ENDS, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
-HELD = {"clamped": (2, False), "pinned": (1, False), "guided": (1, True), "free": (0, False)}
-"""Of the first two spline coefficients at an end, how many are held, and whether the outermost follows the next."""
+HELD = {
+    "clamped": (2, False),
+    "pinned": (1, False),
+    "guided": (1, True),
+    "free": (0, False),
+    "ball": (1, False),
+    "loose": (0, False),
+}
+"""How many of the first two spline coefficients of y at an end are held, and whether the outermost follows the next."""
 
 
 def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
@@ -33,9 +41,25 @@ def spline_ends(problem: Problem) -> Ends:
     """
     first, last = problem.ends
     if problem.lateral_weight == 0.0 and not problem.holds_angle:
-        first = {"guided": "clamped", "free": "pinned"}[first]
+        first = {"guided": "clamped", "free": "pinned", "loose": "ball"}[first]
     (held_0, tied_0), (held_1, tied_1) = HELD[first], HELD[last]
     return Ends((held_0, held_1), (tied_0, tied_1))
+
+
+def pair_ends(problem: Problem) -> tuple[Ends, Ends]:
+    """What the ends of a rod off the wall hold of x, inwards from the wall, and of y.
+
+    Ends on the wall are radially held: x and x' are. Without a wall a rod with no end that holds y can be moved along
+    y as a whole, and one with loose ends along x: the displacement at s = 0 is held then.
+    """
+    first, last = problem.ends
+    around = [HELD[first], HELD[last]]
+    inwards = [HELD[end if end in OFF_WALL_ENDS else "clamped"] for end in problem.ends]
+    for field in (around, inwards):
+        if all(held == 0 or tied for held, tied in field):  # nothing holds the displacement itself
+            field[0] = (2, False) if field[0][1] else (1, False)
+    (x, y) = (Ends((f[0][0], f[1][0]), (f[0][1], f[1][1])) for f in (inwards, around))
+    return x, y
 
 
 def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
@@ -78,7 +102,13 @@ def family(
 
     ``wavenumber`` sets the slope that counts as one unit of arclength, Δ k (an amplitude of one radian);
     ``scale`` the change of the parameter that does.
+
+    Raises
+    ------
+    InputError
+        If the rod would leave the wall at its ends.
     """
+    refuse_off_wall(problem.ends, "buckled states")
     return Family(
         model=RodOnCylinder(),
         path=path(problem, parameter, force),
@@ -88,4 +118,19 @@ def family(
         scale_c=problem.clearance,
         slope_scale=problem.clearance * wavenumber,
         lam_scale=scale,
+        reflections=reflections(problem, parameter),
+        first_integral=problem.axial_weight == 0.0 and problem.ends == ("clamped", "clamped") and parameter != "alpha",
     )
+
+
+def reflections(problem: Problem, parameter: str = "force") -> tuple[tuple[int, bool], ...]:
+    """Reflections (sign, turned), y(s) → ± y(s) or ± y(1 − s), that the problem has for any value of a parameter.
+
+    The twisting moment forbids all but y(s) → −y(1 − s); axial weight or unequal ends forbid to turn the rod round;
+    a coil forbids to change one sign alone. The identity is left out.
+    """
+    turnable = problem.symmetric and parameter != "alpha"
+    plain = problem.twist == 0.0 and problem.turns == 0 and parameter != "twist"
+    found = [MIRROR] if plain else []
+    found += [(1, True)] if plain and turnable else []
+    return (*found, (-1, True)) if turnable else tuple(found)

@@ -10,8 +10,9 @@ import numpy as np
 
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import combine

@@ -164,3 +164,12 @@ def resolved(problem: Problem, places: FloatArray, load: float) -> FloatArray:
 def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
     steps = 0.5 * (rate[1:] + rate[:-1]) * np.diff(places)
     return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def free_space(problem: Problem, count: int) -> SplineSpace:
+    """Spline space for the first ``count`` critical loads without a wall: modes turn with the twist along s as well."""
+    upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)
+    load = wkb_load(upright, count + SPARE_MODES)
+    places = _places(upright, load)
+    wavenumber = resolved(upright, places, load) + LEAST_WAVENUMBER + abs(problem.twist)
+    return SplineSpace(graded_mesh(wavenumber, places, LINEAR_ELEMENTS_PER_RADIAN), DEGREE)

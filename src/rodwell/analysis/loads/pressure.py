@@ -8,7 +8,8 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
 from rodwell.analysis.discrete.measures import shape
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.strand import towards_lift_off
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}

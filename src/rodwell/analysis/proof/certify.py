@@ -20,6 +20,7 @@ from rodwell.analysis.proof.inertia import EnclosedRod
 from rodwell.analysis.proof.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
+from rodwell.problem.ends import refuse_off_wall
 from rodwell.problem.problem import Problem, ends_text
 
 Ball = Any
@@ -127,6 +128,7 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    refuse_off_wall(problem.ends, "loads with proof")
     counter = Counter(lambda x: _rod(problem, x))
     # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
     against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0

@@ -11,7 +11,8 @@ from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.frames import frames
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 from rodwell.problem.problem import Problem
@@ -66,6 +67,21 @@ def _energies(problem: Problem, family: Family, state: State) -> dict[str, float
         "axial_energy": float(-p[AXIAL_WEIGHT] * (w @ (sagging * (1.0 - s)))),
         "end_work": float(-p[FORCE] * (w @ sagging) + p[TWIST] * (w @ (y1 * sagging)) / p[CLEARANCE]),
     }
+
+
+def end_rotation(solution: Equilibrium) -> Value:
+    """How far the end s = 1 is turned about its axis against the end s = 0, ξ₁ + ξ₂ there, in rad.
+
+    Positive as T₁ turns it: it is what the dead torque T₁ works on. Of the straight rod it is T₁/C. At an end that can
+    turn across the axis it is the angle in the braid's terms.
+    """
+    coarse, fine = (_end_rotation(solution.problem, f, state) for f, state in solution.levels)
+    return compared(coarse, fine)
+
+
+def _end_rotation(problem: Problem, family: Family, state: State) -> float:
+    f = fields_at(problem, family, state, np.array([0.0, 1.0]))
+    return float(np.diff(f["xi1"] + f["xi2"])[0])
 
 
 def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:

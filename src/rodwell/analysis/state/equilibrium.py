@@ -12,7 +12,8 @@ from rodwell.analysis.discrete.measures import Measured, pressure_maxima
 from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import GRID, end_force, fields_at, largest, total_wall_force
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem

@@ -42,11 +42,11 @@ def buckled_to(shape: Mode | Equilibrium) -> float:
         s = np.interp(
             np.arange(LOOKS * (last - first) + 1) / LOOKS + first, np.arange(space.elements + 1), space.breaks
         )
-        found = np.flatnonzero(size(s) >= level)
-        if found.size or first == 0:
+        beyond = np.flatnonzero(size(s) >= level)
+        if beyond.size or first == 0:
             break
         window *= 2
-    at = int(found[-1])
+    at = int(beyond[-1])
     if at == s.size - 1:
         return float(s[at])
 

@@ -8,7 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from rodwell.analysis.discrete.measures import shape
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall import braid
 from rodwell.physics.on_wall.strand import contact_pressure
@@ -132,8 +133,8 @@ def _peaks(sizes: FloatArray) -> FloatArray:
     """Numbers of the peaks of values on a grid that come near the largest, in order; of equal neighbours the first."""
     up = np.concatenate([[True], sizes[1:] > sizes[:-1]])
     down = np.concatenate([sizes[:-1] >= sizes[1:], [True]])
-    found = np.flatnonzero(up & down & (sizes >= (1.0 - NEAR) * np.max(sizes)))
-    return np.asarray(np.sort(found[np.argsort(-sizes[found], kind="stable")[:MOST_PEAKS]]))
+    peaks = np.flatnonzero(up & down & (sizes >= (1.0 - NEAR) * np.max(sizes)))
+    return np.asarray(np.sort(peaks[np.argsort(-sizes[peaks], kind="stable")[:MOST_PEAKS]]))
 
 
 def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:

@@ -10,6 +10,7 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
+from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
 from rodwell.numerics.equilibria import eigen
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
     from rodwell.quantities.scales import Scales
 
 MOST_MODES = 200
+
+RIGID = 1e-3
+"""Wavenumber in rad/L below which a mode does not bend but by round-off."""
 
 LOAD_NOISE = 64.0 * np.finfo(float).eps
 """Relative to the size of the terms that make up a load; certified enclosures show up to half of it."""
@@ -76,6 +80,11 @@ class Mode:
         """Estimate of its error, in B/L²."""
         return self.load.error
 
+    @property
+    def rigid(self) -> bool:
+        """Whether the rod turns as a whole, without bending: then the load is 0 exactly; any compression moves it."""
+        return self.problem.weight == self.force == 0.0
+
     def shape(self, s: FloatArray) -> FloatArray:
         """Mode y(s) at ``s`` (m,), scaled to a largest deflection of 1."""
         y = self.space.evaluate(self.coefficients, np.asarray(s, dtype=float), 1)[0]
@@ -84,7 +93,7 @@ class Mode:
 
 
 class CriticalLoads(tuple[Mode, ...], Shown):
-    """Modes in the order in which they are met as compression grows."""
+    """Modes of the rod kept on the wall, in the order in which they are met as compression grows."""
 
     __slots__ = ()
 
@@ -97,6 +106,25 @@ class CriticalLoads(tuple[Mode, ...], Shown):
     def errors(self) -> FloatArray:
         """Error estimates, (n,)."""
         return np.array([mode.error for mode in self])
+
+    @property
+    def without_wall(self) -> LoadsWithoutWall:
+        """The first load without the wall's help: :func:`rodwell.loads_without_wall`, computed when asked for."""
+        return loads_without_wall(self[0].problem)
+
+    @property
+    def first_met(self) -> Mode | WallTouch:
+        """The mode that the straight rod at the wall meets first: the load with the wall's help.
+
+        It is the first of these where lateral weight presses the rod to the wall, or where no twist acts. A twisted rod
+        that nothing presses is free to move inwards, and does so at less compression.
+        """
+        problem = self[0].problem
+        if problem.lateral_weight > 0.0 or problem.twist == 0.0:
+            return self[0]
+        touch = self.without_wall.at_wall
+        assert touch is not None
+        return touch
 
     def plot(self, ax: Axes | None = None, *, scales: Scales | None = None, most: int = 4) -> Axes:
         """Draw the first ``most`` modes y(s), each scaled to a largest deflection of 1; return the axes.
@@ -112,7 +140,8 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     Parameters
     ----------
     problem
-        The rod. ``twist`` does not enter (paper, section 4.2).
+        The rod. It is kept on the wall, so ``twist`` does not enter (paper, section 4.2). Where no lateral weight
+        presses it to the wall it does: see :attr:`CriticalLoads.first_met` and :attr:`CriticalLoads.without_wall`.
     count
         How many, 1 to 200.
     rtol
@@ -224,7 +253,7 @@ def _with_symmetry(
 def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
     """What tells the arms of a mode apart: y''(1), or, where that vanishes, −y'(1) if pinned, −y(1) if free."""
     y, slope, bend = space.evaluate(vector, np.array([1.0]), 3)[:, 0]
-    return float({"pinned": -slope, "free": -y}.get(problem.ends[1], bend))
+    return float({"pinned": -slope, "ball": -slope, "free": -y, "loose": -y}.get(problem.ends[1], bend))
 
 
 def _mode(
@@ -241,4 +270,7 @@ def _mode(
         vector = 0.5 * (vector + parity * vector[::-1])
     if _sense(problem, space, vector) < 0.0:
         vector = -vector
-    return Mode(problem, number, load, parity, space.wavenumber(vector), space, vector, coarse)
+    wavenumber = space.wavenumber(vector)
+    if problem.weight == 0.0 and wavenumber < RIGID:
+        load = Value(0.0, load.error)
+    return Mode(problem, number, load, parity, wavenumber, space, vector, coarse)

@@ -149,7 +149,9 @@ def _section(case: Case | Problem) -> dict[str, float]:
     if not isinstance(case, Case) or case.scales is None or case.rod is None:
         return {}
     rod, length, out = case.rod, case.scales.length, {}
-    if rod.outer_diameter is not None:
+    if rod.outer_diameter is not None and not rod.bore_known:
+        out = {"D": rod.outer_diameter / length}
+    elif rod.outer_diameter is not None:
         out = {"D": rod.outer_diameter / length, "A": rod.area / length**2, "I": rod.inertia / length**4}
     if rod.yield_strength is not None:
         out["sigma_y"] = rod.yield_strength / case.scales.factor("stress")

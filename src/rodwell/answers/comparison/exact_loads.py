@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
@@ -74,36 +75,36 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     NotConvergedError
         If the first critical load cannot be computed.
     """
-    found, notes = [critical(problem, rtol)], []
+    loads, notes = [critical(problem, rtol)], []
     if problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed:
         notes.append("lift-off: no lateral weight presses the rod to the wall")
     else:
-        _add(found, notes, "lift-off", lambda: [_lift_off(problem, rtol)])
+        untwisted = problem.but(twist=0.0)
+        _add(loads, notes, "lift-off", lambda: [_lift_off(follow(untwisted, 1, rtol=rtol))])
     holds = problem.ends[0] in HOLD_ANGLE and problem.ends[1] in HOLD_ANGLE
     if problem.alpha != 90.0 or not holds or not problem.pressed:
         notes.append("load of equal energy: only for a horizontal rod pressed to the wall whose ends hold the angle")
     else:
-        _add(found, notes, "load of equal energy", lambda: _coil(problem, rtol))
-    return tuple(found), tuple(notes)
+        _add(loads, notes, "load of equal energy", lambda: _coil(problem, partial(coil, rtol=rtol)))
+    return tuple(loads), tuple(notes)
 
 
-def _add(found: list[ExactLoad], notes: list[str], what: str, compute: Callable[[], list[ExactLoad]]) -> None:
+def _add(loads: list[ExactLoad], notes: list[str], what: str, compute: Callable[[], list[ExactLoad]]) -> None:
     """Add loads, or the reason why they are not known."""
     try:
-        found += compute()
+        loads += compute()
     except (InputError, NotConvergedError) as error:
         notes.append(f"{what}: {error}")
 
 
-def _lift_off(problem: Problem, rtol: float) -> ExactLoad:
-    branch = follow(problem.but(twist=0.0), 1, rtol=rtol)
-    if branch.lift_off is None or not branch.converged:
-        raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
+def _lift_off(branch: Branch) -> ExactLoad:
     lift = branch.lift_off
-    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, problem.axial_weight)
+    if lift is None or not branch.converged:
+        raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
+    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, branch.problem.axial_weight)
 
 
-def _coil(problem: Problem, rtol: float) -> list[ExactLoad]:
+def _coil(problem: Problem, wind: Callable[..., Branch]) -> list[ExactLoad]:
     """Least compression at which a coil of whole turns, in contact throughout, has the energy of the straight rod.
 
     And that at which this coil leaves the wall as it is unloaded, if it was met. Few turns need the least: the rod
@@ -111,7 +112,7 @@ def _coil(problem: Problem, rtol: float) -> list[ExactLoad]:
     """
     best: tuple[SpecialPoint, int, Branch] | None = None
     for turns in range(1, MOST_TURNS + 1):
-        branch = _wound(problem.but(turns=turns, twist=0.0), rtol)
+        branch = _wound(problem.but(turns=turns, twist=0.0), wind)
         point = None if branch is None else _first(branch, "equal_energy")
         if branch is None or point is None or point.solution.highest_pressure[0] >= 0.0:
             continue
@@ -129,7 +130,7 @@ def _coil(problem: Problem, rtol: float) -> list[ExactLoad]:
     return loads
 
 
-def _wound(problem: Problem, rtol: float) -> Branch | None:
+def _wound(problem: Problem, wind: Callable[..., Branch]) -> Branch | None:
     """Branch of a coil from below to above the load of Chen, Lin and Cheatham; None if no coil was found.
 
     Odd about mid-length if there is one: an unsymmetric coil, which is found where the odd one is no minimum, needs
@@ -140,7 +141,7 @@ def _wound(problem: Problem, rtol: float) -> Branch | None:
     chen = 2.0 * math.sqrt(2.0 * problem.lateral_weight / problem.clearance)
     for start in STARTS:
         try:
-            branch = coil(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale), rtol=rtol)
+            branch = wind(problem, start=-start * chen, until=-max(1.35 * chen, 4.0 * scale))
         except (InputError, NotConvergedError):
             continue
         if branch[0].point.fine.symmetry != 0:

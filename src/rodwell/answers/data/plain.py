@@ -144,6 +144,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
             "poisson": problem.poisson,
             "twist": problem.twist,
             "ends": list(problem.ends),
+            **problem.given_torsion,
         },
         "critical_loads": [float(f) for f in answer.critical.forces],
         "critical_errors": [float(e) for e in answer.critical.errors],

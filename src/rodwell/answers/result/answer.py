@@ -16,6 +16,7 @@ from rodwell.answers.result.key_numbers import (
     critical_length,
     critical_number,
     real_force,
+    rotations,
     state_numbers,
     stress_number,
 )
@@ -60,7 +61,7 @@ class Answer(Computed, Shown):
             out.append(KeyNumber("lift_off_load", label, lift.load, "force", force_scale(lift.force), note))
             out += real_force(out[-1], self.case)
         if self.at_lift_off is not None:
-            out += state_numbers(self.at_lift_off)
+            out += [*state_numbers(self.at_lift_off), *rotations(self.at_lift_off)]
         out += assessment_numbers(self.assessment)
         if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
             out.append(stress_number(self.at_lift_off, self.case.cylinder, self.case.scales))

@@ -74,6 +74,23 @@ def stress_number(state: Solution, cylinder: Cylinder, scales: Scales) -> KeyNum
     return KeyNumber("cylinder_stress", label, value, "stress", value.value, note)
 
 
+RADIAN = 1.0
+"""Size of an angle, against which the error of one is judged."""
+
+
+def rotations(state: Solution) -> list[KeyNumber]:
+    """How far the end s = 1 is turned by T₁, in one state and in the straight rod; nothing without T₁."""
+    problem = state.problem
+    if problem.twist == 0.0:
+        return []
+    straight = Value(problem.twist / problem.torsional_stiffness)
+    label, note = "Rotation of the end s = 1 about its axis", "positive as T₁ turns it"
+    return [
+        KeyNumber("end_rotation_straight", f"{label}, straight rod", straight, "angle", RADIAN, "T₁ L/C"),
+        KeyNumber("end_rotation", f"{label}, at lift-off", state.end_rotation, "angle", RADIAN, note),
+    ]
+
+
 def state_numbers(state: Solution) -> list[KeyNumber]:
     """Wall and support loads of one state."""
     wall, shortening, end = state.wall, state.number(Measured.SHORTENING), state.problem.ends[1]

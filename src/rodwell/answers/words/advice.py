@@ -35,7 +35,7 @@ class Status:
 def statuses(answer: Answer) -> tuple[Status, ...]:
     """Buckling, contact with the wall and strength under the force asked for, and the numbers themselves."""
     cylinder = _cylinder(answer.case, answer.key_numbers.get("cylinder_stress"))
-    numbers = _numbers(answer.case.rtol, answer.converged)
+    numbers = _numbers(answer.case, answer.converged)
     theory = _theory(answer.assessment)
     every = (_buckling(answer), _contact(answer), _rod(answer.assessment), cylinder, theory, numbers)
     return tuple(status for status in every if status is not None)
@@ -129,8 +129,8 @@ def _theory(a: Assessment) -> Status | None:
     return Status("Theory", BAD, "small strain is left", a.validity.why)
 
 
-def _numbers(rtol: float, converged: bool) -> Status:
-    tolerance = minus(f"{rtol:g}")
+def _numbers(case: Case, converged: bool) -> Status:
+    tolerance = minus(f"{case.rtol:g}")
     if converged:
         return Status("Numbers", GOOD, "converged", f"every number meets the tolerance {tolerance}")
     return Status("Numbers", BAD, "not converged", f"not every number meets the tolerance {tolerance}: see the errors")

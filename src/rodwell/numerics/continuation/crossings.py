@@ -10,6 +10,7 @@ import numpy as np
 
 from rodwell.numerics.continuation.location import (
     PLACE_TOLERANCE,
+    LeftTheBranchError,
     LocatedZero,
     LocationError,
     Segment,
@@ -33,12 +34,15 @@ class Crossing:
     fold: bool
 
 
-def index_crossings(coarse: Segment, fine: Segment, turns: Sequence[float] = (), end: float = 1.0) -> list[Crossing]:
+def index_crossings(
+    coarse: Segment, fine: Segment, turns: Sequence[float] = (), end: float = 1.0, *, doubted: bool = False
+) -> list[Crossing]:
     """All places up to ``end`` where the stability index changes, each stretch with a change resolved by bisection.
 
     The segment is cut on either side of each of ``turns``, places where λ turns back: an index that changes there and
     back again nearby is seen. A change by one that stands alone is then located as a zero of the eigenvalue that
     crosses, which is smooth and free of the round-off in pivots; several that cannot be told apart are reported as one.
+    A change that nothing explains means that the step has left the branch, unless counts are to be ``doubted``.
     """
     cuts = [0.0, end]
     for turn in turns:
@@ -47,7 +51,7 @@ def index_crossings(coarse: Segment, fine: Segment, turns: Sequence[float] = (),
     brackets = []
     for low, high in pairwise(cuts):
         brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
-    return [_located(coarse, fine, turns, *bracket) for bracket in brackets]
+    return [_located(coarse, fine, turns, *bracket, doubted=doubted) for bracket in brackets]
 
 
 ALONE = 0.1
@@ -58,6 +62,9 @@ CLOSE = 3e-3
 
 FOLD_OFFSET = 1e-3
 """How far from a turning point, as a part of the segment, the index is compared."""
+
+DROWNED = 1e3
+"""An eigenvalue below this many times its round-off tells nothing by its sign."""
 
 CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
@@ -97,13 +104,25 @@ def _changes_sign(segment: Segment, low: float, high: float) -> bool:
 
 
 def _located(
-    coarse: Segment, fine: Segment, turns: Sequence[float], low: float, high: float, before: int, after: int
+    coarse: Segment,
+    fine: Segment,
+    turns: Sequence[float],
+    low: float,
+    high: float,
+    before: int,
+    after: int,
+    *,
+    doubted: bool,
 ) -> Crossing:
     """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
+    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
+    if not fold and not fine.family.may_branch(fine(low), fine(high)):
+        if doubted or _drowned(fine, low, high):
+            return Crossing(None, low, before, after, fold=False)
+        raise LeftTheBranchError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
-    steady = fine.family.parity == 0 and not fold
+    steady = not fold and _stays_singular(fine, low)
     if steady:
         low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
@@ -125,6 +144,25 @@ def _located(
         after,
         fold,
     )
+
+
+def _stays_singular(fine: Segment, place: float) -> bool:
+    """Whether Newton's method sees the direction in which the Hessian becomes singular: symmetry may hide it."""
+    parity = fine.family.parity
+    if parity == 0:
+        return True
+    vector = _Eigenvalue(fine, place).vector
+    kept = 0.5 * (vector + parity * vector[::-1])
+    return bool(np.max(np.abs(kept)) > 0.5 * np.max(np.abs(vector)))
+
+
+def _drowned(fine: Segment, low: float, high: float) -> bool:
+    """Whether the eigenvalue that changes its sign between two places is round-off."""
+    for place in (low, high):
+        eigenvalue = _Eigenvalue(fine, place)
+        if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
+            return True
+    return False
 
 
 def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:

@@ -6,12 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
-from rodwell.numerics.continuation.location import LocatedZero, LocationError, Segment, locate
+from rodwell.numerics.continuation.location import LeftTheBranchError, LocatedZero, LocationError, Segment, locate
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
-from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
 
@@ -20,6 +18,13 @@ INDEX, TURN = "index", "turn"
 
 AT_START = 1e-6
 """Part of the first step in which a zero is taken to be the start itself."""
+
+EARLY = (1e-4, 1e-3, 1e-2)
+"""Distances from the start of a branch that leaves another, in the metric of the family, at which it is looked at
+first, in the order of trial: what happens before, if anything, changes λ by less than is known of it."""
+
+EVEN_RISE = (0.5, 3.0)
+"""Bounds of λ′ times the distance from such a start over the rise of λ, which is 1 or 2 without round-off."""
 
 ROUGHLY = 1e-5
 """Part of the step to which a turning point is located first. Where a branch meets its mirror image, the Hessian is
@@ -30,6 +35,12 @@ NEARLY = 1e-2
 
 SHORT_OF = 0.98
 """Part of the way to where a branch meets its mirror image up to which its index is looked at."""
+
+LEFT_THE_BRANCH = "the step has left the branch: the stability index and the sense in λ do not go together"
+"""The sign of det H, which the index tells, and the sense of travel in λ change together along a branch of regular
+points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there. What
+may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods in
+Bifurcation Problems* (1987), chapter 5."""
 
 MOST_REFINEMENTS = 2
 """How often the meshes are refined for a located point that does not meet the tolerance."""
@@ -74,33 +85,44 @@ _Placed = tuple[float, LocatedEvent]
 
 
 def events_between(
-    meshes: TwoMeshes, before: MeshedState, after: MeshedState, events: Sequence[Event], *, opening: bool, leaves: bool
+    meshes: TwoMeshes,
+    before: MeshedState,
+    after: MeshedState,
+    events: Sequence[Event],
+    *,
+    opening: bool,
+    leaves: bool,
+    doubted: bool = False,
 ) -> list[LocatedEvent]:
     """All that happens between two points on the same meshes, in order.
 
     ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
-    that it is where the branch leaves another: its index and its sense in λ are not this branch's.
+    that it is where the branch leaves another: its index and its sense in λ are not this branch's. ``doubted`` says
+    that branches come closer to each other here than can be told apart: a change of the index that nothing explains is
+    then uncertain, and no error.
+
+    Raises
+    ------
+    LocationError
+        If something cannot be located.
+    LeftTheBranchError
+        If the two points are not on one branch.
     """
-    segment = _Stretch(meshes, before, after)
-    placed: list[_Placed] = []
-    if not leaves:
-        turn = segment.turn()
-        placed = segment.index_changes(turn)
-        if turn is not None and not any(found.fold for _, found in placed):
-            index = _index_at(turn.t, before.fine.index, placed)
-            placed.append((turn.t, _found(TURN, meshes, turn, index, index)))
+    stretch = _Stretch(meshes, before, after, doubted)
+    placed = stretch.changes_past_the_start() if leaves else stretch.changes()
     changes = sorted(placed, key=lambda item: item[0])
+    index = before.fine.index if not leaves else changes[0][1].index_before if changes else after.fine.index
     for event in events:
-        if not (opening and segment.starts_at(event)):
-            placed += segment.zeros(event, after.fine.index if leaves else before.fine.index, changes)
+        if not (opening and stretch.starts_at(event)):
+            placed += stretch.zeros(event, index, changes)
     return [found for _, found in sorted(placed, key=lambda item: item[0])]
 
 
 class _Stretch:
     """The stretch of a branch between two points on the same meshes."""
 
-    def __init__(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> None:
-        self.meshes, self.before, self.after = meshes, before, after
+    def __init__(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState, doubted: bool = False) -> None:
+        self.meshes, self.before, self.after, self.doubted = meshes, before, after, doubted
 
     @cached_property
     def segments(self) -> tuple[Segment, Segment]:
@@ -108,33 +130,67 @@ class _Stretch:
         coarse, fine = self.meshes.coarse.with_exact_tangent(), self.meshes.fine.with_exact_tangent()
         return Segment(coarse, self.before.coarse, self.after.coarse), Segment(fine, self.before.fine, self.after.fine)
 
+    def changes(self) -> list[_Placed]:
+        """Changes of the stability index, and the turning point that has none, if there is one.
+
+        Raises
+        ------
+        LocationError
+            If index and sense of travel do not go together: the two ends are not on one branch.
+        """
+        turn = self.turn()
+        placed = self.index_changes(turn)
+        if turn is not None and not any(found.fold for _, found in placed):
+            meets = self.meshes.fine.meets_mirror_image(turn.fine, NEARLY)
+            if not (meets or self.doubted) and all(found.certain for _, found in placed):
+                raise LeftTheBranchError(LEFT_THE_BRANCH)
+            index = _index_at(turn.t, self.before.fine.index, placed)
+            placed.append((turn.t, _found(TURN, self.meshes, turn, index, index)))
+        return placed
+
+    def changes_past_the_start(self) -> list[_Placed]:
+        """The same where a branch leaves another, from a place on, close by, at which it is by itself."""
+        length = self.before.fine.along(self.after.fine)
+        for early in (distance / length for distance in EARLY if distance < 0.5 * length):
+            try:
+                coarse, fine = (segment(early) for segment in self.segments)
+            except LocationError:
+                continue
+            if not self._is_steep(fine):
+                continue
+            placed = _Stretch(self.meshes, self.meshes.point(coarse, fine), self.after, self.doubted).changes()
+            return [(early + (1.0 - early) * t, found) for t, found in placed]
+        return []
+
+    def _is_steep(self, state: State) -> bool:
+        """Whether the sense of travel in λ just past the start is known: λ grows like the distance or its square."""
+        start = self.before.fine
+        distance, rise = start.along(state), state.lam - start.lam
+        return rise != 0.0 and EVEN_RISE[0] < state.tangent_lam * distance / rise < EVEN_RISE[1]
+
     def index_changes(self, turn: LocatedZero | None = None) -> list[_Placed]:
-        """Changes of the stability index; together they make up the whole difference of the two ends."""
+        """Changes of the stability index; together they make up the whole difference of the two ends.
+
+        Where a branch meets its own mirror image the index is the same on both sides, and its softest eigenvalue, which
+        vanishes there without changing sign, must not be looked at.
+        """
         if turn is None and self.before.fine.index == self.after.fine.index:
             return []
-        turns, end = [] if turn is None else [turn.t], 1.0
-        if turn is not None and self._meets(turn.fine):
-            turns, end = [], SHORT_OF * turn.t
-        return [(crossing.t, self._changed(crossing)) for crossing in index_crossings(*self.segments, turns, end)]
-
-    def _meets(self, state: State) -> bool:
-        """Whether a branch turns back since it meets its own mirror image.
-
-        The index is then the same on both sides, and its softest eigenvalue, which vanishes there without changing
-        sign, must not be looked at. The reflection that leaves the state as it is turns the branch round, so the
-        tangent has the other symmetry; where a branch of symmetric states folds, it has theirs.
-        """
-        family = self.meshes.fine
-        if np.max(np.abs(state.c)) < NEARLY * family.scale_c:
-            return True
-        parity = state.symmetry_within(NEARLY) if family.parity == 0 and state.space.symmetric else 0
-        return parity != 0 and family.loses(state, parity)
+        if turn is not None and self.meshes.fine.meets_mirror_image(turn.fine, NEARLY):
+            found = index_crossings(*self.segments, end=SHORT_OF * turn.t, doubted=True)
+            found = [crossing for crossing in found if crossing.place is not None]
+        else:
+            found = index_crossings(*self.segments, [] if turn is None else [turn.t], doubted=self.doubted)
+        return [(crossing.t, self._changed(crossing)) for crossing in found]
 
     def _changed(self, crossing: Crossing) -> LocatedEvent:
         index = crossing.before, crossing.after
         if crossing.place is None:  # no place on the coarse mesh: nothing is known of the error but the step
             error = abs(self.after.lam - self.before.lam)
-            point = self.meshes.point(self.segments[0](crossing.t), self.segments[1](crossing.t))
+            try:
+                point = self.meshes.point(self.segments[0](crossing.t), self.segments[1](crossing.t))
+            except LocationError:
+                point = self.before
             return LocatedEvent(INDEX, point, self.meshes, error, *index, certain=False)
 
         def again(finer: _Stretch) -> LocatedZero | None:
@@ -151,7 +207,7 @@ class _Stretch:
         if first * last >= 0.0:
             return None
         place = locate(*self.segments, _sense, (first, last), ROUGHLY)
-        if not self._meets(place.fine):
+        if not self.meshes.fine.meets_mirror_image(place.fine, NEARLY):
             place = locate(*self.segments, _sense, (first, last))
         return place
 

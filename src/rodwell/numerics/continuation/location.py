@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.quantities.arrays import FloatArray
 
 PLACE_TOLERANCE = 1e-12
@@ -21,6 +22,10 @@ BESIDE = 0.01
 
 class LocationError(RuntimeError):
     """A zero known to lie between two points could not be located; a shorter step is needed."""
+
+
+class LeftTheBranchError(LocationError):
+    """The two ends of a step are not on one branch."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
-from rodwell.numerics.equilibria.family import State
+from rodwell.numerics.equilibria.state import State
 from rodwell.quantities.arrays import FloatArray
 
 MOST_POINTS = 5

@@ -14,8 +14,9 @@ import numpy as np
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.continuation.location import LocationError, Segment
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.newton import dot, symmetrise
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.banded import factorise, multiply, solve
 from rodwell.numerics.splines.held import gather, spread

@@ -13,13 +13,21 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rodwell.numerics.continuation.closing import CLOSED, closes
 from rodwell.numerics.continuation.events import Event, LocatedEvent, events_between
-from rodwell.numerics.continuation.location import LocationError
+from rodwell.numerics.continuation.location import LeftTheBranchError, LocationError
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
-from rodwell.numerics.equilibria.family import Outcome, State
+from rodwell.numerics.equilibria.family import Outcome
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
+
+DOUBTED_STEP = 0.02
+"""A step, as a part of the first, past a place where branches come closer to each other than can be told apart."""
+
+FEWEST_OF_A_LOOP = 6
+"""Points after which a branch may have come back to its start."""
 
 LARGEST_PREDICTION_ERROR = 0.2
 """A step whose end lies farther from where it was predicted, as a part of its length, may have left the branch."""
@@ -57,7 +65,7 @@ class Trace:
 
 Progress = Callable[[MeshedState], None]
 Stop = Callable[[LocatedEvent], str]
-"""Why the branch ends at something located, or "" if it goes on."""
+"""Why the branch ends at something located, or "" if it goes on; a LocationError if that is not to be trusted."""
 
 
 def trace(
@@ -85,7 +93,11 @@ def trace(
 
 @dataclass
 class _Walk:
-    """What happens step by step, see :func:`trace`."""
+    """What happens step by step, see :func:`trace`.
+
+    After a step that had to be repeated, steps are ``careful`` until they are as long as the first: next to a sharp
+    turn the Hessian is nearly singular, and tangent and index that belong to the iterate before the last will not do.
+    """
 
     stepping: Stepping
     events: Sequence[Event]
@@ -94,6 +106,9 @@ class _Walk:
     trace: Trace
     predictor: Predictor
     softest: SoftestEigenvalues = field(default_factory=SoftestEigenvalues)
+    careful: bool = False
+    left: bool = False
+    doubted: bool = False
     work: float = 0.0
 
     def to_the_end(self, progress: Progress | None) -> None:
@@ -107,10 +122,14 @@ class _Walk:
             if trace.end:
                 return
             if isinstance(turn, str):
-                length = 0.5 * length
+                length, self.careful = 0.5 * length, True
                 self.predictor.restart(trace.points[-1].coarse)
+                if length < stepping.smallest and self.left and not self.doubted:
+                    self.doubted, length = True, DOUBTED_STEP * stepping.first  # branches closer than can be told apart
                 trace.end = turn if length < stepping.smallest else ""
                 continue
+            self.doubted = False
+            self.left = self.left and length < DOUBTED_STEP * stepping.first
             if length > stepping.smallest and self.softest.may_dip() and hidden_change(trace.meshes, trace.points):
                 length = 0.25 * min(length, trace.step_back(2))
                 self.predictor.restart(trace.points[-1].coarse)
@@ -118,6 +137,7 @@ class _Walk:
                 continue
             if progress is not None:
                 progress(trace.points[-1])
+            self.careful = self.careful and length < stepping.first
             length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
 
     def _limit(self) -> str:
@@ -141,35 +161,50 @@ class _Walk:
             if adopted is None:
                 return new_meshes.coarse.advice(outcome)
             base, factors = adopted, None
+        home = self._home(new_meshes, base, point)
+        point = home or point
         try:
             opening = len(trace.points) == 1
             leaves = opening and self.switched
-            found = events_between(new_meshes, base, point, self.events, opening=opening, leaves=leaves)
-        except LocationError as problem:
-            return str(problem)
+            found = events_between(
+                new_meshes, base, point, self.events, opening=opening, leaves=leaves, doubted=self.doubted
+            )
+            end = next((i for i, item in enumerate(found) if self.stop(item)), None)
+        except LocationError as error:
+            self.left = self.left or isinstance(error, LeftTheBranchError)
+            return str(error)
         trace.points[-1], trace.meshes[-1] = base, new_meshes
-        end = next((i for i, item in enumerate(found) if self.stop(item)), None)
         if end is not None:
             found = found[: end + 1]
             trace.end, point, new_meshes = self.stop(found[end]), found[end].point, found[end].meshes
+        elif home is not None:
+            trace.end = CLOSED
         trace.found += [replace(item, after=len(trace.points) - 1) for item in found]
         trace.points.append(point)
         trace.meshes.append(new_meshes)
-        if end is None:
+        if not trace.end:
             if new_meshes is not meshes:
                 self.predictor.restart(base.coarse)
             self.predictor.add(point.coarse)
             self.softest.add(new_meshes, point, length, factors)
         return turn
 
+    def _home(self, meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> MeshedState | None:
+        """The start of the branch, if it has come back there in a step."""
+        trace = self.trace
+        if len(trace.points) < FEWEST_OF_A_LOOP:
+            return None
+        return closes(meshes, before, after, trace.meshes[0], trace.points[0])
+
     def _step(
         self, meshes: TwoMeshes, state: State, length: float
     ) -> tuple[str, TwoMeshes, MeshedState | None, float, FloatArray | None]:
         """Try one step: what went wrong (or ""), meshes, point or None, turn of the tangent, coarse factors."""
         expected = self.predictor.ahead(length)
-        outcome, coarse, prediction_error, factors = meshes.coarse.step_to(
-            state, length, *expected, meshes.coarse_tolerance
-        )
+        family, tolerance = meshes.coarse, meshes.coarse_tolerance
+        if self.careful:
+            family, tolerance = family.with_exact_tangent(), family.tolerance
+        outcome, coarse, prediction_error, factors = family.step_to(state, length, *expected, tolerance)
         if coarse is None:
             return meshes.coarse.advice(outcome), meshes, None, 0.0, None
         cosine = float(state.row @ coarse.tangent) + state.row_lam * coarse.tangent_lam
@@ -178,5 +213,5 @@ class _Walk:
             return "the branch turns too sharply to be followed", meshes, None, turn, None
         if prediction_error > LARGEST_PREDICTION_ERROR * length:
             return "the steps stray from the branch", meshes, None, turn, None
-        outcome, meshes, point = meshes.resolve(coarse)
+        outcome, meshes, point = meshes.resolve(coarse, exact=self.careful)
         return (meshes.coarse.advice(outcome) if outcome is not Outcome.CONVERGED else ""), meshes, point, turn, factors

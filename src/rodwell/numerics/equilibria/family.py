@@ -21,8 +21,9 @@ import numpy as np
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
 from rodwell.numerics.equilibria.newton import Tolerances
+from rodwell.numerics.equilibria.state import State, _part
 from rodwell.numerics.splines import assembly, banded
-from rodwell.numerics.splines.held import Ends, Held, spread
+from rodwell.numerics.splines.held import Ends, Held, gather, spread
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
@@ -37,71 +38,19 @@ class Outcome(Enum):
     OUT_OF_RANGE = "the state left the range of the model"
 
 
-EQUAL_COEFFICIENTS = 1e-15
-"""Coefficients that differ by no more are equal: a state may be zero up to this."""
-
-SYMMETRIC = 1e-5
-"""Largest asymmetry, relative to the largest coefficient, of a state that counts as symmetric."""
-
 EIGENVALUE_NOISE = 8.0 * float(np.finfo(float).eps)
 """Round-off left in a second variation, as a part of the size of its terms."""
 
 Given = Callable[[FloatArray], FloatArray]
 """Coefficients that vary along s: values (m, k) at places (m,)."""
 
+MIRROR = (-1, False)
+ALL_REFLECTIONS = MIRROR, (1, True), (-1, True)
+"""u → −u(s), u(1 − s), −u(1 − s)."""
+
 _NOTHING = np.empty(0)
 
 _OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
-
-
-@dataclass(frozen=True)
-class State:
-    """An equilibrium: coefficients ``c`` on ``space`` at parameter λ, with tangent and stability index.
-
-    ``tangent`` (n,) and ``tangent_lam`` have length one in the metric of the family; ``row`` (n,) and ``row_lam``
-    are their covector. ``index`` is the number of negative eigenvalues of the Hessian.
-    """
-
-    space: SplineSpace
-    c: FloatArray
-    lam: float
-    tangent: FloatArray
-    tangent_lam: float
-    row: FloatArray
-    row_lam: float
-    index: int
-    energy: float
-
-    @property
-    def symmetry(self) -> int:
-        """1 if the state is even about the middle, −1 if odd (up to a constant: a coil), 0 if neither."""
-        return self.symmetry_within(SYMMETRIC)
-
-    def symmetry_within(self, tolerance: float) -> int:
-        """Symmetry up to a part ``tolerance`` of the largest coefficient; the mesh must be symmetric."""
-        size = tolerance * float(np.max(np.abs(self.c))) + EQUAL_COEFFICIENTS
-        for parity in (1, -1):
-            if np.max(np.abs(self.c - self.symmetrised(parity))) <= 0.5 * size:
-                return parity
-        return 0
-
-    def symmetrised(self, parity: int) -> FloatArray:
-        """Coefficients of the even (1) or odd (−1) part; of a coil, odd about its middle."""
-        return _part(self.c, parity)
-
-    def reversed(self) -> State:
-        """Return the same state with the opposite direction of travel."""
-        return replace(self, tangent=-self.tangent, tangent_lam=-self.tangent_lam, row=-self.row, row_lam=-self.row_lam)
-
-    def along(self, other: State) -> float:
-        """Return the distance to ``other`` along the tangent of this state (same space)."""
-        return float(self.row @ (other.c - self.c) + self.row_lam * (other.lam - self.lam))
-
-
-def _part(c: FloatArray, parity: int) -> FloatArray:
-    """The even (1) or odd (−1, up to a constant) part of coefficients."""
-    middle = c[0] + c[-1] if parity < 0 else 0.0
-    return 0.5 * (c + parity * c[::-1] + middle)
 
 
 @dataclass(frozen=True)
@@ -110,7 +59,9 @@ class Family:
 
     ``path`` (4, k) gives the parameters p(λ) = path[0] + λ path[1] + cos λ path[2] + sin λ path[3], λ in degrees in the
     latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them. ``given`` are the
-    coefficients that vary along s, as the model names them.
+    coefficients that vary along s, as the model names them. ``reflections`` (sign, turned) are those, u(s) → ± u(s) or
+    ± u(1 − s), that make states of states all along the path; ``first_integral`` says that the density does not depend
+    on s, is quadratic in u″ at rest, and both ends are clamped at rest. Without one of these nothing branches.
     """
 
     model: Any
@@ -125,6 +76,8 @@ class Family:
     most_steps: int = 8
     extra_steps: int = 0
     given: Given | None = None
+    reflections: tuple[tuple[int, bool], ...] = ALL_REFLECTIONS
+    first_integral: bool = False
 
     def advice(self, outcome: Outcome) -> str:
         """What came of a solve, in words; where it left the range of the model, in the model's."""
@@ -136,6 +89,10 @@ class Family:
 
     def with_exact_tangent(self) -> Family:
         """Return the same family with tangents and index taken at the converged state, at the cost of a step."""
+        return self._exact
+
+    @cached_property
+    def _exact(self) -> Family:
         return replace(self, extra_steps=1)
 
     @cached_property
@@ -232,6 +189,7 @@ class Family:
     def _normalised(self, vector: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return a vector (n,) of length one in the product ∫u'v' ds, and its covector."""
         covector = banded.multiply(self.space.slope_gram, vector)
+        gather(covector, self.mesh.held, self.mesh.follows)  # what is held has no part in it
         length = float(np.sqrt(vector @ covector))
         return vector / length, covector / length
 
@@ -292,6 +250,34 @@ class Family:
         target = float(state.row @ state.c) + state.row_lam * state.lam + length
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)
         return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam), factors
+
+    def may_branch(self, before: State, after: State) -> bool:
+        """Whether other states may branch off between two states of a branch: the equations must allow it.
+
+        A reflection leaves the states as they are, and what branches off breaks it. Or there is a first integral, whose
+        values at two clamped ends are −½u″²: states have u″(0) = u″(1), or u″(0) = −u″(1), and those of one kind meet
+        those of the other where both vanish (u′ is the null vector there).
+        """
+        if self.parity != 0 or not before.c.any():
+            return True
+        parity = before.symmetry if before.space.symmetric else 0
+        if parity != 0 and (parity, True) in self.reflections:
+            return True
+        if not self.first_integral:
+            return False
+        bends = [state.space.evaluate(state.c, np.array([0.0, 1.0]), 3)[2] for state in (before, after)]
+        return bool(np.all(bends[0] * bends[1] <= 0.0))
+
+    def meets_mirror_image(self, state: State, tolerance: float) -> bool:
+        """Whether a branch that turns back in λ at a state meets its own mirror image there.
+
+        A reflection leaves the state as it is, to within ``tolerance``, and turns the branch round: the tangent has
+        the other symmetry. Where a branch of symmetric states folds, it has theirs.
+        """
+        if MIRROR in self.reflections and np.max(np.abs(state.c)) < tolerance * self.scale_c:
+            return True
+        parity = state.symmetry_within(tolerance) if self.parity == 0 and state.space.symmetric else 0
+        return parity != 0 and (parity, True) in self.reflections and self.loses(state, parity)
 
     def loses(self, state: State, parity: int) -> bool:
         """Whether the branch through a state breaks its symmetry rather than keep it: so its tangent does."""

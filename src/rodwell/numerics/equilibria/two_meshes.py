@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error
-from rodwell.numerics.equilibria.family import Family, Outcome, State
+from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.quantities.arrays import FloatArray
@@ -138,9 +139,12 @@ class TwoMeshes:
         other.coarse, other.fine = (replace(f, path=path, ends=ends, parity=parity) for f in (self.coarse, self.fine))
         return other
 
-    def lift(self, coarse: State) -> tuple[Outcome, State | None]:
-        """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent."""
-        return _carry(coarse, self.up, self.fine)
+    def lift(self, coarse: State, *, exact: bool = False) -> tuple[Outcome, State | None]:
+        """Solve on the finer mesh, on the hyperplane through ``coarse`` normal to its tangent.
+
+        ``exact``: with tangent and index taken at the solution itself.
+        """
+        return _carry(coarse, self.up, self.fine.with_exact_tangent() if exact else self.fine)
 
     def point(self, coarse: State, fine: State) -> MeshedState:
         """Measure a pair of states."""
@@ -158,12 +162,12 @@ class TwoMeshes:
         _, fine, _ = self.fine.at(point.fine.c, lam)
         return None if coarse is None or fine is None else self.point(coarse, fine)
 
-    def resolve(self, coarse: State) -> tuple[Outcome, TwoMeshes, MeshedState | None]:
+    def resolve(self, coarse: State, *, exact: bool = False) -> tuple[Outcome, TwoMeshes, MeshedState | None]:
         """Complete a coarse state to a point within the tolerance, refining as often as that takes.
 
         Returns the outcome, the meshes on which the point stands, and the point (None if a solve failed).
         """
-        outcome, fine = self.lift(coarse)
+        outcome, fine = self.lift(coarse, exact=exact)
         if fine is None:
             return outcome, self, None
         meshes, point = self, self.point(coarse, fine)

@@ -123,10 +123,10 @@ class SplineSpace:
 
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
         """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
-        table, first = self._tabulated(np.ascontiguousarray(places, dtype=float), orders)
+        table, first = self.tabulated(np.ascontiguousarray(places, dtype=float), orders)
         return np.asarray(basis.combine_all(self.tags[0], table, first, coefficients))
 
-    def _tabulated(self, points: FloatArray, orders: int) -> tuple[FloatArray, NDArray[np.int64]]:
+    def tabulated(self, points: FloatArray, orders: int) -> tuple[FloatArray, NDArray[np.int64]]:
         """Basis table and first functions at ``points``: tables of the last few sets of places are kept.
 
         The states of a branch are all evaluated at the same places, and functions of the basis take ten times as long

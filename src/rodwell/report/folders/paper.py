@@ -76,7 +76,7 @@ def write_paper(
     share = 1.0 / (1.0 + 2.0 * len(drawn))
     if jobs > 1 and drawn and not first_run.done():  # first run of all: let one process compile
         work.branch(Work.WARM)
-    with whole_folder(out) as folder, _drawing(drawn, rtol, folder, jobs) as finished:
+    with whole_folder(out) as folder, _drawing(drawn, work, folder, jobs) as finished:
         table = agreement(only, work=work, progress=lambda what, done: tell(what, share * done))
         for count, name in enumerate(finished, start=1):
             tell(f"figures: {name} done", share + (1.0 - share) * count / len(drawn))
@@ -85,15 +85,15 @@ def write_paper(
 
 
 @contextmanager
-def _drawing(items: Sequence[Item], rtol: float, folder: Path, jobs: int) -> Iterator[Iterator[str]]:
+def _drawing(items: Sequence[Item], work: Work, folder: Path, jobs: int) -> Iterator[Iterator[str]]:
     """Yield the names of figures as they are finished; with several processes they are begun at once."""
     slowest_first = sorted(items, key=lambda item: item.name not in ("fig6", "fig5", "fig3", "fig11"))
     if jobs == 1 or not items:
-        yield (draw_item(item.name, rtol, folder) for item in items)
+        yield (draw_item(item.name, work.rtol, folder) for item in items)
         return
     pool = ProcessPoolExecutor(min(jobs, len(items)), mp_context=get_context("spawn"))
     try:
-        tasks: list[Future[str]] = [pool.submit(draw_item, item.name, rtol, folder) for item in slowest_first]
+        tasks: list[Future[str]] = [pool.submit(draw_item, item.name, work.rtol, folder) for item in slowest_first]
         yield (task.result() for task in as_completed(tasks))
     finally:
         pool.shutdown(cancel_futures=True)
@@ -123,7 +123,7 @@ def write_tables(table: Agreement, folder: Path) -> None:
 
 def cells(finding: Finding) -> tuple[str, ...]:
     """The columns ``HEAD`` of one finding."""
-    claim, computed = finding.claim, finding.found
+    claim, computed = finding.claim, finding.computed
     error = "0" if computed.error == 0.0 else short(computed.error)
     return claim.place, claim.quantity, minus(claim.printed), number(computed), error, finding.verdict
 

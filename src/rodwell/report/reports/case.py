@@ -214,9 +214,9 @@ def _validity(answer: Answer) -> ReportSection:
 
 
 def _trust(answer: Answer) -> ReportSection:
-    found = certificate(answer.worst_certificate)
+    left = certificate(answer.worst_certificate)
     tolerance = minus(f"{answer.case.rtol:g}")
-    passed = "passed" if found["passed"] else "not passed"
+    passed = "passed" if left["passed"] else "not passed"
     met = "is met by every number" if answer.converged else "is not met by every number"
     return ReportSection(
         "How far the numbers can be trusted",
@@ -229,10 +229,10 @@ def _trust(answer: Answer) -> ReportSection:
                 "Every state was put into the paper's own system, which the solver does not use: fifteen "
                 "differential equations, fifteen end conditions, and the relations between rod, cylinder and "
                 "contact. What is left of each, divided by its largest term along the rod, is at most "
-                f"{found['worst']} (in {found['where']}); the limit is {found['limit']}: {passed}. For the state that "
+                f"{left['worst']} (in {left['where']}); the limit is {left['limit']}: {passed}. For the state that "
                 "fits least well:"
             ),
-            Grid(("Equations of the paper", "What is left"), tuple(found["groups"]), numeric=(1,)),
+            Grid(("Equations of the paper", "What is left"), tuple(left["groups"]), numeric=(1,)),
             Words(
                 "The theory is geometrically exact for a rod that stays on the wall: no small-angle or "
                 "small-deflection assumption is made. Pressures and mud act through effective force and buoyed "

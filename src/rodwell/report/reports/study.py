@@ -94,11 +94,11 @@ def _status(study: Study) -> Status:
 
 def _at_loads(study: Study) -> tuple[Status, ...]:
     """How the rod stands at the loads that act, if there are any: the worst of all points."""
-    loads = [one for point in study.points for one in point.loads]
+    loads = [state for point in study.points for state in point.loads]
     if not loads:
         return ()
-    bad = sum(load_columns.fails(one) for one in loads)
-    buckled = sum(one.what == BUCKLED for one in loads)
+    bad = sum(load_columns.fails(state) for state in loads)
+    buckled = sum(state.what == BUCKLED for state in loads)
     if bad:
         why = "it leaves the wall, takes another shape, exceeds a strength, or is not known"
         return (
@@ -145,13 +145,13 @@ def _loads(study: Study) -> tuple[ReportSection, ...]:
         return ()
     scale, force, _, _ = scales(study)
     pairs = [
-        (one, row)
+        (state, row)
         for point in study.points
-        for one, row in zip(point.loads, load_columns.cells(study, point, scale), strict=True)
+        for state, row in zip(point.loads, load_columns.cells(study, point, scale), strict=True)
     ]
     columns = tuple(_breakable(title) for title in load_columns.head(study, force))
     numeric = tuple(i for i, title in enumerate(columns) if title != "the rod is")
-    marked = tuple(i for i, (one, _) in enumerate(pairs) if load_columns.fails(one))
+    marked = tuple(i for i, (state, _) in enumerate(pairs) if load_columns.fails(state))
     grid = Grid(columns, tuple(tuple(row) for _, row in pairs), numeric=numeric, marked=marked)
     notes = Words(" ".join((load_columns.LEGEND, *load_columns.NOTES)), "small")
     return (ReportSection("At the loads that act", (grid, notes)),)

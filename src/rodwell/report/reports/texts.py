@@ -64,7 +64,7 @@ def derived(case: Case) -> list[tuple[str, str]]:
         ("weight γ = mg L³/B", f"{p.weight:.8g}"),
         ("angle α from the vertical", f"{p.alpha:g}°"),
         ("clearance Δ/L (between the axes)", f"{p.clearance:.6g}"),
-        ("Poisson's ratio ν", f"{p.poisson:g}"),
+        ("Poisson's ratio ν", f"{p.poisson:g}") if p.torsion is None else ("torsional stiffness C/B", f"{p.torsion:g}"),
         ("end twisting moment T₁", f"{p.twist:g} B/L"),
     ]
     if case.scales is not None:

@@ -84,12 +84,12 @@ def agreement(
     """
     items, work = chosen(only), work or Work()
     pairs = [(item, claim) for item in items for claim in _claims(item)]
-    found = []
+    findings = []
     for i, (item, claim) in enumerate(pairs):
         if progress is not None:
             progress(f"numbers: {item.title}", i / len(pairs))
-        found.append(claim.check(work))
-    return Agreement(tuple(found), work.rtol)
+        findings.append(claim.check(work))
+    return Agreement(tuple(findings), work.rtol)
 
 
 def _claims(item: Item) -> list[Any]:

@@ -77,13 +77,13 @@ class Claim:
 
     def check(self, work: Work) -> Finding:
         """Compute the number and compare."""
-        found = self.compute(work)
-        agrees = matches(self.printed, found, self.rule, self.formula)
+        computed = self.compute(work)
+        agrees = matches(self.printed, computed, self.rule, self.formula)
         documented, evidence = False, ""
         if not agrees and self.known is not None:
-            documented = matches(self.known.correct, found)
+            documented = matches(self.known.correct, computed)
             evidence = self.known.evidence(work)
-        return Finding(self, found, agrees, documented, evidence)
+        return Finding(self, computed, agrees, documented, evidence)
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class Finding:
     ----------
     claim
         What is printed.
-    found
+    computed
         What is computed, with its error.
     agrees
         Whether all printed digits agree.
@@ -105,7 +105,7 @@ class Finding:
     """
 
     claim: Claim
-    found: Value
+    computed: Value
     agrees: bool
     documented: bool
     evidence: str
@@ -129,31 +129,31 @@ class Finding:
             "place": self.claim.place,
             "quantity": self.claim.quantity,
             "printed": self.claim.printed,
-            "computed": self.found.value,
-            "error": self.found.error,
+            "computed": self.computed.value,
+            "error": self.computed.error,
             "agrees": self.agrees,
             "verdict": self.verdict,
             "remark": self.remark,
         }
 
 
-def matches(printed: str, found: Value, rule: str = DIGITS, formula: float | None = None) -> bool:
+def matches(printed: str, computed: Value, rule: str = DIGITS, formula: float | None = None) -> bool:
     """Whether a computed value agrees with what is printed.
 
     ``DIGITS``: it rounds to the printed digits, to within its error, and the error is less than half a unit of the last
     one. ``INTERVAL``: it lies in "a ± b". ``FORMULA``: it is what the formula gives, to within its error.
     """
-    if not (math.isfinite(found.value) and math.isfinite(found.error)):
+    if not (math.isfinite(computed.value) and math.isfinite(computed.error)):
         return False
     if rule == FORMULA:
         assert formula is not None
-        return abs(found.value - formula) <= found.error + FORMULA_NOISE * max(1.0, abs(formula))
+        return abs(computed.value - formula) <= computed.error + FORMULA_NOISE * max(1.0, abs(formula))
     if rule == INTERVAL:
         middle, width = (float(part) for part in printed.split("±"))
-        return abs(found.value - middle) <= width + found.error and found.error < width
+        return abs(computed.value - middle) <= width + computed.error and computed.error < width
     half = 0.5 * 10.0 ** -decimals(printed)
-    close = abs(found.value - float(printed)) <= half * (1.0 + 1e-9) + found.error
-    return close and found.error < half
+    close = abs(computed.value - float(printed)) <= half * (1.0 + 1e-9) + computed.error
+    return close and computed.error < half
 
 
 def typeset(text: str) -> str:

@@ -40,8 +40,8 @@ def fig4(work: Work) -> tuple[Solution, ...]:
 
     Of the images of the branch, the one that starts on the arm ω₂(1) < 0 of mode 1 ("the lower branch").
     """
-    found = diagram(rod(15.0), modes=2, until=-400.0, rtol=work.rtol, largest_step=0.03)
-    branch = found["secondary 1"]
+    whole = diagram(rod(15.0), modes=2, until=-400.0, rtol=work.rtol, largest_step=0.03)
+    branch = whole["secondary 1"]
     if branch.numbers(Measured.OMEGA2_1)[0] > 0.0:
         raise NotConvergedError("the branch without symmetry leaves the other arm of mode 1")
     return tuple(branch[i] for i in _evenly(branch, BETWEEN + 2))

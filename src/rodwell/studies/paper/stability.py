@@ -109,11 +109,11 @@ def fig5(work: Work) -> Fig5:
 
 def sound(curves: Iterable[Curve]) -> tuple[Curve, ...]:
     """Return the curves, or raise if a point misses the tolerance, or if one does not reach the end of its range."""
-    found = tuple(curves)
-    for curve in found:
+    traced = tuple(curves)
+    for curve in traced:
         if not curve.converged or curve.ended_because != "end":
             raise NotConvergedError(f"{curve!r} at α = {curve.problem.alpha:g}: {curve.ended_because}")
-    return found
+    return traced
 
 
 def _piece(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray]:

@@ -56,10 +56,10 @@ class DoublePoint:
         Number of the pair of modes that switch, counted on the whole rod.
     """
 
-    def __init__(self, near: float, rank: int, rtol: float) -> None:
+    def __init__(self, near: float, rank: int, work: Work) -> None:
         def loads(weight: float) -> tuple[float, float, float]:
             halves = [
-                critical_loads(rod(weight / 16.0, ends=("clamped", middle)), rank, rtol=rtol)[-1]
+                critical_loads(rod(weight / 16.0, ends=("clamped", middle)), rank, rtol=work.rtol)[-1]
                 for middle in ("guided", "pinned")
             ]
             even, odd = (4.0 * half.force for half in halves)
@@ -79,7 +79,7 @@ class DoublePoint:
         slope = max(abs((now[i] - last[i]) / (x - before)) for i in (0, 1))
         self.weight = Value(x, error)
         self.force = Value(0.5 * (now[0] + now[1]), now[2] + slope * error)
-        self.pair = _pair(x, self.force, rank, rtol)
+        self.pair = _pair(x, self.force, rank, work)
 
     @property
     def wavenumbers(self) -> tuple[Value, Value]:
@@ -95,12 +95,12 @@ class DoublePoint:
         return out[0], out[1]
 
 
-def _pair(weight: float, force: Value, rank: int, rtol: float) -> int:
+def _pair(weight: float, force: Value, rank: int, work: Work) -> int:
     """Which pair of modes meets, from how many loads of the whole rod come before."""
-    found = critical_loads(rod(weight), 2 * rank + 1, rtol=rtol)
+    modes = critical_loads(rod(weight), 2 * rank + 1, rtol=work.rtol)
     margin = 1e-6 * abs(force.value)
-    before = sum(mode.force > force.value + margin for mode in found)
-    together = sum(abs(mode.force - force.value) <= margin for mode in found)
+    before = sum(mode.force > force.value + margin for mode in modes)
+    together = sum(abs(mode.force - force.value) <= margin for mode in modes)
     if together != 2 or before % 2:
         raise NotConvergedError(f"γ = {weight:g}: {together} loads near F = {force.value:g}, {before} before it")
     return before // 2 + 1
@@ -109,7 +109,7 @@ def _pair(weight: float, force: Value, rank: int, rtol: float) -> int:
 def double_point(work: Work, n: int, m: int) -> DoublePoint:
     """Return the double point of a row, computed once."""
     near = next(float(row[4]) for row in ROWS if row[:2] == (n, m))
-    return work.once(("double", n, m), lambda: DoublePoint(near, (m - n) // 2, work.rtol))
+    return work.once(("double", n, m), lambda: DoublePoint(near, (m - n) // 2, work))
 
 
 def claims() -> list[Claim]:

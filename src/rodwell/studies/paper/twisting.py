@@ -52,11 +52,11 @@ def _shift(work: Work) -> Value:
 def _reflection(work: Work) -> str:
     parts: list[str] = []
     for mirror, arm in ((True, "ω₂(1) > 0"), (False, "ω₂(1) < 0")):
-        found = work.twisted(rod(ODD), mirror=mirror)
+        torsion = work.twisted(rod(ODD), mirror=mirror)
         rates = ", ".join(
-            f"{rate:.6f} ± {error:.0e}" for rate, error in zip(found.rates, found.rate_errors, strict=True)
+            f"{rate:.6f} ± {error:.0e}" for rate, error in zip(torsion.rates, torsion.rate_errors, strict=True)
         )
-        again = "none" if found.again is None else f"{found.again.value:.6f}"
+        again = "none" if torsion.again is None else f"{torsion.again.value:.6f}"
         parts.append(f"on the arm {arm} dp/dT₁ = {rates} at the places that lift off, second lift-off at T₁ = {again}")
     text = "; ".join(parts)
     return f"{text[0].upper()}{text[1:]}. Reflection y → −y turns T₁ round, so this must be so."

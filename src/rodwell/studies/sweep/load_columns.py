@@ -50,7 +50,7 @@ def most_loads(study: Study) -> int:
 
 def kinds(study: Study) -> list[str]:
     """What gives at some point of a study, in the order of the table."""
-    return [kind for kind in UNTIL if any(kind in one.spare for point in study.points for one in point.loads)]
+    return [kind for kind in UNTIL if any(kind in state.spare for point in study.points for state in point.loads)]
 
 
 def columns(study: Study, force: str, per_length: str) -> list[str]:
@@ -70,7 +70,7 @@ def columns(study: Study, force: str, per_length: str) -> list[str]:
 
 
 def _any(study: Study, name: str) -> bool:
-    return any(getattr(one, name) is not None for point in study.points for one in point.loads)
+    return any(getattr(state, name) is not None for point in study.points for state in point.loads)
 
 
 def row(study: Study, point: StudyPoint) -> list[Cell]:
@@ -78,14 +78,14 @@ def row(study: Study, point: StudyPoint) -> list[Cell]:
     out: list[Cell] = []
     unit, per = point.factor("force"), point.factor("force_per_length")
     for k in range(most_loads(study)):
-        one = point.loads[k] if k < len(point.loads) else None
-        out += [None, None] if one is None else [one.load.force * unit, STATES[one.what]]
+        state = point.loads[k] if k < len(point.loads) else None
+        out += [None, None] if state is None else [state.load.force * unit, STATES[state.what]]
         for kind in kinds(study):
-            out += pair(None if one is None else one.spare.get(kind), unit)
-        out += pair(None if one is None else one.contact, per)
+            out += pair(None if state is None else state.spare.get(kind), unit)
+        out += pair(None if state is None else state.contact, per)
         for name in ("stress", "safety"):
             if _any(study, name):
-                out += pair(None if one is None else getattr(one, name))
+                out += pair(None if state is None else getattr(state, name))
     return out
 
 
@@ -106,7 +106,7 @@ def head(study: Study, force: str, short: bool = False) -> list[str]:
 
 def _others(study: Study) -> bool:
     """Whether anything but buckling and lift-off is reached somewhere."""
-    exceeded = any(one.exceeded for point in study.points for one in point.loads)
+    exceeded = any(state.exceeded for point in study.points for state in point.loads)
     return exceeded or any(kind not in (BUCKLES, LIFTS_OFF) for kind in kinds(study))
 
 
@@ -118,11 +118,11 @@ LEGEND = (
 """What stands beside the table for reading."""
 
 
-def fails(one: LoadResult) -> bool:
+def fails(state: LoadResult) -> bool:
     """Whether the rod leaves the wall, takes another shape or is not known, or a strength is exceeded."""
-    over = any(spare.value < 0.0 for kind, spare in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF, UNSTABLE))
-    weak = one.safety is not None and one.safety.value < 1.0
-    return one.what in (LEFT, OTHER_SHAPE, UNKNOWN) or bool(one.exceeded) or over or weak
+    over = any(spare.value < 0.0 for kind, spare in state.spare.items() if kind not in (BUCKLES, LIFTS_OFF, UNSTABLE))
+    weak = state.safety is not None and state.safety.value < 1.0
+    return state.what in (LEFT, OTHER_SHAPE, UNKNOWN) or bool(state.exceeded) or over or weak
 
 
 def cells(study: Study, point: StudyPoint, scale: float) -> list[list[str]]:
@@ -133,14 +133,14 @@ def cells(study: Study, point: StudyPoint, scale: float) -> list[list[str]]:
     ]
     unit = point.factor("force") / scale
     rows = []
-    for one in point.loads:
-        out = [f"{one.load.force * unit:.5g}", WORDS[one.what]]
+    for state in point.loads:
+        out = [f"{state.load.force * unit:.5g}", WORDS[state.what]]
         for kind in (BUCKLES, LIFTS_OFF):
-            out += _texts(one.spare.get(kind), unit)
+            out += _texts(state.spare.get(kind), unit)
         if _others(study):
-            out += _first(one, unit)
+            out += _first(state, unit)
         if _any(study, "safety"):
-            out += _texts(one.safety, 1.0)
+            out += _texts(state.safety, 1.0)
         rows.append([*inputs, *(minus(text) for text in out)])
     return rows
 
@@ -149,11 +149,11 @@ def _texts(number: Value | None, unit: float) -> list[str]:
     return ["–", "–"] if number is None else [f"{number.value * unit:.4g}", f"{number.error * unit:.0e}"]
 
 
-def _first(one: LoadResult, unit: float) -> list[str]:
+def _first(state: LoadResult, unit: float) -> list[str]:
     """What gives first as compression grows, buckling and lift-off aside."""
-    if one.exceeded:
-        return [f"{UNTIL[one.exceeded[0]]}: at any load", "–"]
-    others = {kind: spare for kind, spare in one.spare.items() if kind not in (BUCKLES, LIFTS_OFF)}
+    if state.exceeded:
+        return [f"{UNTIL[state.exceeded[0]]}: at any load", "–"]
+    others = {kind: spare for kind, spare in state.spare.items() if kind not in (BUCKLES, LIFTS_OFF)}
     if not others:
         return ["–", "–"]
     kind = min(others, key=lambda key: others[key].value)
@@ -163,29 +163,29 @@ def _first(one: LoadResult, unit: float) -> list[str]:
 
 def load_sentences(study: Study) -> list[str]:
     """How the rod stands at the loads that act, over all points."""
-    pairs = [(point, one) for point in study.points for one in point.loads]
+    pairs = [(point, state) for point in study.points for state in point.loads]
     if not pairs:
         return []
-    counts = {what: sum(one.what == what for _, one in pairs) for what in STATES}
+    counts = {what: sum(state.what == what for _, state in pairs) for what in STATES}
     parts = [f"{STATES[what]} in {count}" for what, count in counts.items() if count]
     out = [f"At the loads that act (load.applied) the rod is {'; '.join(parts)}, of {len(pairs)} states."]
     for kind in (BUCKLES, LIFTS_OFF, UNSTABLE, YIELDS, CYLINDER, SUPPORT):
-        spare = [(one.spare[kind].value * point.factor("force"), point, one) for point, one in pairs
-                 if kind in one.spare]  # fmt: skip
+        spare = [(state.spare[kind].value * point.factor("force"), point, state) for point, state in pairs
+                 if kind in state.spare]  # fmt: skip
         if spare:
-            least, point, one = min(spare, key=lambda item: item[0])
+            least, point, state = min(spare, key=lambda item: item[0])
             text = "Least to spare until" if least >= 0.0 else "Furthest beyond where"
-            out.append(f"{text} {UNTIL[kind]}: {_force(study, abs(least))}, for {_which(study, point, one)}.")
-    safe = [(one.safety.value, point, one) for point, one in pairs if one.safety is not None]
+            out.append(f"{text} {UNTIL[kind]}: {_force(study, abs(least))}, for {_which(study, point, state)}.")
+    safe = [(state.safety.value, point, state) for point, state in pairs if state.safety is not None]
     if safe:
-        least, point, one = min(safe, key=lambda item: item[0])
-        out.append(f"Least safety factor of the rod against yield: {least:.3g}, for {_which(study, point, one)}.")
+        least, point, state = min(safe, key=lambda item: item[0])
+        out.append(f"Least safety factor of the rod against yield: {least:.3g}, for {_which(study, point, state)}.")
     return out
 
 
-def _which(study: Study, point: StudyPoint, one: LoadResult) -> str:
+def _which(study: Study, point: StudyPoint, state: LoadResult) -> str:
     """A point, and its load where there are several or where it does not vary."""
-    force = one.load.force * point.factor("force")
+    force = state.load.force * point.factor("force")
     return study.inputs(point) + ("" if study.load_varies else f", F = {_force(study, force)} at s = 1")
 
 

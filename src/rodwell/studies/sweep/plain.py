@@ -40,13 +40,14 @@ def _point_dict(study: Study, point: StudyPoint) -> dict[str, Any]:
         else {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "poisson": problem.poisson, "twist": problem.twist, "ends": list(problem.ends),
+            **problem.given_torsion,
         },
         "half_waves": point.half_waves,
         "places": list(point.places),
         "reasons": dict(point.reasons or {}),
     }  # fmt: skip
     out["validity"] = None if point.validity is None else point.validity.as_dict()
-    out["applied"] = [load_dict(point, one) for one in point.loads]
+    out["applied"] = [load_dict(point, state) for state in point.loads]
     out["used_at_lift_off"] = {kind: _number(used) for kind, used in point.used.items()}
     for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
         out[name] = _number(getattr(point, name), point.scales, dimension)
@@ -61,18 +62,18 @@ def _number(number: Value | None, scales: Scales | None = None, dimension: str =
     return out if scales is None else out | {"si": scales.si(number, dimension)}
 
 
-def load_dict(point: StudyPoint, one: LoadResult) -> dict[str, Any]:
+def load_dict(point: StudyPoint, state: LoadResult) -> dict[str, Any]:
     """One load as plain data, for JSON: units B = L = 1, SI beside where there are dimensions; stress in Pa."""
     return {
-        "given": one.load.given,
-        "at": "bottom" if one.load.bottom else "top",
-        "kind": "real" if one.load.real else "effective",
-        "force": _number(Value(one.load.force), point.scales, "force"),
-        "what": one.what,
-        "why": one.why,
-        "to_spare": {kind: _number(spare, point.scales, "force") for kind, spare in one.spare.items()},
-        "exceeded_at_any_load": list(one.exceeded),
-        "largest_wall_force": _number(one.contact, point.scales, "force_per_length"),
-        "rod_stress_Pa": _number(one.stress),
-        "safety_factor": _number(one.safety),
+        "given": state.load.given,
+        "at": "bottom" if state.load.bottom else "top",
+        "kind": "real" if state.load.real else "effective",
+        "force": _number(Value(state.load.force), point.scales, "force"),
+        "what": state.what,
+        "why": state.why,
+        "to_spare": {kind: _number(spare, point.scales, "force") for kind, spare in state.spare.items()},
+        "exceeded_at_any_load": list(state.exceeded),
+        "largest_wall_force": _number(state.contact, point.scales, "force_per_length"),
+        "rod_stress_Pa": _number(state.stress),
+        "safety_factor": _number(state.safety),
     }

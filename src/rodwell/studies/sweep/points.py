@@ -139,7 +139,7 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
         straight = validity_of(case, shared.critical, None)
         out = replace(out, loads=without_branch(case, shared.critical, str(error)), validity=straight)
-    amiss = "; ".join(dict.fromkeys(one.why for one in out.loads if one.why))
+    amiss = "; ".join(dict.fromkeys(state.why for state in out.loads if state.why))
     if amiss:
         reasons["applied"] = amiss
     return replace(out, reasons=reasons or None)

@@ -15,7 +15,7 @@ from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
 from rodwell.studies.sweep.points import StudyPoint, computed, computed_point
-from rodwell.studies.sweep.varied import LISTS, Varied, may_vary, varied_inputs
+from rodwell.studies.sweep.varied import LISTS, Varied, check_declared, may_vary, varied_inputs
 
 APPLIED = "load.applied"
 
@@ -105,7 +105,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     case
         Path of a case file, or its content as a dictionary. A list holds values as the case file would have them
         (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both ends
-        included). Two inputs make a grid.
+        included). Two inputs make a grid. A file in which lists stand for several cases must say so, with
+        ``study = true`` at its top: a list may as well be meant as a taper.
     progress
         Called with what is being done and how much is done.
     units
@@ -120,6 +121,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
     """
     data, source, text = _read(case)
     try:
+        if not isinstance(case, Mapping):
+            check_declared(data)
         varied = varied_inputs(data)
     except InputError as error:
         raise CaseError(source, [(error.field, error.value, error.reason)]) from None
@@ -135,8 +138,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         raise cases[0]  # type: ignore[misc]
     points = _points(grid, cases, tell)
     tell("done", 1.0)
-    title = str(data.get("title", "Untitled study"))
-    return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, points)
+    title = str(data.get("title") or (Path(source).stem if text else "Parameter study"))
+    return Study(title, source, text, {k: v for k, v in data.items() if k not in ("title", "study")}, varied, points)
 
 
 def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[StudyPoint, ...]:
@@ -159,14 +162,17 @@ def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: P
 
 
 def is_study(path: Path) -> bool:
-    """Whether a file is a case file with a list or range; False for what cannot be read, which ``Case`` explains."""
+    """Whether a file is a case file with a range, or says that it is a study.
+
+    False for what cannot be read, and for lists in a file that does not say so: ``Case`` explains both.
+    """
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return False
     sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
     values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
-    return any(may_vary(name, value) for name, value in values)
+    return data.get("study") is True or any(isinstance(v, str) and may_vary(name, v) for name, v in values)
 
 
 def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from rodwell.case.explain import LIST, TAPER, TAPERED
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import in_unit_of
@@ -15,6 +16,9 @@ from rodwell.quantities.written import number_and_rest, remedy
 
 MOST_POINTS = 400
 """Points that one study may have."""
+
+LONGEST_RANGE = 200
+"""Characters of the longest text that is taken for a range: reading one takes more than linear time."""
 
 LISTS = ("catalogue", "load.applied")
 """Sections and keys in which a list is a list, not an input that varies; a range of ``load.applied`` varies."""
@@ -30,7 +34,7 @@ ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 d
 ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of loads that act, ["-20 kN", "-40 kN"]'
 
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
-_RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
+_RANGE_LIKE = re.compile(r"(?:\.\.|…).*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
 """What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
 
 
@@ -71,14 +75,38 @@ class Varied:
         return minus(f"{self.numbers[i]:.6g} {self.unit}".strip()).replace(" deg", "°")
 
 
+_THREE_DOTS = re.compile(r"\s*[+-]?(?:\d[^.…]*(?:\.\d[^.…]*)?)?(?:\.{3}|…).*")
+"""Three dots where a range has two, unless the first number begins with its point: ".1...3" is from .1 to .3."""
+
+
 def is_varied(value: object) -> bool:
     """Whether a value of a case file is a list or looks like a range."""
-    return isinstance(value, list | tuple) or (isinstance(value, str) and _RANGE_LIKE.search(value) is not None)
+    if isinstance(value, str):
+        return len(value) <= LONGEST_RANGE and _RANGE_LIKE.search(value) is not None
+    return isinstance(value, list | tuple)
 
 
 def may_vary(name: str, value: object) -> bool:
     """Whether the value of a key, "section.key", is one that varies: a list of loads that act is none, a range is."""
     return is_varied(value) and (name not in LISTS or isinstance(value, str))
+
+
+def check_declared(data: Mapping[str, Any]) -> None:
+    """Refuse lists of values in a case file that does not say that it is a study.
+
+    Raises
+    ------
+    InputError
+        For the first such list: it may as well be meant as a taper, or as loads that act.
+    """
+    if data.get("study") is True:
+        return
+    for section, values in data.items():
+        for key, value in values.items() if isinstance(values, Mapping) and section not in LISTS else ():
+            name = f"{section}.{key}"
+            if not isinstance(value, str) and may_vary(name, value) and not (FIXED.get(section) or FIXED.get(name)):
+                what = "is a list" + LIST + (TAPER if section == "rod" and key in TAPERED else "")
+                raise InputError(name, value, what)
 
 
 def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
@@ -116,6 +144,10 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
 def _range(section: str, key: str, text: str) -> Varied:
     """A range "30..90 deg in 13": both ends included, evenly spaced."""
     name = f"{section}.{key}"
+    if _THREE_DOTS.fullmatch(text):
+        meant = re.sub(r"\s*(?:\.{3}|…)\s*", "..", text, count=1)
+        what = f'has three dots; a range has two: write "{meant}", or a nought before a decimal point, "0..0.5 m in 3"'
+        raise InputError(name, text, what)
     parts = _RANGE.fullmatch(text)
     start = None if parts is None else number_and_rest(parts["first"])
     end = None if parts is None else number_and_rest(parts["last"])

@@ -73,13 +73,13 @@ class Survey:
         """
         file = Path(path)
         given = {"md": depth_unit, "inclination": angle_unit, "azimuth": angle_unit, "force": force_unit}
-        found = read_columns(file, given)
-        columns, wheres = found.values, [f"{file.name}, line {line}" for line in found.lines]
+        table = read_columns(file, given)
+        columns, wheres = table.values, [f"{file.name}, line {line}" for line in table.lines]
         _check(columns["md"], columns["inclination"], wheres)
         arrays = {key: np.array(values) for key, values in columns.items()}
         return cls(
             arrays["md"], arrays["inclination"], arrays.get("azimuth"), arrays.get("force"),
-            file.name, found.depth_unit, found.ignored,
+            file.name, table.depth_unit, table.ignored,
         )  # fmt: skip
 
     @classmethod

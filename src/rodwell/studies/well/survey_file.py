@@ -61,24 +61,24 @@ def read_columns(path: Path, units: Mapping[str, str | None]) -> Columns:
     lines = _lines(path)
     source = path.name
     number, head = lines[0]
-    found, named, ignored = _header(source, number, head)
+    places, named, ignored = _header(source, number, head)
     body = lines[1:]
-    if body and _is_unit_row(body[0][1], found):
-        named = {**named, **{key: body[0][1][i].strip(" []()") for key, i in found.items() if body[0][1][i].strip()}}
+    if body and _is_unit_row(body[0][1], places):
+        named = {**named, **{key: body[0][1][i].strip(" []()") for key, i in places.items() if body[0][1][i].strip()}}
         body = body[1:]
     factors, written = {}, {}
-    for key in found:
+    for key in places:
         written[key] = _unit(source, key, named.get(key), units.get(key))
         factors[key] = in_unit_of(1.0, written[key], UNITS[key])
     if len(body) < 2:
         raise InputError(source, None, "holds fewer than two stations below its header")
     if len(body) > MOST_STATIONS:
         raise InputError(source, None, f"holds {len(body)} stations; at most {MOST_STATIONS} are read")
-    values: dict[str, list[float]] = {key: [] for key in found}
+    values: dict[str, list[float]] = {key: [] for key in places}
     for line, cells in body:
-        if len(cells) <= max(found.values()):
+        if len(cells) <= max(places.values()):
             raise InputError(f"{source}, line {line}", None, f"has {len(cells)} cells, fewer than the header names")
-        for key, i in found.items():
+        for key, i in places.items():
             values[key].append(_number(source, line, head[i], cells[i]) * factors[key])
     return Columns(values, [line for line, _ in body], written["md"], ignored)
 
@@ -116,7 +116,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
 
 def _header(source: str, line: int, head: list[str]) -> tuple[dict[str, int], dict[str, str], tuple[str, ...]]:
     """Which column is which, the units that the header names, and the columns that are left aside."""
-    found: dict[str, int] = {}
+    places: dict[str, int] = {}
     named: dict[str, str] = {}
     ignored = []
     for i, cell in enumerate(head):
@@ -124,17 +124,17 @@ def _header(source: str, line: int, head: list[str]) -> tuple[dict[str, int], di
         if key is None:
             ignored.append(cell.strip())
             continue
-        if key in found:
+        if key in places:
             raise InputError(f"{source}, line {line}", cell.strip(), f"is a second column for {key}: leave only one")
-        found[key] = i
+        places[key] = i
         if unit:
             named[key] = unit
     for key, word in (("md", "measured depth"), ("inclination", "inclination")):
-        if key not in found:
+        if key not in places:
             names = ", ".join(COLUMNS[key][:4])
             what = f"no column of {word}; name one of the columns {names}, for example MD [m],Inc [deg]"
             raise InputError(f"{source}, line {line}", ", ".join(c.strip() for c in head), what)
-    return found, named, tuple(name for name in ignored if name)
+    return places, named, tuple(name for name in ignored if name)
 
 
 def _column(cell: str) -> tuple[str | None, str]:
@@ -151,9 +151,9 @@ def _column(cell: str) -> tuple[str | None, str]:
     return None, ""
 
 
-def _is_unit_row(cells: list[str], found: Mapping[str, int]) -> bool:
+def _is_unit_row(cells: list[str], places: Mapping[str, int]) -> bool:
     """Whether a line holds units below the header, not a station."""
-    texts = [(key, cells[i].strip(" []()").lower()) for key, i in found.items() if i < len(cells)]
+    texts = [(key, cells[i].strip(" []()").lower()) for key, i in places.items() if i < len(cells)]
     return bool(texts) and any(t for _, t in texts) and all(not t or t in SPELT[key] for key, t in texts)
 
 

@@ -30,6 +30,9 @@ MOST_JOINTS = 3.0
 SOFTEST, STIFFEST = 1e4, 1.5e12
 """Bending stiffness over the outer circle's second moment of area in Pa."""
 
+TWISTS = (1e-5, 1e3)
+"""Torsional over bending stiffness C/B: 0.77 for steel, 13 for a colonoscope; cables and coils are soft in torsion."""
+
 MOST_STRAIN = 0.05
 """Axial strain F/EA that no load puts on a stiff material (above 5 GPa); on a soft one, 1 is the bound."""
 
@@ -44,6 +47,7 @@ def misfits(parsed: schema.CaseFile, load: schema.LoadInput, found: Physical) ->
     yield from _weight(parsed.rod, parsed.hole, found)
     yield from _material(parsed.rod, found)
     yield from _sizes(parsed.rod, parsed.hole, found)
+    yield from _torsion(parsed.rod, found)
     yield from _loads(load, found)
 
 
@@ -104,6 +108,16 @@ def _sizes(rod: schema.RodInput, hole: schema.Hole, found: Physical) -> Iterator
             what = f"would take a modulus of {_text(modulus / 1e9)} GPa in a solid rod of this outer diameter"
             what += f", outside {_text(SOFTEST / 1e9)} to {_text(STIFFEST / 1e9)} GPa"
             yield "rod.bending_stiffness", f"{what}: check its unit (N m² or N mm²?) and the diameter's"
+
+
+def _torsion(rod: schema.RodInput, found: Physical) -> Iterator[Misfit]:
+    """Torsional beside bending stiffness."""
+    if rod.torsional_stiffness is None:
+        return
+    ratio = rod.torsional_stiffness / found.rod.stiffness
+    if not TWISTS[0] <= ratio <= TWISTS[1]:
+        what = f"is {_text(ratio)} times the bending stiffness, outside {TWISTS[0]:g} to {TWISTS[1]:g}"
+        yield "rod.torsional_stiffness", f"{what}: check its unit (N m² or N mm²?)"
 
 
 def _loads(load: schema.LoadInput, found: Physical) -> Iterator[Misfit]:

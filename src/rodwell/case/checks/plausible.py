@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.case import schema
-from rodwell.case.fit import misfits
+from rodwell.case.checks.fit import misfits
 from rodwell.case.physical import Physical
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import KINDS, in_unit_of, to_si
@@ -64,6 +64,11 @@ _PRESSURE = Range(0.0, 4e8, "pressure", "pressures reach 400 MPa", (1e5, 2e8), o
 _FORCE = Range(0.0, 3e8, "force", "loads reach 300 MN (legs of platforms)", (1e-3, 5e6), or_zero=True)
 _MOMENT = Range(0.0, 1e8, "moment", "torques reach 100 MN m", (1e-6, 1e5), or_zero=True)
 
+_STIFFNESS = Range(
+    1e-20, 1e13, "bending stiffness", "stiffnesses are from 1e-20 N m² (fibres) to 1e13 N m² (legs of platforms)",
+    (1e-9, 1e9),
+)  # fmt: skip
+
 RANGES: dict[str, Range] = {
     "rod.length": Range(1e-6, 2e4, "length", "rods are from 1 µm to 20 km (drill strings) long", (5e-3, 1e4)),
     "rod.outer_diameter": _DIAMETER,
@@ -71,10 +76,8 @@ RANGES: dict[str, Range] = {
     "rod.youngs_modulus": Range(
         3e5, 1.5e12, "stress", "moduli are from 0.3 MPa (silicone rubber) to 1500 GPa (diamond, nanotubes)", (1e9, 5e11)
     ),
-    "rod.bending_stiffness": Range(
-        1e-20, 1e13, "bending stiffness", "stiffnesses are from 1e-20 N m² (fibres) to 1e13 N m² (legs of platforms)",
-        (1e-9, 1e9),
-    ),
+    "rod.bending_stiffness": _STIFFNESS,
+    "rod.torsional_stiffness": _STIFFNESS,
     "rod.density": Range(
         10.0, 25000.0, "density", "materials weigh from 10 kg/m³ (foams) to 25,000 kg/m³ (osmium)", (1000.0, 2e4)
     ),

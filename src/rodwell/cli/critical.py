@@ -1,0 +1,141 @@
+"""``rodwell critical``: critical loads of the straight rod, with the wall's help and without."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rodwell.cli.options import json_option, make_problem, print_json, problem_options, rtol_option
+
+if TYPE_CHECKING:
+    from rodwell.analysis.straight.critical import CriticalLoads
+    from rodwell.analysis.straight.without_wall import LoadsWithoutWall, SpatialMode
+    from rodwell.problem.problem import Problem
+
+UNIT = "B/L²"
+COLUMNS = 80
+
+
+@click.command()
+@problem_options()
+@click.option("--modes", default=5, show_default=True, help="How many critical loads.")
+@rtol_option
+@json_option
+def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
+    """Critical loads of the straight rod.
+
+    End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows: with the
+    wall's help, and without. Twist does not enter as long as lateral weight presses the rod to the wall; where nothing
+    does, and without the wall's help, it makes the rod buckle earlier.
+    """
+    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
+    from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
+
+    problem = make_problem(given)
+    loads = critical_loads(problem, modes, rtol=rtol)
+    free = loads_without_wall(problem, rtol=rtol)
+    if as_json:
+        print_json(_data(loads, free))
+    elif _untouched(problem):
+        _print_untouched(loads, free)
+    else:
+        _print_pressed(loads, free)
+
+
+def _untouched(problem: Problem) -> bool:
+    """Whether twist counts, since nothing presses the rod to the wall."""
+    return problem.twist != 0.0 and problem.lateral_weight == 0.0
+
+
+def _data(loads: CriticalLoads, free: LoadsWithoutWall) -> dict[str, Any]:
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem, kept = free.problem, (loads.forces, loads.errors)
+    data: dict[str, Any] = {}
+    if _untouched(problem):
+        touch = free.at_wall
+        assert touch is not None
+        data = {
+            "critical_loads": [touch.force],
+            "error": [touch.error],
+            "moves_inward": touch.moves_inward,
+            "contacts": [list(contact) for contact in touch.contacts],
+            "kept_on_wall": {"loads": [float(f) for f in kept[0]], "error": [float(e) for e in kept[1]]},
+        }
+    else:
+        data = {"critical_loads": [float(f) for f in kept[0]], "error": [float(e) for e in kept[1]]}
+    return {
+        **data,
+        "tensile_loads": [],
+        "without_wall": {"loads": [float(f) for f in free.forces], "error": [float(e) for e in free.errors]},
+        "unit": "B/L^2",
+        "convention": "end force at s = 1, tension positive; " + ends_text(problem),
+    }
+
+
+def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
+    """Loads of a rod that weight presses to the wall, that weight would pull off it, or that no twist moves off it."""
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem, alone = free.problem, free.modes[0]
+    if problem.twist != 0.0:
+        _say(
+            f"Twist does not enter while weight keeps the rod on the wall. Without the wall's help it does: the rod "
+            f"would buckle at {alone.force:.6g} {UNIT}."
+        )
+    if problem.lateral_weight > 0.0 and not problem.pressed:
+        _say("Weight pulls this rod off the wall: the loads below are those of a rod that is kept on it.")
+    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    for mode in loads:
+        symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
+        number = "0   the rod turns as a rigid body" if mode.rigid else f"{mode.force:+.10g}  ± {mode.error:.1e}"
+        click.echo(f"  mode {mode.number:>2}  {number}   {symmetry}")
+    click.echo(_line("without the wall's help", alone))
+    first = loads[0]
+    if first.rigid:
+        click.echo("Any compression turns the straight rod as a rigid body.")
+    elif first.force > 0.0:
+        click.echo(f"The rod buckles under its own weight unless it is held in tension of {first.force:.6g} {UNIT}.")
+    else:
+        click.echo(f"The straight rod is stable up to a compression of {-first.force:.6g} {UNIT} at s = 1.")
+
+
+def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
+    """Loads of a twisted rod that lies at the wall without being pressed to it."""
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem, touch = free.problem, free.at_wall
+    assert touch is not None
+    at = "without any end force" if abs(touch.force) <= touch.error else f"at {touch.force:.6g} {UNIT}"
+    _say(
+        f"Nothing presses this rod to the wall, so twist counts: the rod buckles {at}, not at {loads[0].force:.6g} "
+        f"like a rod that is kept on the wall."
+    )
+    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    click.echo(_line("with the wall's help", touch))
+    click.echo(_line("without the wall's help", free.modes[0]))
+    for mode in loads:
+        click.echo(f"  kept on the wall, mode {mode.number:>2}  {mode.force:+.10g}  ± {mode.error:.1e}")
+    if touch.moves_inward:
+        click.echo("The mode moves inwards only: the wall does not help.")
+    else:
+        places = ", ".join(f"{a:.3g}" if a == b else f"{a:.3g} to {b:.3g}" for a, b in touch.contacts)
+        _say(f"The mode needs the wall, at s/L = {places}.")
+    if abs(touch.force) <= touch.error:
+        click.echo("The straight rod bears no compression.")
+    elif touch.force > 0.0:
+        click.echo(f"The rod buckles unless it is held in tension of {touch.force:.6g} {UNIT}.")
+    else:
+        click.echo(f"The straight rod is stable up to a compression of {-touch.force:.6g} {UNIT} at s = 1.")
+
+
+def _line(name: str, mode: SpatialMode) -> str:
+    if mode.rigid:
+        return f"  {name}  0   the rod moves as a rigid body"
+    return f"  {name:<24}  {mode.force:+.10g}  ± {mode.error:.1e}"
+
+
+def _say(text: str) -> None:
+    click.echo(fill(text, COLUMNS, break_on_hyphens=False))

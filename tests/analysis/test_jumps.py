@@ -1,0 +1,81 @@
+"""Branches do not jump: what is found depends neither on the step, nor on the end asked for, nor on the direction."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rodwell import Branch, Problem, critical_loads, diagram, follow
+from rodwell.analysis.discrete.measures import Measured
+
+ENDS = ("clamped-clamped", "clamped-pinned", "pinned-clamped", "pinned-pinned", "clamped-guided")
+
+
+def special(branch: Branch) -> list[tuple[str, int, int]]:
+    return [(p.kind, p.index_before, p.index_after) for p in branch.special_points]
+
+
+def energy(branch: Branch, force: float) -> float:
+    return branch.at(force).number(Measured.ENERGY).value
+
+
+@pytest.mark.parametrize("until", [-700.0, -1500.0])
+def test_mode_2_next_to_an_unfolded_pitchfork(until: float) -> None:
+    """w = 15, α = 89°: an independent continuation with small steps has index 1 and this energy at F = −200."""
+    branch = follow(Problem(15.0, 89.0), 2, until=until)
+    state = branch.at(-200.0)
+    assert state.stability_index == 1
+    assert state.number(Measured.ENERGY).value == pytest.approx(-0.0568224, abs=1e-7)
+    assert [p.kind for p in branch.special_points] == ["critical", "lift_off", "end"]
+
+
+def test_the_fold_is_there_once_and_no_branch_point_where_symmetry_forbids_it() -> None:
+    result = diagram(Problem(15.0, 89.0), until=-1500.0, modes=2)
+    points = [p for branch in result for p in branch.special_points]
+    assert [p.force for p in points if abs(p.force + 358.9) < 1.0] == [pytest.approx(-358.8964174, abs=1e-7)]
+    assert not [p for p in points if p.kind == "branch_point"]
+    assert result.converged
+
+
+@pytest.mark.parametrize("weight", [62.33, 62.34, 62.345, 62.40])
+def test_secondary_bifurcation_next_to_a_double_load(weight: float) -> None:
+    """Two loads meet at γ = 62.34181826, F = −197.392088; the second branch is crossed close by, at any of these."""
+    branch = follow(Problem(weight), 2, until=-260.0)
+    first = branch.special_points[1]
+    assert (first.kind, first.index_before, first.index_after) == ("branch_point", 1, 0)
+    assert -1.5 < first.force - branch.force[0] < 0.0
+
+
+def test_clamped_ends_and_twist_let_branches_cross_without_a_reflection() -> None:
+    """The first integral has −½y″² at both ends: states with y″(0) = ±y″(1) meet where both vanish."""
+    branch = follow(Problem(15.0, twist=0.5), 2, until=-300.0)
+    (point,) = (p for p in branch.special_points if p.kind == "branch_point")
+    ends = point.solution.point.fine.space.evaluate(point.solution.point.fine.c, np.array([0.0, 1.0]), 3)[2]
+    middle = point.solution.largest("omega2").value
+    assert np.max(np.abs(ends)) < 1e-7 * middle
+    assert point.solution.certificate.passed
+
+
+@settings(max_examples=12)
+@given(
+    st.floats(8.0, 40.0), st.floats(-3.0, 1.0), st.sampled_from([0.0, 0.01, -0.3]), st.sampled_from(ENDS),
+    st.integers(1, 3),
+)  # fmt: skip
+def test_what_is_found_does_not_depend_on_the_step(
+    weight: float, tilt: float, twist: float, ends: str, mode: int
+) -> None:
+    """α from 80° to 89.999°, where pitchforks unfold: 0.1 and 5 times the usual step, and half the way."""
+    problem = Problem(weight, 90.0 - 10.0**tilt, twist=twist, ends=ends)
+    first = critical_loads(problem, mode)[mode - 1]
+    until = first.force - 180.0
+    usual = follow(problem, first, until=until)
+    for step in (0.006, 0.3):
+        other = follow(problem, first, until=until, largest_step=step)
+        assert special(other) == special(usual)
+        for one, same in zip(usual.special_points, other.special_points, strict=True):
+            assert one.force == pytest.approx(same.force, abs=1e-6)
+    half = follow(problem, first, until=0.5 * (first.force + until))
+    if half.reached_end and usual.reached_end:
+        assert energy(usual, half.force[-1]) == pytest.approx(half[-1].number(Measured.ENERGY).value, rel=1e-6)
