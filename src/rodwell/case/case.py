@@ -14,7 +14,7 @@ from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.case.checks.plausible import implausible
-from rodwell.case.checks.said import gauge_facts, in_written_units
+from rodwell.case.checks.said import gauge_facts, in_users_words
 from rodwell.case.checks.signs import check_loads
 from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
@@ -163,7 +163,7 @@ class Case(Shown):
         except CaseError:
             raise
         except InputError as error:
-            raise CaseError(source, [_in_users_words(data, error)]) from None
+            raise CaseError(source, [in_users_words(data, error)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
         return replace(case, uncertain=inputs, given=_given(data))
 
@@ -191,19 +191,6 @@ def _uncertain(
     if sides == [None, None]:
         raise CaseError("case", [(f"{section}.{key}", data[section][key], "moves out of what is allowed either way")])
     return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
-
-
-def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
-    """What the user wrote for a key, rather than what became of it; None stays None."""
-    section, _, key = field.partition(".")
-    written = data.get(section)
-    return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
-
-
-def _in_users_words(data: Mapping[str, Any], error: InputError) -> tuple[str, object, str]:
-    """Key, value as it was written, and reason in the units that were written."""
-    value = _as_written(data, error.field, error.value)
-    return error.field, value, in_written_units(error.reason, value)
 
 
 def _given(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -258,7 +245,7 @@ def _plausible(
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]
-        key, value, reason = _in_users_words(data, error)
+        key, value, reason = in_users_words(data, error)
         raise CaseError(
             source, [(key, value, "; it ".join([reason, *mine[:1]])), *(item for item in odd if item[0] != error.field)]
         ) from None

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from rodwell.case.facts import Fact
+from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import in_unit_of
 from rodwell.quantities.written import GAUGE, number_and_rest
@@ -48,6 +49,19 @@ def _goes_with(unit: str, other: str) -> bool:
 
 def _in(number: str, unit: str, other: str) -> str:
     return minus(f"{in_unit_of(float(number), unit, other):.6g} {other}")
+
+
+def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
+    """What the user wrote for a key, rather than what became of it; None stays None."""
+    section, _, key = field.partition(".")
+    written = data.get(section)
+    return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
+
+
+def in_users_words(data: Mapping[str, Any], error: InputError) -> tuple[str, object, str]:
+    """Key, value as it was written, and reason in the units that were written."""
+    value = _as_written(data, error.field, error.value)
+    return error.field, value, in_written_units(error.reason, value)
 
 
 def gauge_facts(data: Mapping[str, Any]) -> tuple[Fact, ...]:
