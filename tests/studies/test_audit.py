@@ -194,6 +194,79 @@ def test_bad_case() -> None:
         error_map(rodwell.Problem(15), (), (30.0,))
 
 
+FIELD: dict[str, Any] = {
+    "rod": {"pipe": "5 in 19.5 lb/ft drill pipe", "length": "300 ft", "grade": "S-135"},
+    "mud": {"density": "10 lb/gal"},
+    "hole": {"diameter": "8.5 in", "angle_from_vertical": "30 deg"},
+    "load": {"applied": ["-20000 lbf", "-35000 lbf", "90000 lbf tension"], "at": "bottom"},
+}
+
+
+def test_other_formulas_at_the_loads_that_act() -> None:
+    """Contact r F²/(4B) and pitch π√(8B/F) with the compression of the bottom: given there, so as it was given."""
+    case = rodwell.Case.from_dict(FIELD)
+    found = audit(case)
+    scales = case.scales
+    assert scales is not None
+    assert [one.load for one in found.applied] == list(case.applied)
+    assert [one.straight for one in found.applied] == [True, False, True]
+    lbf, radius = 4.4482216152605, 1.75 * 0.0254
+    for one, given in zip(found.applied, (20e3 * lbf, 35e3 * lbf), strict=False):
+        values = {other.formula.key: other.value for other in one.others}
+        assert values["helical_contact"] is not None
+        contact = values["helical_contact"] * scales.factor("force_per_length")
+        assert contact == pytest.approx(radius * given**2 / (4.0 * scales.stiffness), rel=1e-9)
+        pitch = next(other for other in one.others if other.formula.key == "lubinski_woods_pitch")
+        assert pitch.value is not None
+        assert pitch.value * scales.length == pytest.approx(math.pi * math.sqrt(8.0 * scales.stiffness / given))
+    pulled = {other.formula.key: other for other in found.applied[2].others}
+    assert pulled["helical_contact"].value is None
+    assert pulled["helical_contact"].missing == ("F",)
+
+
+def test_loads_that_act_in_the_data() -> None:
+    data = audit(rodwell.Case.from_dict(FIELD)).as_dict()
+    loads = data["at_applied_loads"]
+    assert [load["load"].partition(",")[0] for load in loads] == [f"applied load {i}" for i in (1, 2, 3)]
+    assert [load["straight"] for load in loads] == [True, False, True]
+    keys = [other["key"] for other in data["other_formulas"]]
+    assert all([other["key"] for other in load["other_formulas"]] == keys for load in loads)
+    assert audit(rodwell.Problem(15.0)).as_dict()["at_applied_loads"] == []
+    without = audit(rodwell.Case.from_dict({k: v for k, v in FIELD.items() if k != "load"})).as_dict()
+    assert without["at_applied_loads"] == []
+    assert without["other_formulas"] == data["other_formulas"]
+
+
+def test_loads_that_act_in_a_case_without_dimensions() -> None:
+    case = rodwell.Case.from_dict({"dimensionless": {"weight": 280.0}, "load": {"applied": -400.0}})
+    (one,) = audit(case).applied
+    assert one.exact.label == "applied load, −400 B/L² at the top"
+    contact = next(other for other in one.others if other.formula.key == "helical_contact")
+    assert contact.value == pytest.approx(0.01 * 400.0**2 / 4.0)
+
+
+@pytest.mark.parametrize(
+    "problem", [rodwell.Problem(280, alpha=30), rodwell.Problem(15), rodwell.Problem(1e4, alpha=88)]
+)
+def test_safe_is_said_only_of_formulas_that_are_valid(problem: rodwell.Problem) -> None:
+    found = audit(problem)
+    for row, data in zip(found.rows, found.as_dict()["formulas"], strict=True):
+        main = row.main
+        assert data["verdict"] == row.verdict
+        if main is None:
+            assert row.verdict == ""
+        elif row.verdict == "safe":
+            assert row.valid
+            assert main.safe
+            assert row.value != 0.0
+        elif row.verdict == "unsafe":
+            assert not main.safe
+        else:
+            assert row.verdict == ("no load" if row.value == 0.0 else "low")
+            assert row.value == 0.0 or (main.safe and not row.valid)
+    assert {row.verdict for row in found.rows} >= {"unsafe", "low"}
+
+
 # -- command
 
 DIMENSIONLESS = "[dimensionless]\nweight = 280\nalpha = 30\n"
@@ -221,6 +294,16 @@ def test_command_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     top = next(line for line in lines if (line["load"], line["place"]) == ("critical", "top"))
     assert float(top["percent"]) == pytest.approx(136.05, abs=0.01)
     assert top["safe"] == "False"
+
+
+def test_command_names_the_loads_that_act(tmp_path: Path) -> None:
+    field = Path(__file__).parents[2] / "examples" / "field-drill-pipe.toml"
+    done = run("audit", str(field), "--no-chart", "--out", str(tmp_path / "here"))
+    assert done.exit_code == 0, done.output
+    assert "at the first critical load (29109 lbf of compression at the bottom)" in done.output
+    assert "at the applied load, −35000 lbf at the bottom (35000 lbf of compression at the bottom)" in done.output
+    assert done.output.count("Contact force of the helix  ") == 2
+    assert "low: below it, but the formula is not meant for such a rod" in done.output
 
 
 def test_command_as_json_in_si(tmp_path: Path) -> None:

@@ -13,13 +13,16 @@ from pydantic import ValidationError
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.case.checks.plausible import implausible
+from rodwell.case.checks.said import gauge_facts, in_users_words
+from rodwell.case.checks.signs import check_loads
 from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.explain import SECTIONS, explain
 from rodwell.case.facts import Fact
 from rodwell.case.file import read_toml
 from rodwell.case.fluids import NO_FLUIDS, Fluids
-from rodwell.case.physical import physical
+from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
@@ -160,8 +163,7 @@ class Case(Shown):
         except CaseError:
             raise
         except InputError as error:
-            value = _as_written(data, error.field, error.value)
-            raise CaseError(source, [(error.field, value, error.reason)]) from None
+            raise CaseError(source, [in_users_words(data, error)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
         return replace(case, uncertain=inputs, given=_given(data))
 
@@ -189,13 +191,6 @@ def _uncertain(
     if sides == [None, None]:
         raise CaseError("case", [(f"{section}.{key}", data[section][key], "moves out of what is allowed either way")])
     return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
-
-
-def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
-    """What the user wrote for a key, rather than what became of it; None stays None."""
-    section, _, key = field.partition(".")
-    written = data.get(section)
-    return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
 
 
 def _given(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -226,10 +221,11 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        made = physical(parsed, load, catalogue)
-        case = Case(problem=made.problem, scales=made.scales, until=made.until, cylinder=_cylinder(parsed),
-                    rod=made.rod, fluids=made.fluids, facts=made.facts, applied=made.applied,
-                    supports=parsed.supports, gravity=made.gravity, **common)  # fmt: skip
+        found = _plausible(parsed, load, catalogue, data, source)
+        check_loads(parsed.load, found.problem, found.applied)
+        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
+                    rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
+                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
         case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
@@ -238,6 +234,25 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
     if not all(math.isfinite(item.force) for item in case.applied):
         raise InputError("load.applied", load.applied, "must be finite")
     return case
+
+
+def _plausible(
+    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, data: Mapping[str, Any], source: str
+) -> Physical:
+    """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
+    try:
+        found = physical(parsed, load, catalogue)
+    except InputError as error:
+        odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
+        mine = [what for key, _, what in odd if key == error.field]
+        key, value, reason = in_users_words(data, error)
+        raise CaseError(
+            source, [(key, value, "; it ".join([reason, *mine[:1]])), *(item for item in odd if item[0] != error.field)]
+        ) from None
+    odd = implausible(parsed, load, found, data) if parsed.plausible is not False else []
+    if odd:
+        raise CaseError(source, odd)
+    return found
 
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:

@@ -92,7 +92,7 @@ def _problem(
             "torsion": "rod.torsional_stiffness",
             "twist": "load.twist",
             "ends": "rod.ends",
-            "clearance": "hole.diameter",
+            "clearance": "hole.diameter" if hole.clearance is None else "hole.clearance",
         }
         name = names.get(error.field, error.field)
         what = error.reason
@@ -101,6 +101,8 @@ def _problem(
                 f"makes γ = mg L³/B = {weight / scales.factor('force_per_length'):g}, which {what}: check the units of "
             )
             what += "length, weight or density, stiffness or diameters, and gravity"
+        if error.field == "clearance":
+            what = f"makes Δ/L = {clearance / rod.length:.3g}, which {what}: check its unit and that of the length"
         raise InputError(name, None if error.field == "weight" else error.value, what) from None
 
 

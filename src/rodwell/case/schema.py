@@ -228,3 +228,6 @@ class CaseFile(SectionInput):
     study: StrictBool | None = _key(
         None, "`true` makes each list of values a parameter study; a range makes one by itself", True
     )
+    plausible: StrictBool | None = _key(
+        None, "`false` lets values pass that no rod has (a modulus of 30e6 GPa, a density of 7850 lb/gal)", False
+    )

@@ -12,12 +12,9 @@ from rodwell.errors import InputError
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import in_unit_of
+from rodwell.quantities.written import number_and_rest, remedy
 
 _PLUS_MINUS = re.compile(r"\s*(.+?)\s*(?:±|\+/-|\+-)\s*(.+?)\s*")
-
-
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
-
 
 Moved = tuple[Problem, Scales | None]
 
@@ -61,12 +58,13 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
 
 def _moved(key: str, written: str, nominal: str, spread: str) -> tuple[Any, Any]:
     """The nominal value, and the pair of values moved down and up, as the case file would have them without "±"."""
-    value, by = _NUMBER.fullmatch(nominal), _NUMBER.fullmatch(spread)
+    value, by = number_and_rest(nominal), number_and_rest(spread)
     allowed = 'must be like "30 m ± 0.1 m", "30 ± 0.1 m" or "30 m ± 2 %"'
     if value is None or by is None:
-        raise InputError(key, written, allowed)
-    middle, unit = float(value[1]), value[2]
-    size, of = float(by[1]), by[2]
+        how = remedy(nominal if value is None else spread)
+        raise InputError(key, written, f"{allowed}; write {how.rstrip('; ,')}" if how else allowed)
+    middle, unit = value
+    size, of = by
     if of == "%":
         size *= abs(middle) / 100.0
     elif not unit:
@@ -78,6 +76,9 @@ def _moved(key: str, written: str, nominal: str, spread: str) -> tuple[Any, Any]
             raise InputError(key, written, f"{error}; it {allowed}") from None
     if not 0.0 < size < math.inf:
         raise InputError(key, written, "must have an uncertainty above 0")
+    if size >= abs(middle) > 0.0 and not key.startswith("hole.angle"):
+        what = f"has an uncertainty of {100.0 * size / abs(middle):.3g} % of its value, which says nothing of it: "
+        raise InputError(key, written, what + "give one below 100 %, or a range of values to vary")
     if not unit:
         return middle, (middle - size, middle + size)
     return f"{middle!r} {unit}", (f"{middle - size!r} {unit}", f"{middle + size!r} {unit}")

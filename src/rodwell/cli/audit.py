@@ -15,7 +15,7 @@ from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
     from rodwell.answers.comparison.beside import Comparison, FormulaRow, Other
-    from rodwell.studies.audit.audit import Audit
+    from rodwell.studies.audit.audit import AtApplied, Audit
 
 NAMES = {
     "critical": "the first critical load",
@@ -50,7 +50,8 @@ def audit(
     """Hold the formulas of practice against the exact loads of CASE, a TOML file.
 
     For every formula: its load, the exact load at the place where the formula's force is measured, the error in
-    percent, safe or unsafe, and whether the case is inside its validity. Compression is positive here. The exact loads
+    percent, safe (where the formula is valid for the rod) or unsafe. Formulas of pitch, contact, stress, shortening and
+    lock-up are shown at the first critical load and at each load.applied. Compression is positive here. The exact loads
     are those of a straight hole without friction. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
@@ -139,18 +140,18 @@ def _print_loads(console: Any, audit: Audit) -> None:
     rows = [row for group in groups.values() for row in group]
     print_listing(console, ["formula", ">load", "at", *errors, "verdict", "valid"], rows)
     where = " at top, middle, bottom" if inclined else ""
+    at_place = f"at the place where the formula's force is measured{', in bold' if inclined else ''}"
+    console.print(f"Error{where} = formula/exact − 1, as compressions; verdict: {at_place}.", style="dim")
     console.print(
-        f"Error{where} = formula/exact − 1, as compressions; verdict: at the place where the formula's force is "
-        f"measured{', in bold' if inclined else ''}.", style="dim",
+        "Safe: below the exact load, and the formula is valid for the rod; low: below it, but the formula is not meant "
+        "for such a rod.", style="dim",
     )  # fmt: skip
 
 
 def _verdict(row: FormulaRow, main: Comparison | None) -> str:
     if main is None:
         return "needs " + ", ".join(row.missing) if row.missing else "–"
-    if row.value == 0.0:
-        return "no load"
-    return "[green]safe[/green]" if main.safe else "[red]unsafe[/red]"
+    return {"safe": "[green]safe[/green]", "unsafe": "[red]unsafe[/red]"}.get(row.verdict, row.verdict)
 
 
 def _percent(side: Comparison | None, bold: bool) -> str:
@@ -189,21 +190,36 @@ def _item(console: Any, head: str, text: str) -> None:
 
 
 def _print_others(console: Any, audit: Audit) -> None:
-    """Formulas of other kinds that have a value; those that need more, by name."""
-    console.print("\n[bold]Other formulas[/bold], at the bottom's compression in the first critical load")
-    rows = []
-    for other in audit.others:
-        if other.value is None:
-            continue
-        error = "" if other.relative_error is None else minus(f"{100 * other.relative_error:+.2g} %")
-        rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
-    print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
+    """Formulas of other kinds that have a value, at the first critical load and at those that act."""
+    bottom = _force(audit, audit.critical.at("bottom"))
+    console.print(f"\n[bold]Other formulas[/bold], at the first critical load ({bottom} of compression at the bottom)")
+    _print_values(console, audit, audit.others)
+    for one in audit.applied:
+        console.print(f"\n[bold]Other formulas[/bold], at the {_safe(one.exact.label)} ({_at_bottom(audit, one)})")
+        _print_values(console, audit, [other for other in one.others if {"F", "p"} & set(other.formula.takes)])
     console.print("Small angle: error that a formula makes by taking the angle of the helix as small.", style="dim")
     needy = [other for other in audit.others if other.missing]
     if needy:
         console.print("\n[bold]Without a value[/bold]")
     for other in needy:
         console.print(f"  {_safe(other.formula.name)}: needs {', '.join(other.missing)}")
+
+
+def _at_bottom(audit: Audit, one: AtApplied) -> str:
+    """The compression at the bottom in a load that acts, and whether formulas of a buckled rod say anything of it."""
+    force = one.exact.at("bottom")
+    text = f"{_force(audit, abs(force))} of {'compression' if force > 0.0 else 'tension'} at the bottom"
+    return f"{text}; the exact rod is still straight there" if one.straight else text
+
+
+def _print_values(console: Any, audit: Audit, others: Sequence[Other]) -> None:
+    rows = []
+    for other in others:
+        if other.value is None:
+            continue
+        error = "" if other.relative_error is None else minus(f"{100 * other.relative_error:+.2g} %")
+        rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
+    print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
 
 
 def _other_value(audit: Audit, other: Other) -> str:

@@ -21,8 +21,8 @@ SHOWN = 12
 @click.argument("survey", type=click.Path(path_type=Path))
 @click.option("--case", required=True, type=click.Path(path_type=Path), help="Case file of string and hole.")
 @click.option("--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-screen]")
-@click.option("--bit-force", help='Effective force at the last station, tension positive: "-100 kN".')
-@click.option("--hook-force", help='Effective force at the first station, tension positive: "500 kN".')
+@click.option("--bit-force", help='Effective force at the last station: "-100 kN" is weight on bit.')
+@click.option("--hook-force", help='Effective force at the first station: "500 kN" is hook load.')
 @click.option("--depth-unit", help="Unit of measured depth, m or ft, if the header does not say.")
 @click.option("--angle-unit", help="Unit of inclination and azimuth, deg or rad.  [default: the header's, or deg]")
 @click.option("--force-unit", help="Unit of the force column, if the header does not say.")
@@ -42,8 +42,9 @@ def screen(
 
     At every station: the exact load at which a long straight rod of the station's inclination buckles and leaves the
     wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
-    Compression is positive, at the station. Length, inclination and loads of the case are not used.
-    `rodwell keys` explains the keys of a case file.
+    Forces given are tension positive: a bit that pulls or a hook that pushes is refused unless the word says so,
+    "20 klbf tension". Results are compression positive, at the station. Length, inclination and loads of the case
+    are not used. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
@@ -60,7 +61,7 @@ def screen(
     from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
-        result = compute(read, well, **forces, progress=tell)
+        result = compute(read, well, **forces, signs_meant=True, progress=tell)
         tell("figure and data", 1.0)
         files = write_screening(result, folder)
     if as_json:
@@ -71,15 +72,24 @@ def screen(
 
 
 def _force(option: str, text: str | None) -> float | None:
+    """A force of the command line in N; a sign that contradicts the option's name needs a word."""
+    from rodwell.case.checks.signs import pulls, pushes  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.quantities.units import to_si  # noqa: PLC0415
+    from rodwell.quantities.written import direction  # noqa: PLC0415
 
     if text is None:
         return None
     try:
-        return to_si(text, "force")
+        value = to_si(text, "force")
     except ValueError as error:
         raise InputError(option, text, str(error)) from None
+    said = direction(text)[1] != 0
+    if option == "--bit-force" and value > 0.0 and not said:
+        raise pulls(option, text, " at the bit, which would hang on the string")
+    if option == "--hook-force" and value < 0.0 and not said:
+        raise pushes(option, text, " at the hook, which would push the string")
+    return value
 
 
 def _print(screening: Screening) -> None:
@@ -104,7 +114,7 @@ def _stations(screening: Screening) -> object:
     from rich.markup import escape  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.studies.well.tables import units  # noqa: PLC0415
+    from rodwell.studies.well.verdict import units  # noqa: PLC0415
 
     depth, metre, force, newton = units(screening)
     table = Table(box=None, pad_edge=False, header_style="bold")

@@ -20,7 +20,7 @@ from rodwell.studies.audit.error_map import PANELS, ErrorMap
 
 LEVELS = (-75.0, -50.0, -25.0, -10.0, 0.0, 10.0, 25.0, 50.0, 100.0)
 COLOURS = ("#08427a", "#2f79b5", "#6fa9d2", "#aacde5", "#dcebf4", "#fde8d8", "#f8bf98", "#ec8b5e", "#cf4a32", "#8f1014")
-"""Blue where a formula is safe, red where it is not; one colour below, between and above the levels."""
+"""Blue: the formula's load is below the exact one; red: above; one colour below, between and above the levels."""
 
 CLIP = 150.0
 """Errors above are drawn as this, so that lines between grid points lie where they should."""
@@ -33,7 +33,7 @@ SHORT = {"dawson_paslay": "Dawson–Paslay", "dellinger": "Dellinger (89)", "pas
 def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS) -> Figure:
     """Draw the error of formulas as onset loads over weight and inclination, a panel each. Returns the figure.
 
-    Blue: the formula's load is below the exact first critical load at its place (safe); red: above. The case is marked.
+    Blue: the formula's load is below the exact first critical load at its place; red: above it. The case is marked.
     """
     with mpl.rc_context(RC):
         rows = (len(panels) + 2) // 3
@@ -59,7 +59,7 @@ def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS
             ax.set_xlabel("weight γ = mg L³/B")
             ax.tick_params(labelbottom=True)
         bar = figure.colorbar(shown, ax=axes.tolist(), ticks=LEVELS, shrink=0.9, aspect=30, pad=0.015)
-        bar.set_label("formula / exact first critical load − 1  [%]\n← safe          unsafe →")
+        bar.set_label("formula / exact first critical load − 1  [%]\n← below it          above it, unsafe →")
         bar.ax.set_yticklabels([minus(f"{level:+.0f}").replace("+0", "0") for level in LEVELS])
         figure.suptitle(
             f"Δ/L = {chart.problem.clearance:.4g},  {ends_text(chart.problem)}", x=0.01, ha="left", fontsize=9.5

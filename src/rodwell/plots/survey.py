@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN
 from rodwell.studies.well.screening import Screening
-from rodwell.studies.well.tables import units
+from rodwell.studies.well.verdict import units
 
 EXACT, LIFT_OFF = MODES[0], MODES[3]
 LINES = {

@@ -9,6 +9,16 @@ from functools import cache
 from typing import Any
 
 from rodwell.quantities.text import minus, plain, prefix_for, readable
+from rodwell.quantities.written import (
+    DEFINITIONS,
+    NUMBER,
+    AmbiguousUnitError,
+    direction,
+    number_and_rest,
+    plain_unit,
+    remedy,
+    with_other_capitals,
+)
 
 KINDS: dict[str, tuple[str, str]] = {
     "length": ("m", '"30 m", "5 cm", "8.5 in"'),
@@ -17,7 +27,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "moment": ("N*m", '"1.2 kN m", "800 ft lbf"'),
     "stress": ("Pa", '"200 GPa", "30e6 psi"'),
     "pressure": ("Pa", '"20 MPa", "3000 psi"'),
-    "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal"'),
+    "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal", "1.2 sg"'),
     "force per length": ("N/m", '"315 N/m", "19.5 lbf/ft"'),
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
     "torsional stiffness": ("N*m^2", '"7.5e5 N m^2", "1800 N·mm²"'),
@@ -31,8 +41,9 @@ SMALLEST, LARGEST = 1e-20, 1e20
 LONGEST_TEXT = 60
 
 _QUANTITY = re.compile(
-    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:nan|inf(?:inity)?))"  # the number
-    r"((?:\s*[*/·]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
+    rf"\s*({NUMBER}|[+-]?(?:nan|inf(?:inity)?))"
+    r"((?:\s*[*/·⋅.-]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|[²³⁴]|(?<=[A-Za-z])[234]|[\"″′']"
+    r"|(?<=/)\s*\d{1,4}(?=\s*(?:ft|m)\b)))*\.?)\s*",  # units, products, small powers, deg/100 ft
     re.IGNORECASE,
 )
 
@@ -46,12 +57,15 @@ def _registry() -> Any:
         registry = pint.UnitRegistry(cache_folder=":auto:")  # parsed definitions kept on disk: halves the start
     except OSError:  # no folder of the user's to write to
         registry = pint.UnitRegistry()
-    registry.define("pounds_per_gallon = pound / gallon = ppg")
+    for definition in DEFINITIONS:
+        registry.define(definition)
     return registry
 
 
 def to_si(text: object, kind: str) -> float:
     """Return the SI value of ``text`` as a quantity of ``kind``.
+
+    A force may say how it acts: "20 kN compression" is −20 kN, "20 kN tension" 20 kN.
 
     Raises
     ------
@@ -63,13 +77,19 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError(f"needs a unit: write it as text, for example {examples}")
     if not isinstance(text, str):
         raise ValueError(f"must be text with a number and a unit, for example {examples}")
+    text, sign = direction(text) if kind == "force" else (text, 0)
     number, unit_text = _split(text, examples)
+    if sign > 0 > number:
+        raise ValueError("is negative, which is compression: write it without the sign, or without the word")
     import pint  # noqa: PLC0415
 
     try:
-        quantity = _registry().Quantity(number, unit_text or "dimensionless")
+        quantity = _registry().Quantity(number, plain_unit(unit_text, kind) or "dimensionless")
     except pint.UndefinedUnitError:
-        raise ValueError(f"unknown unit {unit_text!r}; write for example {examples}") from None
+        meant = _meant(unit_text, unit, kind)
+        raise ValueError(f"unknown unit {unit_text!r}{meant}; write for example {examples}") from None
+    except AmbiguousUnitError as error:
+        raise ValueError(f"{error}; for example {examples}") from None
     except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"is not a number with a unit; write for example {examples}") from None
     if kind == "angle" and quantity.dimensionless and quantity.unitless:
@@ -78,7 +98,7 @@ def to_si(text: object, kind: str) -> float:
         value = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         what = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
-        hint = _hint(quantity, kind)
+        hint = _hint(quantity, kind) or _meant(unit_text, unit, kind)
         raise ValueError(
             f"must be {_article(kind)} {kind}, but it {what}; write for example {examples}{hint}"
         ) from None
@@ -88,7 +108,7 @@ def to_si(text: object, kind: str) -> float:
         raise ValueError("must be finite")
     if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
         raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
-    return value
+    return sign * abs(value) if sign else value
 
 
 def _article(noun: str) -> str:
@@ -104,24 +124,40 @@ def in_unit_of(number: float, unit: str, other: str) -> float:
         If one of them is no unit, or they do not go together.
     """
     try:
-        return float(_registry().Quantity(number, unit).to(other).magnitude)
+        return float(_registry().Quantity(number, plain_unit(unit)).to(plain_unit(other)).magnitude)
     except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"has units {unit!r} and {other!r}, which do not go together") from None
 
 
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
-    match = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
-    if match is None:
-        comma = "a decimal point, not a comma, " if "," in text else ""
-        raise ValueError(f"is not a number with a unit; write {comma}for example {examples}")
-    return float(match[1]), match[2].strip().replace("·", "*")
+    found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
+    if found is None:
+        how = remedy(text) if len(text) <= LONGEST_TEXT else ""
+        raise ValueError(f"is not a number with a unit; write {how}for example {examples}")
+    read = number_and_rest(found[1])
+    return float(found[1]) if read is None else read[0], found[2].strip()
+
+
+def _meant(written: str, unit: str, kind: str) -> str:
+    """The unit that differs from what is written by capitals only and is one of this kind."""
+    fits = []
+    for other in with_other_capitals(written):
+        try:
+            if _registry().Quantity(1.0, plain_unit(other, kind)).is_compatible_with(unit):
+                fits.append(repr(other))
+        except Exception:  # no unit either
+            continue
+    return f" (did you mean {' or '.join(fits)}?)" if fits else ""
 
 
 def _hint(quantity: Any, kind: str) -> str:
-    """Extra help for mistakes that are common: pounds of mass where pounds of force are meant."""
+    """Extra help for mistakes that are common: pounds of mass where pounds of force are meant, gradients of mud."""
     if kind in ("force", "force per length", "moment") and "[mass]" in str(quantity.dimensionality):
         return " (a weight is a force: lbf, not lb; N, not kg)"
+    if kind == "density" and quantity.is_compatible_with("Pa/m"):
+        density = float(quantity.to("Pa/m").magnitude) / 9.80665
+        return f" (a gradient of pressure: a density of {density:.4g} kg/m^3 makes it)"
     return ""
 
 

@@ -35,12 +35,17 @@ EXTRA = {
 """Quantities that a problem does not hold and :func:`audit` takes: lowest, highest, what is allowed."""
 
 
+SAFE, UNSAFE, LOW, NO_LOAD = "safe", "unsafe", "low", "no load"
+"""Verdicts on a formula's load."""
+
+
 @dataclass(frozen=True)
 class Comparison:
     """A formula's load beside an exact one at one place. Compression positive, in B/L².
 
     ``percent`` is 100 (formula/exact − 1), None where the exact compression is not positive; ``percent_error`` its
-    uncertainty from that of the exact load. ``safe``: the formula's load is not above the exact one (and its error).
+    uncertainty from that of the exact load. ``safe``: the formula's load is not above the exact one (and its error);
+    whether the formula's validity covers the rod is another matter, see :attr:`FormulaRow.verdict`.
     """
 
     load: str
@@ -77,6 +82,20 @@ class FormulaRow:
         """The comparison with the exact load that its kind asks for, where the formula's force is meant."""
         return self.beside(self.against, self.formula.place)
 
+    @property
+    def verdict(self) -> str:
+        """How its load stands to the exact one where its force is meant: "unsafe" above it, "safe" below it.
+
+        Below the exact load but outside the formula's validity it is "low", which is no warrant that it stays there.
+        "no load" where it is 0, empty where there is nothing to hold it against.
+        """
+        main = self.main
+        if main is None:
+            return ""
+        if self.value == 0.0:
+            return NO_LOAD
+        return UNSAFE if not main.safe else SAFE if self.valid else LOW
+
     def beside(self, load: str, place: Place | None) -> Comparison | None:
         """Return the comparison with an exact load at a place."""
         return next((c for c in self.comparisons if (c.load, c.place) == (load, place)), None)
@@ -84,7 +103,7 @@ class FormulaRow:
 
 @dataclass(frozen=True)
 class Other:
-    """A formula that gives no critical load, at the compression of the first critical load at the bottom.
+    """A formula that gives no critical load, at the bottom's compression in the first critical load or one that acts.
 
     ``value`` is in units B = L = 1; ``relative_error`` what the small-angle formulas of the weightless helix lack.
     """
@@ -174,7 +193,7 @@ def compare(value: float, load: ExactLoad, place: Place) -> Comparison:
 
 
 def _other(formula: Formula, rod: FormulaInputs, load: ExactLoad, problem: Problem) -> Other:
-    """A formula of another kind, at the bottom's compression in the first critical load."""
+    """A formula of another kind, at the bottom's compression in a load: the first critical one, or one that acts."""
     force = load.at("bottom")
     more: dict[str, float] = {"F": force} if force > 0.0 else {}
     if rod.lateral > 0.0:

@@ -161,6 +161,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         "figures": {name: key.as_dict(case) for name, key in answer.key_numbers.items()},
         "branches": [_branch_dict(branch) for branch in answer.branches],
         "assessment": assessment,
+        "validity": answer.assessment.validity.as_dict(),
         "sensitivities": [
             load.as_dict() | _spread(spread) for load, spread in zip(answer.sensitivities, answer.spreads, strict=True)
         ],

@@ -17,6 +17,7 @@ from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.local import Exceeded, LocalLimits, exceeded, local_limits
 from rodwell.strength.section import RodSection, RodStress, rod_section
 from rodwell.strength.supports import Support, support_loads
+from rodwell.strength.validity import Validity, validity
 
 STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN = "straight", "buckled", "other shape", "left the wall", "unknown"
 """What has become of the rod at a load: straight and stable; buckled, on the wall and stable; mode 1 has lost its
@@ -138,11 +139,18 @@ class Assessment:
         out = [self.at_buckling, self.at_lift_off, *(at.state for at in self.applied)]
         return tuple(state for state in out if state is not None)
 
-    def _at(self, load: AppliedLoad) -> AtLoad:
-        problem, branch = self.case.problem, self.branch
+    @cached_property
+    def validity(self) -> Validity:
+        """How far the loads shown are from what the theory assumes: strain, slenderness, slope, shortening."""
+        without = [(self._name(at.load), at.load.force) for at in self.applied if at.state is None]
+        return validity(self.case, self.states, without, self.critical.wavenumber)
+
+    def _name(self, load: AppliedLoad) -> str:
         name = "at the applied load"
-        if len(self.case.applied) > 1:
-            name += f" {1 + self.case.applied.index(load)}"
+        return name if len(self.case.applied) == 1 else f"{name} {1 + self.case.applied.index(load)}"
+
+    def _at(self, load: AppliedLoad) -> AtLoad:
+        problem, branch, name = self.case.problem, self.branch, self._name(load)
         if load.force >= self.critical.force:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
         if branch.lift_off_at_buckling:

@@ -36,7 +36,8 @@ def statuses(answer: Answer) -> tuple[Status, ...]:
     """Buckling, contact with the wall and strength under the force asked for, and the numbers themselves."""
     cylinder = _cylinder(answer.case, answer.key_numbers.get("cylinder_stress"))
     numbers = _numbers(answer.case, answer.converged)
-    every = (_buckling(answer), _contact(answer), _rod(answer.assessment), cylinder, numbers)
+    theory = _theory(answer.assessment)
+    every = (_buckling(answer), _contact(answer), _rod(answer.assessment), cylinder, theory, numbers)
     return tuple(status for status in every if status is not None)
 
 
@@ -62,6 +63,8 @@ def _buckling(computed: Computed) -> Status:
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {where}")
     reason = f"at {force_text(scales, Value(load))}, beyond {where}"
+    if load < computed.first.reach[0]:
+        return Status("Buckling", BAD, "buckled, shape not known", f"{reason}: the first mode was not followed so far")
     if computed.first.at(load).stable:
         return Status("Buckling", CAUTION, "buckled, stable", reason)
     return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
@@ -117,6 +120,13 @@ def _cylinder(case: Case, stress: KeyNumber | None) -> Status | None:
     level = BAD if part.value > 1.0 else CAUTION if part.value > 1.0 - CLOSE else GOOD
     word = "yields" if part.value > 1.0 else "holds"
     return Status("Cylinder", level, word, f"at lift-off its stress is {percent(part)} of the strength")
+
+
+def _theory(a: Assessment) -> Status | None:
+    """Whether the theory's assumptions are left at the loads shown; nothing where they hold."""
+    if not a.validity.left:
+        return None
+    return Status("Theory", BAD, "small strain is left", a.validity.why)
 
 
 def _numbers(case: Case, converged: bool) -> Status:

@@ -60,6 +60,7 @@ def sentences(answer: Answer) -> list[str]:
     out = [verdict(a), *load_sentences(a), _mode(answer.critical, answer.case), _asked(answer), _lift_off(answer)]
     out += [_stability(answer), *window_sentences(a)]
     out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
+    out.append(a.validity.sentence)
     return [sentence for sentence in out if sentence]
 
 

@@ -16,10 +16,11 @@ def verdict(a: Assessment) -> str:
     """The answer in one sentence with its assumptions.
 
     For the loads that act the most compressive one; without such loads, where the rod buckles and how far it is from
-    there to lift-off.
+    there to lift-off. What the theory does not cover is said first.
     """
     text = _range(a) if not a.applied else _at(a, min(a.applied, key=lambda at: at.load.force))
-    return f"{text}; assumptions: {_assumed(a.case)}."
+    rough = f"Only a rough guide, since the theory assumes small strain ({a.validity.why}): " if a.validity.left else ""
+    return f"{rough}{text}; assumptions: {_assumed(a.case)}."
 
 
 def load_sentences(a: Assessment) -> list[str]:

@@ -67,6 +67,7 @@ def case_report(answer: Answer) -> Report:
             _inputs_and_loads(answer),
             _inputs(case),
             *_conversions(case),
+            _validity(answer),
             _trust(answer),
         ),
         footer=f"Computed by rodwell {__version__} from {case.source}. B bending stiffness, L length of the rod.",
@@ -201,6 +202,15 @@ def _conversions(case: Case) -> tuple[ReportSection, ...]:
     if not facts:
         return ()
     return (ReportSection("From the inputs to the problem", (Grid(("What", "Value", "From"), facts),)),)
+
+
+def _validity(answer: Answer) -> ReportSection:
+    """How far the loads shown are from what the theory assumes."""
+    found = answer.assessment.validity
+    rows = tuple((m.label, m.text, m.limit_text, m.where, m.status) for m in found.measures)
+    table = Grid(("What", "Largest", "Covered", "Where", ""), rows, numeric=(1, 2))
+    words = Words(found.sentence, "warning" if found.left else "plain")
+    return ReportSection("What the theory assumes, and how far it holds here", (words, table))
 
 
 def _trust(answer: Answer) -> ReportSection:

@@ -102,8 +102,9 @@ def _formulas(a: Assessment) -> tuple[ReportSection, ...]:
     head = ("Formula", "Load", "at", "Exact there", "Difference", "Verdict", "Beside", "Validity")
     note = (
         "Compression positive, at the place where the formula's force is measured: top s = 1, middle, bottom s = 0. "
-        "Difference: formula/exact − 1; unsafe: the formula's load is above the exact one. Helical formulas stand "
-        "beside lift-off, where a rod on the wall ends. rodwell audit compares every formula, coils included."
+        "Difference: formula/exact − 1. Unsafe: the formula's load is above the exact one; safe: below it, and the "
+        "formula is valid for the rod; low: below it, but the formula is not meant for such a rod. Helical formulas "
+        "stand beside lift-off, where a rod on the wall ends. rodwell audit compares every formula, coils included."
     )
     table = Grid(head, tuple(_formula(a, row) for row in a.formulas), numeric=(1, 3, 4))
     return (ReportSection("Formulas of practice beside the exact loads", (table, Words(note, "small"))),)
@@ -221,7 +222,7 @@ def _formula(a: Assessment, row: FormulaRow) -> tuple[str, ...]:
         row.formula.place or "",
         _text(a, main.exact, "force"),
         "–" if main.percent is None else minus(f"{main.percent:+.1f} %"),
-        "safe" if main.safe else "unsafe",
+        row.verdict,
         {"critical": "critical load", "lift_off": "lift-off"}[row.against],
         "inside" if row.valid else "outside: " + "; ".join(row.reasons),
     )

@@ -53,7 +53,7 @@ def _front(study: Study) -> Front:
         numbers.append(Number(label, load_text(study, load.value), error_text(error), study.rod_inputs(worst)))
     return Front(
         verdict=text[0],
-        statuses=(_status(study), *_at_loads(study)),
+        statuses=(_status(study), *_at_loads(study), *_theory(study)),
         numbers=tuple(numbers),
         picture=Picture(
             "curves",
@@ -108,6 +108,14 @@ def _at_loads(study: Study) -> tuple[Status, ...]:
         reason = f"in {buckled} of {len(loads)} it is buckled, on the wall and stable; else straight"
         return (Status("Loads", CAUTION, "buckled in places", reason),)
     return (Status("Loads", GOOD, "straight everywhere", f"at every one of {len(loads)} points and loads"),)
+
+
+def _theory(study: Study) -> tuple[Status, ...]:
+    """Whether the theory's assumptions are left anywhere; nothing where they hold."""
+    left = sum(point.validity is not None and bool(point.validity.left) for point in study.points)
+    if not left:
+        return ()
+    return (Status("Theory", BAD, "small strain is left", f"at {left} of {len(study.points)} points"),)
 
 
 def _lacking(study: Study) -> list[StudyPoint]:

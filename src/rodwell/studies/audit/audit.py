@@ -8,13 +8,37 @@ from typing import Any
 
 from rodwell.answers.comparison.beside import AGAINST, FormulaRow, Other, _known_rod, _other, load_rows
 from rodwell.answers.comparison.exact_loads import ExactLoad, exact_loads
+from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.faces import plain
-from rodwell.formulas import FORMULAS
+from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus
 from rodwell.quantities.tolerance import RTOL
+
+
+@dataclass(frozen=True)
+class AtApplied:
+    """The other formulas at a load that acts.
+
+    Attributes
+    ----------
+    load
+        The load of ``load.applied``.
+    exact
+        The same as end force at s = 1 in B/L², tension positive; its label says where it was given.
+    straight
+        Whether the exact rod is still straight at it: what formulas say of the buckled rod then says nothing.
+    others
+        The formulas, at the bottom's compression in this load.
+    """
+
+    load: AppliedLoad
+    exact: ExactLoad
+    straight: bool
+    others: tuple[Other, ...]
 
 
 @dataclass(frozen=True)
@@ -30,7 +54,9 @@ class Audit:
     rows
         Formulas of loads: sinusoidal, then helical.
     others
-        All other formulas.
+        All other formulas, at the first critical load.
+    applied
+        All other formulas at each of the loads that act; none where the case has none.
     """
 
     problem: Problem
@@ -40,6 +66,7 @@ class Audit:
     not_found: tuple[str, ...]
     rows: tuple[FormulaRow, ...]
     others: tuple[Other, ...]
+    applied: tuple[AtApplied, ...] = ()
 
     @property
     def critical(self) -> ExactLoad:
@@ -92,5 +119,19 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)
-    others = tuple(_other(f, rod, loads[0], problem) for f in FORMULAS.values() if f.kind not in AGAINST)
-    return Audit(problem, scales, title, loads, notes, rows, others)
+    others = _others(rod, loads[0], problem)
+    applied = () if not isinstance(case, Case) else tuple(_at(case, load, rod, loads[0]) for load in case.applied)
+    return Audit(problem, scales, title, loads, notes, rows, others, applied)
+
+
+def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Other, ...]:
+    return tuple(_other(f, rod, load, problem) for f in FORMULAS.values() if f.kind not in AGAINST)
+
+
+def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) -> AtApplied:
+    """The other formulas at a load that acts."""
+    given = f"{load.given:.6g} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
+    number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
+    label = f"applied load{number}, {minus(given)} at the {'bottom' if load.bottom else 'top'}"
+    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.axial_weight)
+    return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))

@@ -14,7 +14,7 @@ from rodwell.quantities.units import SI
 if TYPE_CHECKING:
     from rodwell.answers.comparison.beside import FormulaRow, Other
     from rodwell.formulas import Formula
-    from rodwell.studies.audit.audit import Audit
+    from rodwell.studies.audit.audit import AtApplied, Audit
 
 
 FORCE = (1, 0)
@@ -44,7 +44,19 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
         "exact_not_found": list(audit.not_found),
         "formulas": [_row(audit, row) for row in audit.rows],
         "other_formulas": [_other(audit, other) for other in audit.others],
+        "at_applied_loads": [_applied(audit, one) for one in audit.applied],
         "left_out": [{"name": item.name, "text": item.text, "reason": item.reason} for item in LEFT_OUT],
+    }  # fmt: skip
+
+
+def _applied(audit: Audit, one: AtApplied) -> dict[str, Any]:
+    """The other formulas at a load that acts."""
+    exact = one.exact
+    return {
+        "load": exact.label, "given": one.load.given, "force": exact.force, "straight": one.straight,
+        "compression": {place: exact.at(place) for place in PLACES},
+        **_si(audit, FORCE, {"force": exact.force}),
+        "other_formulas": [_other(audit, other) for other in one.others],
     }  # fmt: skip
 
 
@@ -78,6 +90,7 @@ def _row(audit: Audit, row: FormulaRow) -> dict[str, Any]:
         "outside_because": list(row.reasons),
         "missing": list(row.missing),
         "against": row.against,
+        "verdict": row.verdict,
         "comparisons": [
             {
                 "load": c.load, "place": c.place, "exact": c.exact, "exact_error": c.error, "percent": c.percent,

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 HEAD = ("key", "name", "kind", "value_B/L2", "load", "place", "meant_place", "exact_B/L2", "exact_error", "percent",
-        "percent_error", "safe", "valid", "outside_because")  # fmt: skip
+        "percent_error", "safe", "valid", "outside_because", "verdict")  # fmt: skip
 
 
 def csv_rows(audit: Audit) -> list[tuple[object, ...]]:
@@ -20,6 +20,6 @@ def csv_rows(audit: Audit) -> list[tuple[object, ...]]:
         for c in row.comparisons:
             lines.append(
                 (f.key, f.name, f.kind, row.value, c.load, c.place, f.place, c.exact, c.error, c.percent,
-                 c.percent_error, c.safe, row.valid, why)
+                 c.percent_error, c.safe, row.valid, why, row.verdict)
             )  # fmt: skip
     return lines

@@ -14,6 +14,7 @@ from rodwell.case.case import Case
 from rodwell.quantities.value import Value
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.section import RodStress, rod_section
+from rodwell.strength.validity import Validity, validity
 
 BUCKLES = "buckling"
 """Key of ``limits.NAMES`` for the first critical load."""
@@ -58,6 +59,19 @@ def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadR
         return ()
     assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
     return tuple(_at(assessment, at) for at in assessment.applied)
+
+
+def validity_of(case: Case, critical: CriticalLoads, branch: Branch | None) -> Validity:
+    """How far the rod at buckling, at lift-off and at the loads that act is from what the theory assumes.
+
+    Without a branch only the straight rod is looked at.
+    """
+    if branch is not None:
+        return Assessment(Computed(case, critical, (branch,), branch[-1].force)).validity
+    first = critical[0]
+    straight = LoadedRod("at buckling", case.problem, first.force, first.error)
+    acting = [("at the applied load", load.force) for load in case.applied]
+    return validity(case, (straight,), acting, first.wavenumber)
 
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:

@@ -17,7 +17,8 @@ from rodwell.quantities.scales import Scales
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
-from rodwell.studies.sweep.loads import LoadResult, at_loads, without_branch
+from rodwell.strength.validity import Validity
+from rodwell.studies.sweep.loads import LoadResult, at_loads, validity_of, without_branch
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,8 @@ class StudyPoint:
         The state at each of the loads that act, in the order of the case file; none where the case has none.
     reasons
         Why results are missing, by name: "case", "critical", "lift_off", "contact", "applied".
+    validity
+        Whether strain, slenderness, slope and shortening are what the theory assumes; None without a critical load.
     """
 
     number: int
@@ -62,6 +65,7 @@ class StudyPoint:
     used: Mapping[str, Value] = field(default_factory=dict)
     loads: tuple[LoadResult, ...] = ()
     reasons: Mapping[str, str] | None = None
+    validity: Validity | None = None
 
     @property
     def scales(self) -> Scales | None:
@@ -129,10 +133,12 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         lift_off, places, contact = _at_lift_off(shared.branch, reasons)
         used = {} if contact is None else _used(case, shared.branch)
         loads = at_loads(case, shared.critical, shared.branch)
-        out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads)
+        valid = validity_of(case, shared.critical, shared.branch)
+        out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads, validity=valid)
     except (InputError, NotConvergedError) as error:
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
-        out = replace(out, loads=without_branch(case, shared.critical, str(error)))
+        straight = validity_of(case, shared.critical, None)
+        out = replace(out, loads=without_branch(case, shared.critical, str(error)), validity=straight)
     amiss = "; ".join(dict.fromkeys(state.why for state in out.loads if state.why))
     if amiss:
         reasons["applied"] = amiss

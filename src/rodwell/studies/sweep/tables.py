@@ -134,9 +134,23 @@ def cells(study: Study, point: StudyPoint) -> list[str]:
     return [*out[:names], *(minus(cell) for cell in out[names:])]
 
 
+def _beyond_theory(study: Study) -> list[str]:
+    """Points at which strain, slenderness, slope or shortening are not what the theory assumes."""
+    beyond = [point for point in study.points if point.validity is not None and point.validity.left]
+    if not beyond:
+        return []
+    first = beyond[0]
+    assert first.validity is not None
+    where = study.rod_inputs(first)
+    text = f"At {len(beyond)} of {len(study.points)} points the theory's small strain is left"
+    return [
+        f"{text}: take their loads as a rough guide only ({f'for {where}: ' if where else ''}{first.validity.why})."
+    ]
+
+
 def sentences(study: Study) -> list[str]:
-    """What was found, worst cases first."""
-    out = []
+    """What was found, worst cases first; before all, where the theory's assumptions are left."""
+    out = _beyond_theory(study)
     for name, what in LOADS.items():
         worst = study.worst(name)
         load = None if worst is None else worst.compression(name)

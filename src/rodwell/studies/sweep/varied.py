@@ -12,6 +12,7 @@ from rodwell.case.explain import LIST, TAPER, TAPERED
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import in_unit_of
+from rodwell.quantities.written import number_and_rest, remedy
 
 MOST_POINTS = 400
 """Points that one study may have."""
@@ -35,8 +36,6 @@ ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of l
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
 _RANGE_LIKE = re.compile(r"(?:\.\.|…).*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
 """What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
-
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
 
 
 @dataclass(frozen=True)
@@ -150,14 +149,15 @@ def _range(section: str, key: str, text: str) -> Varied:
         what = f'has three dots; a range has two: write "{meant}", or a nought before a decimal point, "0..0.5 m in 3"'
         raise InputError(name, text, what)
     parts = _RANGE.fullmatch(text)
-    ends = None if parts is None else (_NUMBER.fullmatch(parts["first"]), _NUMBER.fullmatch(parts["last"]))
-    if parts is None or ends is None or ends[0] is None or ends[1] is None:
+    start = None if parts is None else number_and_rest(parts["first"])
+    end = None if parts is None else number_and_rest(parts["last"])
+    if parts is None or start is None or end is None:
         allowed = ALLOWED_LOAD if name in LISTS else ALLOWED
-        raise InputError(name, text, f"is not a range; {allowed}")
-    first, last, count = float(ends[0][1]), float(ends[1][1]), int(parts["count"][:9])
-    unit = ends[1][2]
+        how = "" if parts is None else remedy(parts["first"]) or remedy(parts["last"])
+        raise InputError(name, text, f"is not a range; {f'write {how}' if how else ''}{allowed}")
+    (first, own), (last, unit), count = start, end, int(parts["count"][:9])
     try:
-        first = _in(ends[0][2] or unit, unit, first)
+        first = _in(own or unit, unit, first)
     except ValueError as error:
         raise InputError(name, text, f"{error}; {ALLOWED}") from None
     if not 2 <= count <= MOST_POINTS:
@@ -165,7 +165,10 @@ def _range(section: str, key: str, text: str) -> Varied:
     if not (math.isfinite(first) and math.isfinite(last)) or first == last:
         raise InputError(name, text, "must go from one finite value to another")
     numbers = tuple(_tidy(first + (last - first) * i / (count - 1)) for i in range(count))
-    values = tuple(f"{number!r} {unit}" if unit else number for number in numbers)
+    turns = name in LISTS and min(numbers) < 0.0  # a range from compression to tension says that both are meant
+    values = tuple(
+        f"{number!r} {unit}{' tension' if turns and number > 0.0 else ''}" if unit else number for number in numbers
+    )
     return Varied(section, key, text, values, unit, numbers)
 
 
@@ -178,14 +181,14 @@ def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
         raise InputError(name, given, f"must hold single values; {ALLOWED}")
     if all(isinstance(value, int | float) for value in given):
         return Varied(section, key, list(given), tuple(given), "", tuple(float(value) for value in given))
-    parsed = [_NUMBER.fullmatch(value.strip()) if isinstance(value, str) else None for value in given]
+    parsed = [number_and_rest(value) if isinstance(value, str) else None for value in given]
     if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in given):
         raise InputError(name, given, 'cannot hold values with "±"')
     numbers: tuple[float, ...] | None = None
-    unit = parsed[0][2] if parsed[0] else ""
+    unit = parsed[0][1] if parsed[0] else ""
     if all(part is not None for part in parsed):
         try:
-            numbers = tuple(_in(part[2], unit, float(part[1])) for part in parsed if part)
+            numbers = tuple(_in(part[1], unit, part[0]) for part in parsed if part)
         except ValueError:  # names that begin with a number; a wrong unit is explained where the case is made
             unit, numbers = "", None
     return Varied(section, key, list(given), tuple(given), unit if numbers else "", numbers)

@@ -6,9 +6,10 @@ import math
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray
 from rodwell.studies.well.screening import Screening
-from rodwell.studies.well.tables import assumptions, sentences
+from rodwell.studies.well.tables import assumptions, remarks_of, sentences
+from rodwell.studies.well.verdict import LEVELS, found, level_of
 
 
 def screening_dict(screening: Screening) -> dict[str, Any]:
@@ -18,12 +19,13 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
     def listed(values: FloatArray | None) -> list[float | None] | None:
         return None if values is None else [None if math.isnan(v) else float(v) for v in values]
 
-    string = screening.string
+    string, judged = screening.string, found(screening)
     return {
         "title": screening.case.title,
         "rodwell_version": __version__,
         "conventions": "SI units, angles in degrees; compression positive, at the station",
         "assumptions": assumptions(screening),
+        "verdict": LEVELS[level_of(screening)],
         "summary": sentences(screening),
         "survey": survey.source,
         "ignored_columns": list(survey.ignored),
@@ -45,8 +47,17 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
         "formulas": {key: listed(values) for key, values in screening.formulas.items()},
         "compression": listed(screening.compression),
         "utilisation": listed(screening.utilisation),
+        "stations_past_buckling": _numbers(judged.past),
+        "stations_within_the_error": _numbers(judged.close),
+        "stations_above_he_kyllingstad": _numbers(judged.curved),
+        "stations_not_judged": _numbers(judged.unjudged),
         "weakest_station": screening.weakest + 1,
         "worst_station": None if screening.worst is None else screening.worst + 1,
         "length_effect": [{"inclination": a, "relative": v} for a, v in screening.length_effect.items()],
-        "remarks": {str(i + 1): text for i in range(len(survey)) if (text := screening.remarks(i))},
+        "remarks": {str(i + 1): text for i in range(len(survey)) if (text := remarks_of(screening, judged, i))},
     }
+
+
+def _numbers(stations: BoolArray) -> list[int]:
+    """Stations, counted from 1."""
+    return [i + 1 for i, said in enumerate(stations) if said]

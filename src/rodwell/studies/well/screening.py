@@ -101,7 +101,8 @@ class Screening:
     def worst(self) -> int | None:
         """The station with the largest utilisation; None without forces, or if all is in tension."""
         used = self.utilisation
-        return None if used is None or not np.nanmax(used) > 0.0 else int(np.nanargmax(used))
+        known = None if used is None else np.nan_to_num(used, nan=0.0)
+        return None if known is None or not np.max(known) > 0.0 else int(np.argmax(known))
 
     def remarks(self, i: int) -> str:
         """What must be known of a station."""
@@ -124,6 +125,7 @@ def screen(
     *,
     bit_force: float | None = None,
     hook_force: float | None = None,
+    signs_meant: bool = False,
     progress: Progress | None = None,
 ) -> Screening:
     """Screen a well station by station: where would the string buckle, where leave the wall, under which compression.
@@ -141,18 +143,22 @@ def screen(
     bit_force, hook_force
         Effective axial force at the last station or at the first in N, **tension positive**. Along the well it changes
         by the weight per length of the case times vertical depth (no friction). At most one of the two.
+    signs_meant
+        Whether a bit in tension or a hook that pushes is meant; without it they are refused.
     progress
         Called with what is being done and how much is done.
 
     Raises
     ------
     InputError
-        If the case has no dimensions or no weight, or forces are given twice.
+        If the case has no dimensions or no weight, forces are given twice, or a sign contradicts the force's name.
     NotConvergedError
         If no station at all has a critical load; single ones that lack a load say why in ``reasons``.
     """
     tell = progress or (lambda _what, _done: None)
     string = _string(case)
+    if not signs_meant:
+        _question(bit_force, hook_force)
     compression = _compression(string, survey, bit_force, hook_force)
     local = [float(a) for a in np.minimum(survey.inclination, 180.0 - survey.inclination)]
     known: dict[float, LocalLoad] = {}
@@ -179,6 +185,17 @@ def screen(
     tell("formulas", 0.95)
     effect = {alpha: length_effect(string, alpha, buckles(alpha)) for alpha in (min(local), max(local))}
     return Screening(case, survey, string, critical, lift_off, _formulas(string, survey), compression, effect)
+
+
+def _question(bit_force: float | None, hook_force: float | None) -> None:
+    """Refuse a bit in tension and a hook that pushes, unless they are said to be meant."""
+    meant = "; if that is meant, give signs_meant=True"
+    if bit_force is not None and bit_force > 0.0:
+        what = f"puts the bit in tension: for weight on bit write {-bit_force:g}, compression is negative{meant}"
+        raise InputError("bit_force", bit_force, what)
+    if hook_force is not None and hook_force < 0.0:
+        what = f"pushes at the hook: for a pull write {-hook_force:g}, tension is positive{meant}"
+        raise InputError("hook_force", hook_force, what)
 
 
 def _string(case: Case) -> PipeString:

@@ -9,26 +9,16 @@ import numpy as np
 from rodwell.analysis.loads.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
-from rodwell.quantities.text import amount, percent
-from rodwell.quantities.units import in_unit_of
+from rodwell.quantities.text import percent
 from rodwell.quantities.value import Value
 from rodwell.studies.well.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
-
-FORCE_UNITS = {"m": "kN", "ft": "klbf"}
-"""Unit of forces in tables and figures, by the survey's unit of depth."""
+from rodwell.studies.well.verdict import Found, amount_of, found, place, units, verdict_lines
 
 PER = {"m": 30.0, "ft": 100.0}
 """Build rates are given per so many of the survey's unit of depth."""
 
 NOT_NEGLIGIBLE = 0.01
 """Effect of the local rod's length that is worth a sentence."""
-
-
-def units(screening: Screening) -> tuple[str, float, str, float]:
-    """Unit of depth and its size in m, unit of force and its size in N."""
-    depth = screening.survey.depth_unit
-    force = FORCE_UNITS[depth]
-    return depth, in_unit_of(1.0, depth, "m"), force, in_unit_of(1.0, force, "N")
 
 
 def screening_table(screening: Screening) -> Table:
@@ -54,58 +44,34 @@ def screening_table(screening: Screening) -> Table:
         columns[f"compression of the string [{force}]"] = screening.compression / newton
         columns["utilisation, compression/critical"] = screening.utilisation
     rows: list[tuple[Cell, ...]] = []
+    judged = found(screening)
     for i in range(len(survey)):
         cells = [None if math.isnan(values[i]) else float(values[i]) for values in columns.values()]
-        rows.append((i + 1, *cells, screening.remarks(i)))
+        rows.append((i + 1, *cells, remarks_of(screening, judged, i)))
     marked = frozenset({screening.weakest if screening.worst is None else screening.worst})
     return Table("Stations", ("station", *columns, "remarks"), tuple(rows), marked, tuple(assumptions(screening)))
 
 
+def remarks_of(screening: Screening, judged: Found, i: int) -> str:
+    """What must be known of a station, what becomes of the string there first."""
+    said = ((judged.past, "past buckling"), (judged.close, "at the critical load, within its error"),
+            (judged.curved, "compression above He–Kyllingstad: expect buckling"))  # fmt: skip
+    return "; ".join([*(text for stations, text in said if stations[i]), *filter(None, [screening.remarks(i)])])
+
+
 def sentences(screening: Screening) -> list[str]:
-    """What was found, the verdict first."""
-    depth, metre, force, newton = units(screening)
-    survey, out = screening.survey, []
-
-    def at(i: int) -> str:
-        return f"{survey.md[i] / metre:.6g} {depth}, {survey.inclination[i]:.3g}° from the vertical"
-
-    def load(value: float, error: float = 0.0) -> str:
-        return f"{amount(Value(value / newton, error / newton))} {force}"
-
-    exact = screening.critical
-
-    worst, used = screening.worst, screening.utilisation
-    if used is not None and worst is not None and screening.compression is not None:
-        past = int(np.sum(used > 1.0))
-        above = screening.compression > screening.formulas["he_kyllingstad"]
-        bent = int(np.sum(np.logical_and(screening.dropping, above)))
-        verdict = "The string buckles" if past else "By the straight-hole loads the string does not buckle"
-        out.append(
-            f"{verdict}: the largest utilisation is {percent(_used(screening, worst))} at {at(worst)}, where it bears "
-            f"{load(screening.compression[worst])} and buckles at {load(exact.values[worst], exact.errors[worst])}."
-        )
-        if past:
-            over = np.nonzero(used > 1.0)[0]
-            first, last = int(over[0]), int(over[-1])
-            text = f"{past} of {len(survey)} stations are past buckling, from {at(first)} to {at(last)}"
-            lifted = int(np.sum(screening.compression > screening.lift_off.values))
-            out.append(f"{text}; {lifted} are past lift-off.")
-        if bent:
-            out.append(
-                f"At {bent} stations where the hole's curvature takes the pipe off the low side, the compression is "
-                "above He–Kyllingstad, which has the curvature: expect buckling there."
-            )
-    elif used is not None:
-        out.append("The string is in tension at every station: it does not buckle.")
+    """What was found, the verdict first: the worst of all that is said of buckling leads."""
+    at, load, exact = place(screening), amount_of(screening), screening.critical
+    out = [line.text for line in verdict_lines(screening)]
     weakest = screening.weakest
     out.append(
-        f"Least compression buckles it at {at(weakest)}: {load(exact.values[weakest], exact.errors[weakest])} there "
+        f"Least compression buckles it at {at(weakest)}: "
+        f"{load(float(exact.values[weakest]), float(exact.errors[weakest]))} there "
         "(exact local load, compression positive)."
     )
     ratio = screening.formulas["dawson_paslay"] / screening.critical.values
-    inclined = screening.local > 0.0
-    if np.any(inclined):
-        known = [i for i in np.flatnonzero(inclined) if np.isfinite(ratio[i])]
+    known = [i for i in np.flatnonzero(screening.local > 0.0) if np.isfinite(ratio[i])]
+    if known:
         low, high = min(known, key=lambda i: ratio[i]), max(known, key=lambda i: ratio[i])
         least, most = (percent(Value(ratio[i], ratio[i] * exact.errors[i] / exact.values[i])) for i in (low, high))
         out.append(
@@ -122,13 +88,6 @@ def sentences(screening: Screening) -> list[str]:
     if missing:
         out.append(f"{len(missing)} stations lack an exact load; the table says why.")
     return out
-
-
-def _used(screening: Screening, i: int) -> Value:
-    """Utilisation at a station; its error is that of the exact load."""
-    assert screening.utilisation is not None
-    used = float(screening.utilisation[i])
-    return Value(used, abs(used) * float(screening.critical.errors[i] / screening.critical.values[i]))
 
 
 def assumptions(screening: Screening) -> list[str]:
