@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 import operator
+import unicodedata
 import warnings
 
 LONGEST_VALUE = 200
+
+JOINERS = "\u200c\u200d"
+"""Characters without width that some scripts need within words."""
 
 
 class RodwellError(Exception):
@@ -29,13 +33,31 @@ class InputError(RodwellError):
     def __init__(self, field: str, value: object, reason: str) -> None:
         self.field, self.value, self.reason = field, value, reason
         given = "" if value is None else f" = {_short(value)}"
-        super().__init__(f"{field}{given}: {reason}")
+        super().__init__(f"{printable(field)}{given}: " + "\n".join(map(printable, reason.split("\n"))))
 
     @property
     def problem(self) -> str:
         """The old name of ``reason``: a problem is a :class:`rodwell.Problem`."""
         warnings.warn("InputError.problem is now InputError.reason", DeprecationWarning, stacklevel=2)
         return self.reason
+
+
+def printable(text: str) -> str:
+    r"""Return text that is harmless wherever it is shown: what cannot be printed is replaced by its escape.
+
+    A terminal's escape sequences, NUL and other control characters, marks that turn the direction of writing, and
+    halves of characters become visible, ``\x1b``; line breaks and tabs become spaces. Text that is printable stays as
+    it is, so that nothing changes the second time.
+    """
+    if text.isprintable():
+        return text
+    return "".join(_printable(character) for character in text)
+
+
+def _printable(character: str) -> str:
+    if character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs":
+        return character
+    return " " if character.isspace() else character.encode("unicode_escape").decode("ascii")
 
 
 def _short(value: object) -> str:

@@ -22,11 +22,14 @@ SECTIONS: dict[str, type[BaseModel]] = {
 }
 """Sections of a case file."""
 
+MOST_PROBLEMS = 40
+"""As many as are explained at once; each explanation takes a moment."""
+
 
 def explain(error: ValidationError, within: tuple[str, ...] = ()) -> list[tuple[str, object, str]]:
     """Return validation errors in the user's words: (key, value, what to do)."""
     out: list[tuple[str, object, str]] = []
-    for item in error.errors():
+    for item in error.errors()[:MOST_PROBLEMS]:
         where = ".".join(str(part) or "''" for part in item["loc"])
         value = item["input"]
         kind, text = item["type"], item["msg"]

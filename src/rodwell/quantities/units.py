@@ -31,9 +31,17 @@ LONGEST_TEXT = 60
 
 _QUANTITY = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:nan|inf(?:inity)?))"  # the number
-    r"((?:\s*[*/·]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
+    r"((?:\s*+[*/·]?\s*+(?:[A-Za-zµμ°Ω%_]++|\(|\)|\^-?[1-9]|\*\*-?[1-9]|²|³))*)\s*",  # units, products, small powers
     re.IGNORECASE,
 )
+"""Possessive (``++``) where two parts could share what they match: without, the time doubles with each letter."""
+
+_COSTLY = re.compile(
+    r"(?:\d|\^|\*\*|[²³])\s*(?:\^|\*\*|[²³])"  # powers of numbers and of powers
+    r"|(?:\^|\*\*)(?!\s*-?\s*\d(?![\d.]))"  # powers of more than one digit
+    r"|\)\s*(?:\^|\*\*|[²³]).*\)\s*(?:\^|\*\*|[²³])"  # powers within powers
+)
+"""Units that may take as long as they please: 9**9**9 m, ((m^9)^9)^9. No quantity has one."""
 
 
 @cache
@@ -97,15 +105,22 @@ def in_unit_of(number: float, unit: str, other: str) -> float:
         If one of them is no unit, or they do not go together.
     """
     try:
+        if not (is_quick(unit) and is_quick(other)):
+            raise ValueError
         return float(_registry().Quantity(number, unit).to(other).magnitude)
     except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"has units {unit!r} and {other!r}, which do not go together") from None
 
 
+def is_quick(unit: str) -> bool:
+    """Whether the text of a unit can be parsed in a moment, whatever it means."""
+    return len(unit) <= LONGEST_TEXT and _COSTLY.search(unit) is None
+
+
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
     found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
-    if found is None:
+    if found is None or not is_quick(found[2]):
         comma = "a decimal point, not a comma, " if "," in text else ""
         raise ValueError(f"is not a number with a unit; write {comma}for example {examples}")
     return float(found[1]), found[2].strip().replace("·", "*")

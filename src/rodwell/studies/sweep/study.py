@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import itertools
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rodwell.case.case import Case, CaseError
-from rodwell.case.file import read_toml
+from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
@@ -97,15 +96,17 @@ class Study:
         return plain(self)
 
 
-def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None) -> Study:
+def study(
+    case: str | Path | CaseText | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None
+) -> Study:
     """Compute a parameter study: a case in which one or two inputs are lists or ranges.
 
     Parameters
     ----------
     case
-        Path of a case file, or its content as a dictionary. A list holds values as the case file would have them
-        (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both ends
-        included). Two inputs make a grid.
+        Path of a case file ("-": standard input), or its content as a dictionary. A list holds values as the case file
+        would have them (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both
+        ends included). Two inputs make a grid.
     progress
         Called with what is being done and how much is done.
     units
@@ -118,7 +119,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
         are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
     """
-    data, source, text = _read(case)
+    read = _read(case)
+    data, source = read.data, read.source
     try:
         varied = varied_inputs(data)
     except InputError as error:
@@ -129,14 +131,13 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         )
     tell = progress or (lambda _what, _done: None)
     grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
-    folder = Path.cwd() if isinstance(case, Mapping) else Path(case).parent
-    cases = [_case(data, varied, at, source, folder, units) for at in grid]
+    cases = [_case(data, varied, at, source, read.folder, units) for at in grid]
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
     points = _points(grid, cases, tell)
     tell("done", 1.0)
     title = str(data.get("title", "Untitled study"))
-    return Study(title, source, text, {k: v for k, v in data.items() if k != "title"}, varied, points)
+    return Study(title, source, read.text, {k: v for k, v in data.items() if k != "title"}, varied, points)
 
 
 def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[StudyPoint, ...]:
@@ -158,25 +159,25 @@ def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: P
     return tuple(sorted(points, key=lambda point: point.number))
 
 
-def is_study(path: Path) -> bool:
-    """Whether a file is a case file with a list or range; False for what cannot be read, which ``Case`` explains."""
+def is_study(case: str | Path | CaseText) -> bool:
+    """Whether a case file holds a list or range; False for what cannot be read, which ``Case`` explains."""
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError, RecursionError):
+        data = case.data if isinstance(case, CaseText) else read_case(case).data
+    except InputError:
         return False
     sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
     values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
     return any(may_vary(name, value) for name, value in values)
 
 
-def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:
+def _read(case: str | Path | CaseText | Mapping[str, Any]) -> CaseText:
+    if isinstance(case, CaseText):
+        return case
     if isinstance(case, Mapping):
-        return case, "study", ""
+        return CaseText(printable_data(case), "", "study", "study", Path.cwd())
     if not isinstance(case, str | Path):
         raise InputError("case", case, "must be the path of a case file, or its content as a dictionary")
-    path = Path(case)
-    data, text = read_toml(path)
-    return data, path.name, text
+    return read_case(case)
 
 
 def _case(

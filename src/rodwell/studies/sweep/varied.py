@@ -28,6 +28,9 @@ ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 d
 
 ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of loads that act, ["-20 kN", "-40 kN"]'
 
+LONGEST_RANGE = 150
+"""Characters that a range may have: the expressions below take their number to the third."""
+
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
 _RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
 """What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
@@ -74,7 +77,9 @@ class Varied:
 
 def is_varied(value: object) -> bool:
     """Whether a value of a case file is a list or looks like a range."""
-    return isinstance(value, list | tuple) or (isinstance(value, str) and _RANGE_LIKE.search(value) is not None)
+    if isinstance(value, str):
+        return len(value) <= LONGEST_RANGE and _RANGE_LIKE.search(value) is not None
+    return isinstance(value, list | tuple)
 
 
 def may_vary(name: str, value: object) -> bool:
@@ -146,7 +151,8 @@ def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
         raise InputError(name, given, f"must hold single values; {ALLOWED}")
     if all(isinstance(value, int | float) for value in given):
         return Varied(section, key, list(given), tuple(given), "", tuple(float(value) for value in given))
-    parsed = [_NUMBER.fullmatch(value.strip()) if isinstance(value, str) else None for value in given]
+    short = [value.strip() if isinstance(value, str) and len(value) <= LONGEST_RANGE else None for value in given]
+    parsed = [None if value is None else _NUMBER.fullmatch(value) for value in short]
     if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in given):
         raise InputError(name, given, 'cannot hold values with "±"')
     numbers: tuple[float, ...] | None = None
