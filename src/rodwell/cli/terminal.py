@@ -20,7 +20,8 @@ PLAIN = {
 }  # fmt: skip
 """What stands for a character that an encoding does not have; the others are written as their escapes."""
 
-HANDLER = "rodwell.plain"
+HANDLER, ASCII = "rodwell.plain", "rodwell_ascii"
+"""Names under which Python knows the replacement, and ASCII on a stream."""
 
 
 def _plain(error: UnicodeError) -> tuple[str | bytes, int]:
@@ -42,10 +43,21 @@ def _in_ascii(character: str) -> str:
 def never_fail_to_encode() -> None:
     """Let standard output and error write every text, whatever their encoding: no minus sign ends a run."""
     codecs.register_error(HANDLER, _plain)
+    codecs.register(_named_otherwise)
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)  # what stands in for a stream may have none
         if reconfigure is not None:
-            reconfigure(errors=HANDLER)
+            ascii_only = codecs.lookup(stream.encoding).name == "ascii"
+            reconfigure(encoding=ASCII if ascii_only else None, errors=HANDLER)
+
+
+def _named_otherwise(name: str) -> codecs.CodecInfo | None:
+    """ASCII under another name: click takes a stream of that encoding for a mistake and writes UTF-8 to it."""
+    ascii_only = codecs.lookup("ascii")
+    return None if name != ASCII else codecs.CodecInfo(
+        ascii_only.encode, ascii_only.decode, ascii_only.streamreader, ascii_only.streamwriter,
+        ascii_only.incrementalencoder, ascii_only.incrementaldecoder, name=ASCII,
+    )  # fmt: skip
 
 
 def has_all_characters() -> bool:

@@ -24,6 +24,8 @@ if sys.platform != "win32":
 
 PREFIX = ".rodwell-"
 LOCK, NEW, OLD, PLAN = "lock", "new", "old", "plan.json"
+PART = f"{LOCK}.part"
+"""Name of the lock before it is locked."""
 
 LONGEST_NAME = 40
 """Characters of the target's name in that of its hidden folder."""
@@ -32,7 +34,7 @@ LEVELS = 4
 """Folders, from the target up, in which something may have been left behind."""
 
 DAY = 86400.0
-"""Seconds after which a hidden folder in which nothing was begun counts as left behind."""
+"""Seconds after which a hidden folder in which nothing was begun, and nothing is, counts as left behind."""
 
 
 @contextmanager
@@ -51,10 +53,9 @@ def staged(target: Path, home: Path, undisturbed: Callable[[], AbstractContextMa
     finally:
         with undisturbed():
             _finish(place, target)
+            _remove(place)
             if lock is not None:
                 lock.close()
-            if not (place / PLAN).exists():
-                shutil.rmtree(place, ignore_errors=True)
 
 
 def write_plan(place: Path, kind: str, names: list[str]) -> None:
@@ -76,17 +77,16 @@ def finish_leftovers(target: Path) -> None:
 def _finish_leftover(place: Path, target: Path) -> None:
     try:
         lock = (place / LOCK).open("r+", encoding="utf-8")
-    except OSError:  # killed before it began: a folder that is empty goes, any other stays
+    except OSError:  # killed before it began, or in its last step
         with suppress(OSError):
-            if time.time() - place.stat().st_mtime > DAY:
-                place.rmdir()
+            if time.time() - place.stat().st_mtime > DAY and {file.name for file in place.iterdir()} <= {PART}:
+                shutil.rmtree(place)
         return
     with lock:
         if not _lock(lock) or lock.read() != str(target):
             return
         _finish(place, target)
-    if not (place / PLAN).exists():
-        shutil.rmtree(place, ignore_errors=True)
+        _remove(place)
 
 
 def _finish(place: Path, target: Path) -> None:
@@ -114,6 +114,18 @@ def _finish(place: Path, target: Path) -> None:
         (place / PLAN).unlink()
 
 
+def _remove(place: Path) -> None:
+    """Remove a hidden folder, unless a plan in it says that it is still needed; the lock last, which makes it ours."""
+    if (place / PLAN).exists():
+        return
+    for folder in (place / NEW, place / OLD):
+        shutil.rmtree(folder, ignore_errors=True)
+    with suppress(OSError):
+        for file in sorted(place.iterdir(), key=lambda file: file.name == LOCK):
+            file.unlink()
+        place.rmdir()
+
+
 def _plan(place: Path) -> dict[str, Any] | None:
     try:
         plan = json.loads((place / PLAN).read_text(encoding="utf-8"))
@@ -131,7 +143,7 @@ def _owned(place: Path, target: Path) -> IO[str] | None:
 
     It gets its name when it is locked, so that nobody else can have it before.
     """
-    part = place / f"{LOCK}.part"
+    part = place / PART
     lock = part.open("w+", encoding="utf-8")
     lock.write(str(target))
     lock.flush()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -149,6 +150,8 @@ def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
         raise InputError(name, given, f"must hold at least two values; {ALLOWED}")
     if any(isinstance(value, list | tuple | Mapping | bool) or is_varied(value) for value in given):
         raise InputError(name, given, f"must hold single values; {ALLOWED}")
+    if any(isinstance(value, int) and abs(value) > sys.float_info.max for value in given):
+        raise InputError(name, given, "must hold numbers that are not larger than any computer's")
     if all(isinstance(value, int | float) for value in given):
         return Varied(section, key, list(given), tuple(given), "", tuple(float(value) for value in given))
     short = [value.strip() if isinstance(value, str) and len(value) <= LONGEST_RANGE else None for value in given]
