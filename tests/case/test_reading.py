@@ -14,6 +14,7 @@ import pytest
 
 from rodwell.case.case import LONGEST_TITLE, Case
 from rodwell.case.catalogue import key_of, read_catalogue
+from rodwell.case.explain import MOST_PROBLEMS
 from rodwell.case.file import LARGEST_CASE, LARGEST_CATALOGUE, parsed, printable_data, read_case
 from rodwell.case.uncertain import split
 from rodwell.errors import InputError, printable
@@ -132,6 +133,7 @@ def test_long_files_are_read_quickly(text: str) -> None:
         read()
     assert time.process_time() - start < QUICK
     assert len(str(caught.value)) < 20_000
+    assert len(getattr(caught.value, "problems", ())) <= MOST_PROBLEMS
 
 
 @pytest.mark.parametrize(
@@ -227,6 +229,11 @@ def test_messages_are_harmless(tmp_path: Path, text: str) -> None:
     with pytest.raises(InputError) as caught:
         Case.read(file)
     assert all(line.isprintable() for line in str(caught.value).splitlines())
+
+
+def test_the_source_of_a_dictionary_is_harmless() -> None:
+    with pytest.raises(InputError, match=r"^a\\x1b: rod: is missing"):
+        Case.from_dict({}, source="a\x1b")
 
 
 def test_names_in_catalogues_are_harmless(tmp_path: Path) -> None:
