@@ -222,3 +222,12 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+# Reasons
+
+
+def test_why_there_is_no_lift_off(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    given = ("--weight", "1.5293", "--alpha", "34.887", "--clearance", "0.016756", "--ends", "guided-free")
+    assert run(monkeypatch, "liftoff", *given) == 1
+    assert "without lift-off (the end of the search was reached)" in capsys.readouterr().err

@@ -101,7 +101,7 @@ def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution
     if force is not None:
         return branch.at(force)
     if branch.lift_off is None or branch.lift_off_at_buckling:
-        why = "lifts off as soon as it buckles" if branch.lift_off_at_buckling else branch.ended_because
+        why = "lifts off as soon as it buckles" if branch.lift_off_at_buckling else branch.ending
         raise NotConvergedError(f"mode {mode} has no buckled state at lift-off ({why}); give an end force with --at")
     return branch.lift_off.solution
 

@@ -98,7 +98,7 @@ def _add(found: list[ExactLoad], notes: list[str], what: str, compute: Callable[
 def _lift_off(problem: Problem, rtol: float) -> ExactLoad:
     branch = follow(problem.but(twist=0.0), 1, rtol=rtol)
     if branch.lift_off is None or not branch.converged:
-        raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
+        raise NotConvergedError(f"not found to the tolerance ({branch.ending})")
     lift = branch.lift_off
     return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, problem.axial_weight)
 
