@@ -77,6 +77,35 @@ def test_where_folders_cannot_be_renamed(out: Path, monkeypatch: pytest.MonkeyPa
     assert out.stat().st_ino == before
 
 
+def test_where_the_second_of_two_steps_fails(out: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rename = Path.rename
+
+    def refuse(self: Path, to: Path) -> Path:
+        if self.name == NEW:
+            raise OSError(18, "Invalid cross-device link")
+        return rename(self, to)
+
+    monkeypatch.setattr(swap, "_exchanged", lambda *_: False)
+    monkeypatch.setattr(Path, "rename", refuse)
+    before = out.stat().st_ino
+    write(out)
+    assert texts(out) == NEW_ONES
+    assert out.stat().st_ino == before
+
+
+def test_other_files_come_along_in_the_same_step(out: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    exchanged, seen = swap._exchanged, []
+
+    def watched(new: Path, target: Path) -> bool:
+        done = exchanged(new, target)
+        seen.append(texts(target if done else new))
+        return done
+
+    monkeypatch.setattr(swap, "_exchanged", watched)
+    write(out)
+    assert seen == [NEW_ONES]
+
+
 def test_where_files_cannot_be_linked(out: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise OSError(1, "Operation not permitted")
@@ -163,6 +192,14 @@ def test_what_is_left_behind_goes(out: Path) -> None:
 
 
 @POSIX
+def test_what_is_left_behind_goes_with_the_next_results(out: Path) -> None:
+    """Also where nobody asks before whether they can be written."""
+    left_behind(out)
+    write(out)
+    assert [file.name for file in out.parent.iterdir()] == ["results"]
+
+
+@POSIX
 def test_an_absent_folder_comes_back(out: Path) -> None:
     """Killed between the two steps of a system without exchange."""
     place = left_behind(out)
@@ -240,6 +277,21 @@ def campaign() -> ModuleType:
 def test_killed(campaign: ModuleType, seed: int) -> None:
     found = campaign.trial(seed)
     assert not campaign.fault(found), found
+
+
+@POSIX
+def test_killed_between_files(campaign: ModuleType, tmp_path: Path) -> None:
+    """Where files are moved one by one, the next run ends what was begun."""
+    left = []
+    for at in range(20, campaign.steps("folder"), 4):
+        place = tmp_path / str(at)
+        place.mkdir()
+        out = campaign.prepared(place, "folder")
+        campaign.killed(out, at=at)
+        left.append(campaign.state(out, "folder"))
+        check_writable(out)
+        assert campaign.state(out, "folder") == "whole"
+    assert set(left) == {"whole", "mixed"}
 
 
 def test_the_committed_campaign_has_no_faults() -> None:
