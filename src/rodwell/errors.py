@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import math
 import operator
+import unicodedata
 import warnings
 
-LONGEST_VALUE = 200
+LONGEST_VALUE, LONGEST_REASON = 200, 5000
+"""Characters of a name or value, and of what is wrong with it, in a message: a file can hold keys of any length."""
+
+JOINERS = "\u200c\u200d"
+"""Characters without width that some scripts need within words."""
 
 
 class RodwellError(Exception):
@@ -29,7 +34,8 @@ class InputError(RodwellError):
     def __init__(self, field: str, value: object, reason: str) -> None:
         self.field, self.value, self.reason = field, value, reason
         given = "" if value is None else f" = {_short(value)}"
-        super().__init__(f"{field}{given}: {reason}")
+        why = "\n".join(printable(line) for line in _cut(reason, LONGEST_REASON).split("\n"))
+        super().__init__(f"{printable(_cut(field, LONGEST_VALUE))}{given}: {why}")
 
     @property
     def problem(self) -> str:
@@ -38,10 +44,32 @@ class InputError(RodwellError):
         return self.reason
 
 
+def printable(text: str) -> str:
+    r"""Return text that is harmless wherever it is shown: what cannot be printed is replaced by its escape.
+
+    A terminal's escape sequences, NUL and other control characters, marks that turn the direction of writing, and
+    halves of characters become visible, ``\x1b``; line breaks and tabs become spaces. Text that is printable stays as
+    it is, so that nothing changes the second time.
+    """
+    if text.isprintable():
+        return text
+    return "".join(_printable(character) for character in text)
+
+
+def _printable(character: str) -> str:
+    if character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs":
+        return character
+    return " " if character.isspace() else character.encode("unicode_escape").decode("ascii")
+
+
 def _short(value: object) -> str:
     """A value as it would be written, cut where it is very long."""
     text = "a very long number" if isinstance(value, int) and abs(value) >= 10**40 else repr(value)
-    return text if len(text) <= LONGEST_VALUE else text[: LONGEST_VALUE - 1] + "…"
+    return _cut(text, LONGEST_VALUE)
+
+
+def _cut(text: str, most: int) -> str:
+    return text if len(text) <= most else text[: most - 1] + "…"
 
 
 def checked_number(field: str, value: object, low: float, high: float, allowed: str) -> float:

@@ -20,12 +20,12 @@ from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.explain import SECTIONS, explain
 from rodwell.case.facts import Fact
-from rodwell.case.file import read_toml
+from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.uncertain import Moved, UncertainInput, split
-from rodwell.errors import InputError
+from rodwell.errors import InputError, printable
 from rodwell.faces import Shown
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
@@ -34,6 +34,12 @@ from rodwell.quantities.units import SYSTEMS, System
 
 __all__ = ["SECTIONS", "Case", "CaseError"]
 
+LONGEST_TITLE = 300
+"""Characters that a title may have: it stands above figures and on every page."""
+
+MOST_LINES = 25
+"""Problems that one message tells."""
+
 
 class CaseError(InputError):
     """A case that cannot be used: all that is wrong with it, one problem a line."""
@@ -41,8 +47,9 @@ class CaseError(InputError):
     def __init__(self, source: str, problems: list[tuple[str, object, str]]) -> None:
         self.problems = problems
         super().__init__(*problems[0])
-        lines = [str(InputError(*problem)) for problem in problems]
-        self.args = (f"{source}: " + (lines[0] if len(lines) == 1 else "\n  " + "\n  ".join(lines)),)
+        lines = [str(InputError(*problem)) for problem in problems[:MOST_LINES]]
+        lines += [f"and {len(problems) - MOST_LINES} more"] if len(problems) > MOST_LINES else []
+        self.args = (f"{printable(source)}: " + (lines[0] if len(lines) == 1 else "\n  " + "\n  ".join(lines)),)
 
 
 @dataclass(frozen=True)
@@ -133,8 +140,10 @@ class Case(Shown):
         return replace(self, scales=replace(self.scales, system=System(name)))
 
     @classmethod
-    def read(cls, path: str | Path) -> Case:
-        """Read a case file.
+    def read(cls, path: str | Path | CaseText) -> Case:
+        """Read a case file; "-" is standard input, which like any pipe is read once.
+
+        What cannot be printed in its texts (control characters, escape sequences) is replaced by visible escapes.
 
         Raises
         ------
@@ -143,9 +152,8 @@ class Case(Shown):
         InputError
             If the file cannot be read.
         """
-        file = Path(path)
-        data, text = read_toml(file)
-        return cls.from_dict(data, source=file.name, text=text, folder=file.parent)
+        read = path if isinstance(path, CaseText) else read_case(path)
+        return cls.from_dict(read.data, source=read.source, text=read.text, folder=read.folder)
 
     @classmethod
     def from_dict(
@@ -157,6 +165,7 @@ class Case(Shown):
         """
         if not isinstance(data, Mapping):
             raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
+        data = printable_data(data)
         try:
             clean, moved = split(data)
             case = cls._certain(clean, source, text, Path(folder))
@@ -203,6 +212,8 @@ def _catalogue(parsed: schema.CaseFile, folder: Path) -> Catalogue:
 
 
 def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
+    if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
+        raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
     with_dimensions = parsed.rod is not None or parsed.hole is not None
     if with_dimensions and parsed.dimensionless is not None:
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")

@@ -7,7 +7,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from rodwell.case.entries import Entry, Grade, Material, Pipe
+from rodwell.case.file import LARGEST_CATALOGUE, decoded, first_bytes, parsed
 from rodwell.errors import InputError
 
 Raw = dict[str, Any]
@@ -34,6 +35,9 @@ INSTEAD = {
 MOST_NAMES = 24
 """As many names as a message lists in full."""
 
+LONGEST_NAME = 200
+"""Longer ones are no names: they are compared as they are."""
+
 _SPELLINGS = (
     (re.compile(r"[×*]"), "x"),
     (re.compile("\"|″|''|\\binch(es)?\\b"), " in "),
@@ -47,6 +51,8 @@ _NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
 def key_of(name: str) -> str:
     """Return a name as it is compared: capitals, spaces, hyphens, 2-7/8 or 2.875, 19.50 or 19.5, ppf or lb/ft."""
     text = name.lower()
+    if len(text) > LONGEST_NAME:
+        return text
     for pattern, plain in _SPELLINGS:
         text = pattern.sub(plain, text)
     text = _MIXED.sub(_decimal, text)
@@ -118,23 +124,29 @@ def read_catalogue(files: Sequence[str], folder: Path) -> Catalogue:
     """
     entries = {kind: dict(known) for kind, known in package_catalogue().entries.items()}
     for name in files:
-        found = list(_entries(_read(folder / name, name), name))
-        for kind, raw in found:
-            _check(kind, raw, name)
-        _add(entries, found)
+        _add(entries, _checked_entries(_read(folder / name, name), name))
     return Catalogue(entries)
 
 
-def _read(path: Path, name: str) -> Raw:
+def _read(path: Path, name: str) -> str:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "is not text in UTF-8"
+        with path.open("rb") as opened:
+            raw = first_bytes(opened, LARGEST_CATALOGUE)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
         raise InputError(
             "catalogue.files", name, f"cannot be read ({reason}); give a TOML file, its path from the case file"
         ) from None
-    except (ValueError, RecursionError) as error:
-        raise InputError("catalogue.files", name, f"is not valid TOML: {error}") from None
+    return decoded(raw, "catalogue.files", name, "give a TOML file, its path from the case file", LARGEST_CATALOGUE)
+
+
+@lru_cache(maxsize=8)  # every point of a study, and every side of an uncertainty, asks for the same
+def _checked_entries(text: str, name: str) -> tuple[tuple[str, Raw], ...]:
+    """Entries of a file of the user's, each checked."""
+    found = tuple(_entries(parsed(text, "catalogue.files", name), name))
+    for kind, raw in found:
+        _check(kind, raw, name)
+    return found
 
 
 def _entries(data: Mapping[str, Any], file: str = "") -> Iterable[tuple[str, Raw]]:

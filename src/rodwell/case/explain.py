@@ -25,6 +25,9 @@ SECTIONS: dict[str, type[BaseModel]] = {
 }
 """Sections of a case file."""
 
+MOST_PROBLEMS = 40
+"""As many as are explained at once; each explanation takes a moment."""
+
 _RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$")
 
 SIMILAR, ALIKE = 0.55, 0.8
@@ -55,7 +58,7 @@ def explain(
     ``declared`` says that the file is a parameter study, ``within`` that what was validated is a section of it.
     """
     out: list[tuple[str, object, str]] = []
-    for item in error.errors():
+    for item in error.errors()[:MOST_PROBLEMS]:
         where = ".".join(str(part) or "''" for part in item["loc"])
         if item["type"] == "extra_forbidden":
             value = None if isinstance(item["input"], dict | list) else item["input"]

@@ -14,6 +14,9 @@ from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import in_unit_of
 from rodwell.quantities.written import number_and_rest, remedy
 
+LONGEST = 150
+"""Characters that a quantity and its uncertainty may have: the expression below takes their number to the third."""
+
 _PLUS_MINUS = re.compile(r"\s*(.+?)\s*(?:±|\+/-|\+-)\s*(.+?)\s*")
 
 Moved = tuple[Problem, Scales | None]
@@ -48,7 +51,8 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
             continue
         clean[section] = dict(values)
         for key, text in values.items():
-            parts = _PLUS_MINUS.fullmatch(text.replace("−", "-")) if isinstance(text, str) else None
+            short = isinstance(text, str) and len(text) <= LONGEST
+            parts = _PLUS_MINUS.fullmatch(text.replace("−", "-")) if short else None
             if parts is None:
                 continue
             nominal, moved[section, key] = _moved(f"{section}.{key}", text, parts[1], parts[2])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import print_json, progress_bar, units_option
+from rodwell.cli.options import OutPath, print_json, print_written, progress_bar, results_folder, units_option
 from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
@@ -28,9 +28,7 @@ NAMES = {
 
 @click.command(short_help="Hold the formulas of practice against a case's exact loads.")
 @click.argument("case", type=click.Path(path_type=Path))
-@click.option(
-    "--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-OF-THE-CASE-audit]"
-)
+@click.option("--out", type=OutPath(), help="Folder for the results.  [default: results/NAME-OF-THE-CASE-audit]")
 @click.option("--friction", type=float, help="Coefficient of friction, for the formulas that take one.")
 @click.option("--build", type=float, help="Degrees that the hole builds over the rod's length, for curved holes.")
 @click.option("--turn", type=float, help="Degrees that the hole turns sideways over the rod's length.")
@@ -55,10 +53,12 @@ def audit(
     are those of a straight hole without friction. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
+    from rodwell.case.file import read_case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    read = Case.read(case).in_units(units)
-    folder = Path("results") / f"{case.stem}-audit" if out is None else out
+    text = read_case(case)
+    read = Case.read(text).in_units(units)
+    folder = results_folder(out, text.name, "-audit")
     check_writable(folder)
     angles = {"build": build, "turn": turn}
     extra = {name: math.radians(value) for name, value in angles.items() if value is not None}
@@ -79,7 +79,7 @@ def audit(
         print_json(result.as_dict())
         return
     _print(result)
-    click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+    print_written(folder, files)
 
 
 def _print(audit: Audit) -> None:

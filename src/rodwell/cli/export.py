@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import force_at, progress_bar, units_option
+from rodwell.cli.options import OutPath, force_at, progress_bar, units_option
+from rodwell.errors import printable
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
@@ -25,7 +26,7 @@ LIFT_OFF = "lift-off"
     help='End force at s = 1, tension positive, with its unit ("-130 kN", a plain number in B/L² without dimensions).',
 )
 @click.option(
-    "--to", "files", type=click.Path(path_type=Path), multiple=True, required=True,
+    "--to", "files", type=OutPath(), multiple=True, required=True,
     help="File; the suffix says the format: .glb, .stl, .vtu, .csv, .html, .png, .svg, .pdf. More than one is fine.",
 )  # fmt: skip
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
@@ -88,7 +89,7 @@ def export(
         given = {"rod_radius": rod_radius, "until": at, "force": at}
         value = given.get(error.field, error.value)
         raise InputError(names.get(error.field, error.field), value, error.reason) from None
-    click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(str(file) for file in written))
+    click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(printable(str(file)) for file in written))
 
 
 def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution:
@@ -100,7 +101,7 @@ def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution
     if force is not None:
         return branch.at(force)
     if branch.lift_off is None or branch.lift_off_at_buckling:
-        why = "lifts off as soon as it buckles" if branch.lift_off_at_buckling else branch.ended_because
+        why = "lifts off as soon as it buckles" if branch.lift_off_at_buckling else branch.ending
         raise NotConvergedError(f"mode {mode} has no buckled state at lift-off ({why}); give an end force with --at")
     return branch.lift_off.solution
 

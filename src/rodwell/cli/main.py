@@ -26,6 +26,7 @@ from rodwell.cli.paper import paper
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
+from rodwell.cli.terminal import Terminated, ending_well, never_fail_to_encode
 from rodwell.errors import CacheWarning, InputError, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
@@ -52,8 +53,10 @@ for command in (
 def main() -> None:
     """Run the command line; turn every expected error into one message and an exit code."""
     warnings.showwarning = _warned
+    never_fail_to_encode()
     try:
-        cli.main(standalone_mode=False)
+        with ending_well():
+            cli.main(standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         click.echo(error.format_message())
         sys.exit(INPUT_ERROR)
@@ -63,13 +66,14 @@ def main() -> None:
     except click.Abort as abort:  # click's word for Ctrl-C, but for an EOFError from anywhere as well
         if isinstance(abort.__cause__, EOFError):
             raise abort.__cause__ from None
-        _interrupted()
-    except KeyboardInterrupt:
-        _interrupted()
+        _interrupted(abort.__cause__)
+    except KeyboardInterrupt as interrupt:
+        _interrupted(interrupt)
     except SystemError as error:
-        if not _caused_by_interrupt(error):
+        cause = _interrupt_behind(error)
+        if cause is None:
             raise
-        _interrupted()
+        _interrupted(cause)
     except InputError as error:
         click.echo(f"rodwell: error: {error}", err=True)
         sys.exit(INPUT_ERROR)
@@ -95,18 +99,19 @@ def _warned(message: Warning | str, category: type[Warning], *where: Any, **more
         _show_warning(message, category, *where, **more)
 
 
-def _interrupted() -> None:
-    click.echo("rodwell: interrupted; nothing was written", err=True)
-    sys.exit(INTERRUPTED)
+def _interrupted(cause: BaseException | None) -> None:
+    what, code = ("interrupted", INTERRUPTED)
+    if isinstance(cause, Terminated):
+        what, code = f"ended by {cause.name}", cause.exit_code
+    click.echo(f"rodwell: {what}; nothing was written", err=True)
+    sys.exit(code)
 
 
-def _caused_by_interrupt(error: BaseException | None) -> bool:
-    """Whether Ctrl-C lies behind an error: inside a compiled call it surfaces as the cause of a SystemError."""
-    while error is not None:
-        if isinstance(error, KeyboardInterrupt):
-            return True
+def _interrupt_behind(error: BaseException | None) -> BaseException | None:
+    """The Ctrl-C or signal that lies behind an error: in a compiled call it surfaces as the cause of a SystemError."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
-    return False
+    return error
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from rodwell.cli.options import (
     out_option,
     places_text,
     print_json,
+    print_written,
     problem_options,
     progress_bar,
     rtol_option,
@@ -92,7 +93,7 @@ def diagram(
         print_json(result.as_dict())
         return
     _print_diagram(result)
-    click.echo(f"\nWritten to {out}: " + ", ".join(files))
+    print_written(out, files)
 
 
 def _print_diagram(result: Diagram) -> None:
@@ -169,7 +170,7 @@ def curve(
         print_json({"curves": [c.as_dict() for c in curves]})
         return
     _print_curves(curves)
-    click.echo(f"\nWritten to {out}: " + ", ".join(files))
+    print_written(out, files)
 
 
 def _with_required(given: dict[str, Any], over: str) -> dict[str, Any]:

@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.terminal import has_all_characters
+from rodwell.errors import InputError, printable
+
 if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.problem.problem import Problem
@@ -75,9 +78,14 @@ def make_problem(given: dict[str, Any]) -> Problem:
     return Problem(**{"weight": 0.0, **values})
 
 
-def print_json(data: dict[str, Any]) -> None:
-    """Print data as JSON."""
-    click.echo(json.dumps(data, ensure_ascii=False))
+def print_json(data: dict[str, Any], indent: int | None = None) -> None:
+    """Print data as JSON, with escapes for characters that the terminal's encoding does not have."""
+    click.echo(json.dumps(data, ensure_ascii=not has_all_characters(), indent=indent))
+
+
+def print_written(folder: Path, files: Sequence[str]) -> None:
+    """Say where results are."""
+    click.echo(f"\nWritten to {printable(str(folder))}: " + ", ".join(files))
 
 
 def places_text(places: Sequence[float]) -> str:
@@ -90,7 +98,6 @@ def force_at(at: str, case: Case, word: str = "") -> float:
 
     ``word`` is what may be given instead of a force.
     """
-    from rodwell.errors import InputError  # noqa: PLC0415
     from rodwell.quantities.units import to_si  # noqa: PLC0415
 
     instead = f'"{word}" or ' if word else ""
@@ -105,10 +112,29 @@ def force_at(at: str, case: Case, word: str = "") -> float:
         raise InputError("--at", at, f"must be {instead}an end force: it {error}") from None
 
 
+class OutPath(click.Path):
+    """Where results go: an empty name, which would be the current folder, is refused."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        if not str(value).strip() and not isinstance(value, Path):
+            what = 'is empty; name a folder ("." is the current one), or leave the option out'
+            raise InputError("--out" if param is None else param.opts[0], value, what)
+        return super().convert(value, param, ctx)
+
+
+def results_folder(out: Path | None, name: str, suffix: str = "") -> Path:
+    """The folder for results: the one asked for, or one named after the case, with a ``suffix``."""
+    return Path("results") / f"{name}{suffix}" if out is None else out
+
+
 def out_option(name: str) -> Callable[[Any], Any]:
     """Option for the folder of results."""
     return click.option(
-        "--out", type=click.Path(path_type=Path), default=Path("results") / name, show_default=True,
+        "--out", type=OutPath(), default=Path("results") / name, show_default=True,
         help="Folder for figure and data.",
     )  # fmt: skip
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import json_option, out_option, print_json, progress_bar, rtol_option
+from rodwell.cli.options import json_option, out_option, print_json, print_written, progress_bar, rtol_option
 
 if TYPE_CHECKING:
     from rodwell.studies.paper.agreement import Agreement
@@ -55,7 +55,7 @@ def paper(
         print_json(table.as_dict() | {"files": list(files)})
     else:
         _print(table)
-        click.echo(f"\nWritten to {out}: " + ", ".join(files))
+        print_written(out, files)
     if not table.passed:
         sys.exit(UNEXPLAINED_EXIT)
 

@@ -32,7 +32,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     assert buckling is not None
     if lift is None:
         raise NotConvergedError(
-            f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ended_because})"
+            f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ending})"
         )
     places = () if branch.lift_off_at_buckling else lift.s
     if as_json:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import progress_bar, units_option
+from rodwell.cli.options import OutPath, print_json, progress_bar, results_folder, units_option
+from rodwell.errors import printable
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=OutPath(),
     help="Folder for the results.  [default: results/NAME-OF-THE-CASE]",
 )
 @units_option
@@ -29,25 +29,29 @@ if TYPE_CHECKING:
 def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, quiet: bool) -> None:
     """Compute CASE, a TOML file, and write report, figures and data.
 
+    CASE may be a pipe, or "-" for standard input; its results go to results/case unless --out says where.
+
     If one or two of its inputs are ranges ("30..90 deg in 13"), or lists in a file that says study = true at its
     top, a parameter study is made. `rodwell keys` explains the keys of a case file, `rodwell init` writes a first one.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
+    from rodwell.case.file import read_case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
     from rodwell.studies.sweep.study import is_study  # noqa: PLC0415
 
-    folder = Path("results") / case.stem if out is None else out
     if with_pdf:
         from rodwell.report.pages.pdf import check_pdf  # noqa: PLC0415
 
         check_pdf()
-    if is_study(case):
+    text = read_case(case)
+    folder = results_folder(out, text.name)
+    if is_study(text):
         from rodwell.cli.study import run_study  # noqa: PLC0415
 
         check_writable(folder)
-        run_study(case, folder, units, as_json, quiet, with_pdf)
+        run_study(text, folder, units, as_json, quiet, with_pdf)
         return
-    read = Case.read(case).in_units(units)
+    read = Case.read(text).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.folders.case import write_results  # noqa: PLC0415
@@ -57,7 +61,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
         tell("figures, report and data", 1.0)
         files = write_results(result, folder, with_pdf=with_pdf)
     if as_json:
-        click.echo(json.dumps(result.as_dict(), indent=2, ensure_ascii=False))
+        print_json(result.as_dict(), indent=2)
     elif not quiet:
         _summary(result, folder, files)
 
@@ -93,4 +97,5 @@ def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
     named = [name for name in (*FILES, PDF) if name in files]
-    console.print(f"\nWritten to [bold]{escape(str(folder))}[/bold]: {', '.join(named)}, figures as PNG and SVG")
+    where = escape(printable(str(folder)))
+    console.print(f"\nWritten to [bold]{where}[/bold]: {', '.join(named)}, figures as PNG and SVG")

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import print_json, progress_bar
+from rodwell.cli.options import OutPath, print_json, print_written, progress_bar
+from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ SHOWN = 12
 @click.command(short_help="Screen a whole well, station by station, from its survey.")
 @click.argument("survey", type=click.Path(path_type=Path))
 @click.option("--case", required=True, type=click.Path(path_type=Path), help="Case file of string and hole.")
-@click.option("--out", type=click.Path(path_type=Path), help="Folder for the results.  [default: results/NAME-screen]")
+@click.option("--out", type=OutPath(), help="Folder for the results.  [default: results/NAME-screen]")
 @click.option("--bit-force", help='Effective force at the last station: "-100 kN" is weight on bit.')
 @click.option("--hook-force", help='Effective force at the first station: "500 kN" is hook load.')
 @click.option("--depth-unit", help="Unit of measured depth, m or ft, if the header does not say.")
@@ -52,6 +53,9 @@ def screen(
 
     read = Case.read(case)
     well = Survey.read(survey, depth_unit=depth_unit, angle_unit=angle_unit, force_unit=force_unit)
+    if force_unit is not None and well.force is None:
+        what = f"has no meaning: {well.source} has no column of forces; leave the option out, or name the column Force"
+        raise InputError("--force-unit", force_unit, what)
     folder = Path("results") / f"{survey.stem}-screen" if out is None else out
     check_writable(folder)
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
@@ -68,7 +72,7 @@ def screen(
         print_json(screening_dict(result))
         return
     _print(result)
-    click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+    print_written(folder, files)
 
 
 def _force(option: str, text: str | None) -> float | None:

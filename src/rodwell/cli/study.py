@@ -5,17 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
-
-from rodwell.cli.options import print_json, progress_bar
+from rodwell.cli.options import print_json, print_written, progress_bar
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from rodwell.case.file import CaseText
     from rodwell.studies.sweep.study import Study
 
 
-def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
+def run_study(file: CaseText, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
     """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
     from rodwell.report.folders.study import write_study  # noqa: PLC0415
     from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
@@ -28,7 +27,7 @@ def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet:
         print_json(result.as_dict())
     elif not quiet:
         _summary(result)
-        click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+        print_written(folder, files)
 
 
 def _summary(study: Study) -> None:

@@ -42,10 +42,18 @@ LONGEST_TEXT = 60
 
 _QUANTITY = re.compile(
     rf"\s*({NUMBER}|[+-]?(?:nan|inf(?:inity)?))"
-    r"((?:\s*[*/·⋅.-]?\s*(?:[A-Za-zµμ°Ω%_]+|\(|\)|\^-?[1-9]|\*\*-?[1-9]|[²³⁴]|(?<=[A-Za-z])[234]|[\"″′']"
+    r"((?:\s*+[*/·⋅.-]?\s*+(?:[A-Za-zµμ°Ω%_]++|\(|\)|\^-?[1-9]|\*\*-?[1-9]|[²³⁴]|(?<=[A-Za-z])[234]|[\"″′']"
     r"|(?<=/)\s*\d{1,4}(?=\s*(?:ft|m)\b)))*\.?)\s*",  # units, products, small powers, deg/100 ft
     re.IGNORECASE,
 )
+"""Possessive (``++``) where two parts could share what they match: without, the time doubles with each letter."""
+
+_COSTLY = re.compile(
+    r"(?:\d|\^|\*\*|[²³])\s*(?:\^|\*\*|[²³])"  # powers of numbers and of powers
+    r"|(?:\^|\*\*)(?!\s*-?\s*\d(?![\d.]))"  # powers of more than one digit
+    r"|\)\s*(?:\^|\*\*|[²³]).*\)\s*(?:\^|\*\*|[²³])"  # powers within powers
+)
+"""Units that may take as long as they please: 9**9**9 m, ((m^9)^9)^9. No quantity has one."""
 
 
 @cache
@@ -124,15 +132,22 @@ def in_unit_of(number: float, unit: str, other: str) -> float:
         If one of them is no unit, or they do not go together.
     """
     try:
+        if not (is_quick(unit) and is_quick(other)):
+            raise ValueError
         return float(_registry().Quantity(number, plain_unit(unit)).to(plain_unit(other)).magnitude)
     except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"has units {unit!r} and {other!r}, which do not go together") from None
 
 
+def is_quick(unit: str) -> bool:
+    """Whether the text of a unit can be parsed in a moment, whatever it means."""
+    return len(unit) <= LONGEST_TEXT and _COSTLY.search(unit) is None
+
+
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
     found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
-    if found is None:
+    if found is None or not is_quick(found[2]):
         how = remedy(text) if len(text) <= LONGEST_TEXT else ""
         raise ValueError(f"is not a number with a unit; write {how}for example {examples}")
     read = number_and_rest(found[1])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 import tempfile
 import threading
@@ -12,24 +11,31 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rodwell.errors import InputError
+from rodwell.store.staging import PREFIX, finish_leftovers, staged
+from rodwell.store.swap import put_in_place
 
 
 def check_writable(out: Path, option: str = "--out") -> None:
-    """Raise before any work is done if results could not be written to ``out``, which ``option`` named."""
+    """Raise before any work is done if results could not be written to ``out``, which ``option`` named.
+
+    What a killed run left behind for ``out`` is tidied away.
+    """
     try:
         home = _nearest_folder(out, option)
-        with tempfile.TemporaryDirectory(dir=home):
+        with tempfile.TemporaryDirectory(dir=home, prefix=PREFIX):
             pass
     except OSError as error:
         raise _unwritable(out, error, option) from None
+    finish_leftovers(out.resolve())
 
 
 @contextmanager
 def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
-    """Yield a temporary folder whose files move to ``out`` when the block ends well.
+    """Yield a temporary folder whose files become those of ``out`` when the block ends well.
 
-    If the block raises, or is interrupted, ``out`` stays as it was (and is not made). Other files in ``out``
-    are kept.
+    If the block raises, or is interrupted, ``out`` stays as it was (and is not made). Other files in ``out`` are kept.
+    A folder takes the place of another in one step where that can be, see :mod:`rodwell.store.swap`: who reads ``out``
+    sees the results before or those after, also if the program is killed.
 
     Raises
     ------
@@ -38,17 +44,25 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
     """
     out = out.absolute()
     try:
-        temporary = Path(tempfile.mkdtemp(prefix=f".{out.name[:40]}-", dir=_nearest_folder(out, option)))
+        target = out.resolve()
+        with staged(target, _home(out, target, option), _undisturbed) as new:
+            yield new
+            with _undisturbed():
+                _check_free(new, out, option)
+                _open_to_others(new)
+                put_in_place(new, target)
     except OSError as error:
         raise _unwritable(out, error, option) from None
-    try:
-        yield temporary
-        with _undisturbed():
-            _move(temporary, out, option)
-    except OSError as error:
-        raise _unwritable(out, error, option) from None
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _home(out: Path, target: Path, option: str) -> Path:
+    """Where results are kept until they are whole: beside ``out``, so that one folder can replace another, or in it."""
+    nearest = _nearest_folder(out, option)
+    if not target.exists() or Path.cwd().is_relative_to(target):
+        return nearest
+    beside = target.parent
+    same_disk = beside.stat().st_dev == target.stat().st_dev
+    return beside if same_disk and os.access(beside, os.W_OK | os.X_OK) else nearest
 
 
 def _nearest_folder(out: Path, option: str) -> Path:
@@ -62,37 +76,34 @@ def _nearest_folder(out: Path, option: str) -> Path:
     return place
 
 
-def _move(temporary: Path, out: Path, option: str) -> None:
-    """Move all files; nothing is touched if something stands in the way of one."""
-    files = list(temporary.iterdir())
-    for file in files:
+def _check_free(new: Path, out: Path, option: str) -> None:
+    """Raise if a folder of the user's stands where a result is to be."""
+    for file in new.iterdir():
         if (out / file.name).is_dir():
             raise InputError(option, str(out), f"holds a folder {file.name!r}, which stands in the way of a result")
-    out.mkdir(parents=True, exist_ok=True)
-    for file in files:
-        file.replace(out / file.name)
-    _open_to_others(out, [file.name for file in files])
 
 
-def _open_to_others(out: Path, names: list[str]) -> None:
+def _open_to_others(new: Path) -> None:
     """Give result files the permissions of ordinary new files."""
     mask = os.umask(0)
     os.umask(mask)
-    for name in names:
-        (out / name).chmod(0o666 & ~mask)
+    for file in new.iterdir():
+        file.chmod(0o666 & ~mask)
 
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Hold back Ctrl-C for the moment in which files are moved."""
+    """Hold back Ctrl-C and requests to end for the moment in which files are moved or removed."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {number: signal.signal(number, signal.SIG_IGN) for number in numbers}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 
 def _unwritable(out: Path, error: OSError, option: str) -> InputError:

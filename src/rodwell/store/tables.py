@@ -17,12 +17,27 @@ WIDEST, NARROWEST = 40, 9
 """Widths of columns in characters."""
 
 
+BEGINS_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+"""First characters of what spreadsheets take for a formula, in the widths of East Asian writing too."""
+
+
 def write_csv(table: Table, path: Path) -> None:
-    """Write a table as CSV: one header line with units, numbers with all their digits, empty where there is none."""
+    """Write a table as CSV: one header line with units, numbers with all their digits, empty where there is none.
+
+    Texts are written so that no spreadsheet takes them for formulas, see :func:`as_text`.
+    """
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(table.columns)
-        writer.writerows([["" if cell is None else _checked(cell) for cell in row] for row in table.rows])
+        writer.writerow(as_text(title) for title in table.columns)
+        writer.writerows([["" if cell is None else as_text(_checked(cell)) for cell in row] for row in table.rows])
+
+
+def as_text(cell: Any) -> Any:
+    """Return a cell of a CSV file as it is, or with an apostrophe before a text that a spreadsheet would compute.
+
+    A pipe of a user's catalogue may be called =HYPERLINK("…"). Numbers, which may begin with a minus, are no texts.
+    """
+    return f"'{cell}" if isinstance(cell, str) and cell.startswith(BEGINS_FORMULA) else cell
 
 
 def write_xlsx(tables: Sequence[Table], path: Path) -> None:

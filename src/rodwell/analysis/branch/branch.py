@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution, solution_of
-from rodwell.analysis.branch.special import LIFT_OFF, LOCATED_NOISE, Origin, SpecialPoint, index_at_start
+from rodwell.analysis.branch.special import END, LIFT_OFF, LOCATED_NOISE, Origin, SpecialPoint, index_at_start
 from rodwell.analysis.branch.symmetry import Reflection, images
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import EULER, Mode
@@ -125,6 +125,12 @@ class Branch(Shown):
         """Reflections of the problem that make other branches out of this one, the identity first."""
         middle = self[len(self) // 2]
         return images(middle.problem, middle.point.fine.symmetry)
+
+    @property
+    def ending(self) -> str:
+        """Why the branch ended, in words."""
+        words = {END: "the end of the search was reached", LIFT_OFF: "the rod lifts off"}
+        return words.get(self.ended_because, self.ended_because)
 
     @property
     def reach(self) -> tuple[float, float]:

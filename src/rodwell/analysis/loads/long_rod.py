@@ -87,7 +87,7 @@ def lift_off_compression(string: PipeString, alpha: float, half_waves: float = L
         return LocalLoad(None, reason=str(error))
     lift = branch.lift_off
     if lift is None:
-        return LocalLoad(None, reason=f"lift-off was not found: {branch.ended_because}")
+        return LocalLoad(None, reason=f"lift-off was not found: {branch.ending}")
     return LocalLoad(Value((problem.axial_weight - lift.force) * unit, lift.error * unit))
 
 

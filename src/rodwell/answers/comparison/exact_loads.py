@@ -100,7 +100,7 @@ def _add(loads: list[ExactLoad], notes: list[str], what: str, compute: Callable[
 def _lift_off(branch: Branch) -> ExactLoad:
     lift = branch.lift_off
     if lift is None or not branch.converged:
-        raise NotConvergedError(f"not found to the tolerance ({branch.ended_because})")
+        raise NotConvergedError(f"not found to the tolerance ({branch.ending})")
     return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, branch.problem.axial_weight)
 
 

@@ -161,7 +161,7 @@ class Assessment:
         try:
             solution = branch.at(load.force)
         except (InputError, NotConvergedError) as error:
-            return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {error}")
+            return AtLoad(load, UNKNOWN, why=f"{branch.ending}: {error}")
         return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
 
     def stress(self, state: LoadedRod) -> RodStress | None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from rodwell.plots.audit import plot_error_map
 from rodwell.report.folders.pictures import save_figure
 from rodwell.store.folder import whole_folder
+from rodwell.store.tables import as_text
 from rodwell.store.text import write_json
 from rodwell.studies.audit.audit import Audit
 from rodwell.studies.audit.error_map import ErrorMap
@@ -43,4 +44,4 @@ def _chart_rows(chart: ErrorMap) -> list[tuple[object, ...]]:
 
 def _write_csv(path: Path, rows: list[tuple[object, ...]]) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerows(rows)
+        csv.writer(file).writerows([as_text(cell) for cell in row] for row in rows)

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import END
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
@@ -130,7 +132,7 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     try:
         if shared.branch is None:
             raise NotConvergedError(shared.why)
-        lift_off, places, contact = _at_lift_off(shared.branch, reasons)
+        lift_off, places, contact = _at_lift_off(case, shared.branch, reasons)
         used = {} if contact is None else _used(case, shared.branch)
         loads = at_loads(case, shared.critical, shared.branch)
         valid = validity_of(case, shared.critical, shared.branch)
@@ -156,10 +158,24 @@ def _used(case: Case, branch: Branch) -> dict[str, Value]:
     return out
 
 
-def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Value | None, tuple[float, ...], Value | None]:
+def _no_lift_off(case: Case, branch: Branch) -> str:
+    """Why the first branch has no lift-off, in words."""
+    load = float(branch.force[-1])
+    text = minus(f"{load:.6g} B/L²") if case.scales is None else case.scales.text(load, "force", 6)
+    if branch.ended_because == END:
+        return (
+            f"was not found: the branch was followed to the end force {text} at s = 1 (tension positive), where the "
+            "search ends, and the rod stays on the wall all the way"
+        )
+    return f"was not found: the branch could be followed to the end force {text} at s = 1 only: {branch.ended_because}"
+
+
+def _at_lift_off(
+    case: Case, branch: Branch, reasons: dict[str, str]
+) -> tuple[Value | None, tuple[float, ...], Value | None]:
     lift = branch.lift_off
     if lift is None:
-        reasons.update(lift_off=f"was not found: {branch.ended_because}", contact="no lift-off")
+        reasons.update(lift_off=_no_lift_off(case, branch), contact="no lift-off")
         return None, (), None
     if branch.lift_off_at_buckling:
         reasons["contact"] = "lift-off coincides with buckling: no lateral weight"

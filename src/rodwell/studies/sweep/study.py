@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import itertools
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rodwell.case.case import Case, CaseError
-from rodwell.case.file import read_toml
+from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
@@ -97,15 +96,17 @@ class Study:
         return plain(self)
 
 
-def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None) -> Study:
+def study(
+    case: str | Path | CaseText | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None
+) -> Study:
     """Compute a parameter study: a case in which one or two inputs are lists or ranges.
 
     Parameters
     ----------
     case
-        Path of a case file, or its content as a dictionary. A list holds values as the case file would have them
-        (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both ends
-        included). Two inputs make a grid. A file in which lists stand for several cases must say so, with
+        Path of a case file ("-": standard input), or its content as a dictionary. A list holds values as the case file
+        would have them (``["30 deg", "45 deg"]``, ``[10, 20]``); a range is a text ("30..90 deg in 13": 13 values, both
+        ends included). Two inputs make a grid. A file in which lists stand for several cases must say so, with
         ``study = true`` at its top: a list may as well be meant as a taper.
     progress
         Called with what is being done and how much is done.
@@ -119,7 +120,8 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
         are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
     """
-    data, source, text = _read(case)
+    read = _read(case)
+    data, source = read.data, read.source
     try:
         if not isinstance(case, Mapping):
             check_declared(data)
@@ -132,14 +134,15 @@ def study(case: str | Path | Mapping[str, Any], progress: Progress | None = None
         )
     tell = progress or (lambda _what, _done: None)
     grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
-    folder = Path.cwd() if isinstance(case, Mapping) else Path(case).parent
-    cases = [_case(data, varied, at, source, folder, units) for at in grid]
+    cases = [_case(data, varied, at, source, read.folder, units) for at in grid]
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
     points = _points(grid, cases, tell)
     tell("done", 1.0)
-    title = str(data.get("title") or (Path(source).stem if text else "Parameter study"))
-    return Study(title, source, text, {k: v for k, v in data.items() if k not in ("title", "study")}, varied, points)
+    title = str(data.get("title") or (Path(source).stem if read.text else "Parameter study"))
+    return Study(
+        title, source, read.text, {k: v for k, v in data.items() if k not in ("title", "study")}, varied, points
+    )
 
 
 def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: Progress) -> tuple[StudyPoint, ...]:
@@ -161,28 +164,28 @@ def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: P
     return tuple(sorted(points, key=lambda point: point.number))
 
 
-def is_study(path: Path) -> bool:
+def is_study(case: str | Path | CaseText) -> bool:
     """Whether a file is a case file with a range, or says that it is a study.
 
     False for what cannot be read, and for lists in a file that does not say so: ``Case`` explains both.
     """
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError, RecursionError):
+        data = case.data if isinstance(case, CaseText) else read_case(case).data
+    except InputError:
         return False
     sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
     values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
     return data.get("study") is True or any(isinstance(v, str) and may_vary(name, v) for name, v in values)
 
 
-def _read(case: str | Path | Mapping[str, Any]) -> tuple[Mapping[str, Any], str, str]:
+def _read(case: str | Path | CaseText | Mapping[str, Any]) -> CaseText:
+    if isinstance(case, CaseText):
+        return case
     if isinstance(case, Mapping):
-        return case, "study", ""
+        return CaseText(printable_data(case), "", "study", "study", Path.cwd())
     if not isinstance(case, str | Path):
         raise InputError("case", case, "must be the path of a case file, or its content as a dictionary")
-    path = Path(case)
-    data, text = read_toml(path)
-    return data, path.name, text
+    return read_case(case)
 
 
 def _case(

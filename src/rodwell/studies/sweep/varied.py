@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -32,6 +33,9 @@ FIXED = {
 ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 deg in 13" or "10..40 in 7"'
 
 ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of loads that act, ["-20 kN", "-40 kN"]'
+
+LONGEST_RANGE = 150
+"""Characters that a range may have: the expressions below take their number to the third."""
 
 _RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
 _RANGE_LIKE = re.compile(r"(?:\.\.|…).*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
@@ -179,9 +183,12 @@ def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
         raise InputError(name, given, f"must hold at least two values; {ALLOWED}")
     if any(isinstance(value, list | tuple | Mapping | bool) or is_varied(value) for value in given):
         raise InputError(name, given, f"must hold single values; {ALLOWED}")
+    if any(isinstance(value, int) and abs(value) > sys.float_info.max for value in given):
+        raise InputError(name, given, "must hold numbers that are not larger than any computer's")
     if all(isinstance(value, int | float) for value in given):
         return Varied(section, key, list(given), tuple(given), "", tuple(float(value) for value in given))
-    parsed = [number_and_rest(value) if isinstance(value, str) else None for value in given]
+    short = [value if isinstance(value, str) and len(value) <= LONGEST_RANGE else None for value in given]
+    parsed = [None if value is None else number_and_rest(value) for value in short]
     if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in given):
         raise InputError(name, given, 'cannot hold values with "±"')
     numbers: tuple[float, ...] | None = None
