@@ -72,8 +72,8 @@ def test_a_unit_given_beside_the_file_counts_more(tmp_path: Path) -> None:
         ("MD [m],Inc\n0,0\n# remark\n50,x\n", "line 4, Inc"),
         ("MD [m],Inc\n0,0\n50,\n", "is missing"),
         ("MD [m],Inc\n0,0\n50\n", "line 3"),
-        ("MD [m];Inc\n0;0\n50;1,5\n", "decimal point"),
-        ("MD [m],Inc\n0,0\n50,nan\n", "finite"),
+        ("MD [m];Inc\n0.5;0\n50;1,5\n", "decimal point"),
+        ("MD [m],Inc\n0,0\n50,nan\n", "is missing"),
         ("MD [m],Inc\n0,0\ninf,2\n", "finite"),
     ],
 )
