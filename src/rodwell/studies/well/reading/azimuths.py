@@ -50,8 +50,8 @@ def without_gaps(
     if not len(lost):
         return out, []
     where = some(len(lost), [names[i] for i in lost[:6]])
-    return out, [f"Azimuth is missing at {len(lost)} inclined stations and interpolated there, the shorter way round: "
-                 f"{where}."]  # fmt: skip
+    of = f"{len(lost)} of {int(np.sum(inclined))} inclined stations"
+    return out, [f"Azimuth is missing at {of} and interpolated there, the shorter way round: {where}."]
 
 
 def some(count: int, names: list[str]) -> str:

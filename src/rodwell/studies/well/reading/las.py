@@ -49,7 +49,7 @@ def las_table(name: str, text: str) -> RawTable:
     rows = _data(lines, start + 1, len(names) if wrapped else 0)
     well = str(_value(header.well, "WELL") or _value(header.well, "UWI") or "").strip()
     declared = Declared(well[:60], null=_null(_value(header.well, "NULL")))
-    return RawTable(name, [(start + 1, names), *rows], fixed=True, also=also, declared=declared)
+    return RawTable(name, [(start + 1, names), *rows], fixed=True, also=also, separator=" ", declared=declared)
 
 
 def _header(name: str, lines: list[str]) -> Any:

@@ -111,7 +111,10 @@ class Meaning:
 @functools.lru_cache(maxsize=4096)
 def meaning(cell: Cell) -> Meaning:
     """Meaning of a header cell, such as "MD [ft]", "md_m", "Azi (azimuth)(°)". Linear in the length of the text."""
-    if not isinstance(cell, str) or not cell.strip() or len(cell) > LONGEST_NAME:
+    if not isinstance(cell, str):
+        return Meaning()
+    cell = cell.strip()
+    if not cell or len(cell) > LONGEST_NAME:
         return Meaning()
     name, groups = _brackets(cell)
     words = words_of(name)

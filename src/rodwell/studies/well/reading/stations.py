@@ -16,7 +16,7 @@ from rodwell.studies.well.reading.check import Written, check_stations
 from rodwell.studies.well.reading.header import CALLED, NEEDED, Header
 from rodwell.studies.well.reading.names import SPELT, unit_word
 from rodwell.studies.well.reading.numbers import Found, decimal_mark, is_missing, is_number, number
-from rodwell.studies.well.reading.tables import RawTable, Row, listed, shown
+from rodwell.studies.well.reading.tables import Cell, RawTable, Row, listed, shown
 
 UNITS = {"md": "m", "inclination": "degree", "azimuth": "degree", "force": "N"}
 OPTIONS = {"md": "--depth-unit", "inclination": "--angle-unit", "azimuth": "--angle-unit", "force": "--force-unit"}
@@ -77,32 +77,40 @@ def body_of(table: RawTable, header: Header) -> tuple[list[Row], dict[str, str]]
         If a row is too short, or has numbers that no name stands above.
     """
     rows = table.rows[header.index + header.depth :]
-    used = {kind: i for kind, i in header.columns.items() if kind != "well"}
-    units: dict[str, str] = {}
-    if rows and not any(is_number(cell) for cell in rows[0][1]):
-        cells = rows[0][1]
-        found = {kind: unit_word(kind, cells[i]) for kind, i in used.items() if i < len(cells)}
-        texts = {kind: str(cells[i]).strip(" -") for kind, i in used.items() if i < len(cells)}
-        if any(found.values()) and all(found[kind] or not texts[kind] for kind in found):
-            units = {kind: unit for kind, unit in found.items() if unit}
-            rows = rows[1:]
-    head, last = table.rows[header.index][1], max(header.columns.values())
-    width = len(header.names)
+    units = _unit_row(header, rows[0][1]) if rows else {}
+    head = table.rows[header.index][1]
     out = []
-    for number_, cells in rows:
+    for number_, cells in rows[1 if units else 0 :]:
         if header.depth and cells == head:
             continue  # printed again at the top of a page
-        if table.comma and any(is_number(cell) for cell in cells[width:]):
-            what = (f"has {len(cells)} cells, and the header names {width}: are there decimal commas? Separate cells "
-                    "by semicolons, or write decimal points")  # fmt: skip
-            raise InputError(table.at(number_), None, what)
-        if len(cells) <= last:
-            needed = [i for kind, i in header.columns.items() if kind in NEEDED]
-            if len(cells) <= max(needed) or any(not isinstance(cell, str) for cell in cells):
-                what = f"has {len(cells)} cells, fewer than the header names: {listed(header.names)}"
-                raise InputError(table.at(number_), None, what)
-        out.append((number_, [*cells, *[""] * (last + 1 - len(cells))]))
+        if wrong := _misfit(table, header, cells):
+            raise InputError(table.at(number_), None, f"has {len(cells)} cells, {wrong}")
+        out.append((number_, [*cells, *[""] * (len(header.names) - len(cells))]))
     return out, units
+
+
+def _unit_row(header: Header, cells: list[Cell]) -> dict[str, str]:
+    """Units by column, if the row below the header holds nothing but units in the columns that are used."""
+    used = {kind: i for kind, i in header.columns.items() if kind != "well" and i < len(cells)}
+    found = {kind: unit_word(kind, cells[i]) for kind, i in used.items()}
+    blank = [kind for kind, i in used.items() if isinstance(cells[i], str) and not str(cells[i]).strip(" -")]
+    if any(is_number(cell) for cell in cells) or not all(found[kind] or kind in blank for kind in used):
+        return {}
+    return {kind: unit for kind, unit in found.items() if unit}
+
+
+def _misfit(table: RawTable, header: Header, cells: list[Cell]) -> str:
+    """Why a row does not fit its header; "" if it does."""
+    width, names = len(header.names), listed(header.names)
+    if table.separator in (" ", "  ") and len(cells) != width:
+        return (f"and the header {width} names: {names}; separate columns by tabs or semicolons, or put names of "
+                "several words and empty cells in quotes")  # fmt: skip
+    if table.separator == "," and any(is_number(cell) for cell in cells[width:]):
+        return (f"and the header names {width}: are there decimal commas? Separate cells by semicolons, or write "
+                "decimal points")  # fmt: skip
+    if table.separator and len(cells) <= max(header.columns.values()):
+        return f"fewer than the header names: {names}; begin a remark with #"
+    return ""
 
 
 def reading_of(

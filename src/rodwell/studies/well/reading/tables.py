@@ -42,8 +42,8 @@ class RawTable:
         Whether the first row is the header for certain (LAS).
     also
         Descriptions of the columns beside their names, by column.
-    comma
-        Whether cells were separated by commas.
+    separator
+        What stood between cells; "" in a spreadsheet.
     """
 
     name: str
@@ -51,7 +51,7 @@ class RawTable:
     line: str = "line"
     fixed: bool = False
     also: dict[int, str] = field(default_factory=dict)
-    comma: bool = False
+    separator: str = ""
     declared: Declared = Declared()
 
     def at(self, number: int) -> str:

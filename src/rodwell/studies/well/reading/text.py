@@ -11,8 +11,8 @@ from rodwell.studies.well.reading.names import SPELT, words_of
 from rodwell.studies.well.reading.numbers import is_number
 from rodwell.studies.well.reading.tables import LONGEST_NAME, Declared, RawTable, Row
 
-SEPARATORS = ("\t", ";", ",", "|", "  ", " ")
-"""Two blanks: names of columns hold single ones. One blank: cells stand apart by any white space."""
+SEPARATORS = ("\t", ";", ",", "|", " ", "  ")
+"""One blank: cells stand apart by any white space. Two blanks: names of columns hold single ones."""
 
 COMMENTS = ("#", "!", "//")
 HEAD_LINES = 300
@@ -47,7 +47,7 @@ def text_table(name: str, text: str, asked: Asked) -> RawTable:
             separator, plain = other, sorted([*comments[:HEAD_LINES], *plain])
     rows = list(_rows(name, plain, separator))
     above = [*comments[:HEAD_LINES], *head[: 0 if sighting is None else sighting.index]]
-    return RawTable(name, rows, comma=separator == ",", declared=declared(sorted(above)))
+    return RawTable(name, rows, separator=separator, declared=declared(sorted(above)))
 
 
 def _is_comment(line: str) -> bool:
@@ -73,7 +73,10 @@ def _separator(name: str, lines: Sequence[Line], asked: Asked) -> tuple[str, Sig
     """The separator under which the header is most complete and has as many cells as the line below it."""
     best: tuple[tuple[bool, bool, int], str, Sighting | None] = ((False, False, -1), ",", None)
     for separator in SEPARATORS:
-        rows = list(_rows(name, lines, separator))
+        try:
+            rows = list(_rows(name, lines, separator))
+        except InputError:  # quotes that make sense with another separator
+            continue
         seen = sighted(rows, asked)
         if seen is not None:
             score = (seen.complete, _fits(rows, seen), seen.count)

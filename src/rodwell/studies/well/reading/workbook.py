@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import math
+import warnings
 import zipfile
 from collections.abc import Iterator
 from typing import Any
@@ -19,6 +20,9 @@ LARGEST_UNPACKED = 400_000_000
 MOST_ROWS = 5 * MOST_STATIONS
 MOST_SHEETS = 200
 
+MOST_EMPTY = 10_000
+"""Empty rows after which a sheet ends, whatever stands below."""
+
 
 def workbook_tables(name: str, data: bytes) -> list[RawTable]:
     """The sheets of a workbook that hold anything.
@@ -28,21 +32,14 @@ def workbook_tables(name: str, data: bytes) -> list[RawTable]:
     InputError
         If it is no workbook, damaged, or unpacks to too much.
     """
-    import openpyxl  # noqa: PLC0415 - loaded when used
-
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             size = sum(part.file_size for part in archive.infolist())
         if size > LARGEST_UNPACKED:
             raise InputError("survey", name, f"unpacks to more than {LARGEST_UNPACKED // 1_000_000} MB")
-        book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True, keep_links=False)
-        sheets = [sheet for sheet in book.worksheets[:MOST_SHEETS] if sheet.sheet_state == "visible"]
-        tables = []
-        for sheet in sheets:
-            rows = list(_rows(name, sheet))
-            called = name if len(sheets) == 1 else f"{name}, sheet {sheet.title}"
-            if rows:
-                tables.append(RawTable(called, rows, "row"))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about styles, printing areas and the like
+            tables = _sheets(name, data)
     except InputError:
         raise
     except Exception as error:  # damaged archives raise many kinds
@@ -53,10 +50,26 @@ def workbook_tables(name: str, data: bytes) -> list[RawTable]:
     return tables
 
 
+def _sheets(name: str, data: bytes) -> list[RawTable]:
+    import openpyxl  # noqa: PLC0415 - loaded when used
+
+    book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True, keep_links=False)
+    sheets = [sheet for sheet in book.worksheets[:MOST_SHEETS] if sheet.sheet_state == "visible"]
+    named = [(name if len(sheets) == 1 else f"{name}, sheet {sheet.title}", sheet) for sheet in sheets]
+    tables = [RawTable(called, list(_rows(name, sheet)), "row") for called, sheet in named]
+    return [table for table in tables if table.rows]
+
+
 def _rows(name: str, sheet: Any) -> Iterator[Row]:
     """Rows that hold anything, numbered as in the sheet."""
     sheet.reset_dimensions()  # what some programs write there is wrong
+    empty = 0
     for number, values in enumerate(sheet.iter_rows(values_only=True, max_col=MOST_COLUMNS), start=1):
+        empty = empty + 1 if values.count(None) == len(values) else 0
+        if empty > MOST_EMPTY:
+            return
+        if empty:
+            continue
         if number > MOST_ROWS:
             raise InputError("survey", name, f"has a sheet of more than {MOST_ROWS} rows; a survey has not")
         cells = [_cell(value) for value in values]
