@@ -134,7 +134,7 @@ def _as(kind: str, words: list[str], groups: list[str]) -> Meaning:
     if len(rest) > 1 and rest[-1] in SPELT[kind]:
         unit = rest.pop()
     for group in groups:
-        inner = words_of(group)
+        inner = words_of(group.lower())  # kN is one word
         if spelt := _unit_of(kind, group):
             unit = spelt
             rest += [word for word in inner if word not in SPELT[kind]]

@@ -134,12 +134,10 @@ def reading_of(
             units[kind] = _unit(table, kind, below.get(kind) or header.units.get(kind), given.get(kind))
             factors[kind] = in_unit_of(1.0, units[kind], UNITS[kind])
     plain = Reading(table, header, units, factors, ".")
-    cells = (
-        (kind, plain.found(row, kind)) for row in body for kind in units if "," in str(row[1][header.columns[kind]])
-    )
-    if decimal is not None or next(cells, None) is not None:
-        every = ((kind, plain.found(row, kind)) for row in body for kind in units)
-        return Reading(table, header, units, factors, decimal_mark(every, decimal))
+    texts = (str(row[1][header.columns[kind]]) for row in body for kind in units)
+    if decimal is not None or any("," in text or text.count(".") > 1 for text in texts):
+        cells = ((kind, plain.found(row, kind)) for row in body for kind in units)
+        return Reading(table, header, units, factors, decimal_mark(cells, decimal))
     return plain
 
 
