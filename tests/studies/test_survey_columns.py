@@ -240,6 +240,14 @@ def test_messages_speak_of_the_file(tmp_path: Path, text: str, names: str) -> No
         read(tmp_path, text)
 
 
+def test_angles_that_may_be_radians_are_told(tmp_path: Path) -> None:
+    text = "MD [m],Inc,Azi\n0,0,3.1\n1000,0.7,3.2\n2000,1.5,6.1\n"
+    assert "if they are in radians, give --angle-unit rad" in read(tmp_path, text).notes[0]
+    assert read(tmp_path, text.replace("Inc", "Inc [deg]")).notes == ()
+    assert read(tmp_path, text.replace("6.1", "61")).notes == ()
+    assert read(tmp_path, text, angle_unit="rad").inclination[1] == pytest.approx(np.degrees(0.7))
+
+
 def test_units_for_columns_that_are_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="--force-unit = 'kN': is given, but there is no column of force"):
         read(tmp_path, "MD [m],Inc\n0,0\n10,1\n", force_unit="kN")

@@ -195,7 +195,9 @@ def test_damaged_files_are_read_or_refused(tmp_path: Path) -> None:
     "text",
     ["x" + "( " * 4000 + "\n1\n", "x" + "[" * 20000 + ",MD [m],Inc\n1,2,3\n", "MD [m],Inc" + " " * 50000 + "\n0,0\n",
      "9" * 100_000 + "\n", "MD [m],Inc\n" + "1" * 100_000 + ",1\n", "a," * 100_000 + "\n", '"' * 30_001 + "\n",
-     "MD [m],Inc\n" + '"x\n' * 20_001, "_" * 200_000, "MD [m]," * 400 + "Inc\n1,1\n", "~V\n~" + "." * 100_000],
+     "MD [m],Inc\n" + '"x\n' * 20_001, "_" * 200_000, "MD [m]," * 400 + "Inc\n1,1\n",
+     "\n".join(",".join(f"w{i}x{j}" for j in range(400)) for i in range(300)), "a b " * 200_000 + "\n",
+     "~V\n~" + "." * 100_000, "~V\n VERS. 2.0:\n~C\n" + " A.m :\n" * 1500 + "~A\n1\n"],
 )  # fmt: skip
 def test_no_text_makes_the_reader_slow(tmp_path: Path, text: str) -> None:
     start = time.process_time()
@@ -237,6 +239,14 @@ def test_wide_sheets_are_cut(tmp_path: Path) -> None:
         for name, part in parts.items():
             archive.writestr(name, part)
     assert len(read(tmp_path, kept.getvalue())) == 2
+
+
+def test_a_sheet_ends_after_many_empty_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    data = workbook(S=[["MD [m]", "Inc"], [0, 0], [], [1, 1], [], [], [], [], ["remark far below"]])
+    with pytest.raises(InputError, match="row 9, MD"):
+        read(tmp_path, data)
+    monkeypatch.setattr("rodwell.studies.well.reading.workbook.MOST_EMPTY", 3)
+    assert len(read(tmp_path, data)) == 2
 
 
 def test_a_hundred_thousand_stations_are_read_quickly(tmp_path: Path) -> None:

@@ -15,6 +15,9 @@ NEEDED = ("md", "inclination")
 MOST_HEADER_ROWS = 3
 LAST_HEADER = 300
 
+MOST_LOOKED_AT = 5_000
+"""Cells among which a header is sought."""
+
 NORTHS: tuple[set[str], ...] = ({"grid", "gn"}, {"true", "tn", "geographic"}, set(), {"magnetic", "mag", "mn"})
 """Norths to count azimuths from, the preferred ones first; how a hole bends is the same from each of them."""
 
@@ -77,6 +80,7 @@ def _matches(text: str, names: Sequence[Cell]) -> list[int]:
 def sighted(rows: Sequence[Row], asked: Asked) -> Sighting | None:
     """The first rows that name depth and inclination; otherwise those in which most is understood; None without any."""
     best: Sighting | None = None
+    looked_at = 0
     by_number = all(asked.get(kind, "").isdecimal() for kind in NEEDED)
     for i in range(min(len(rows), LAST_HEADER)):
         cells = rows[i][1]
@@ -88,6 +92,9 @@ def sighted(rows: Sequence[Row], asked: Asked) -> Sighting | None:
             if i + depth > len(rows) or any(is_number(cell) for cell in rows[i + depth - 1][1]):
                 break
             names = _together(rows[i : i + depth])
+            looked_at += len(names)
+            if looked_at > MOST_LOOKED_AT:
+                return best
             kinds = {found.kind: found.sure for found in map(meaning, names) if found.sure}
             for found in map(meaning, names):
                 kinds[found.kind] = max(kinds.get(found.kind, 0), found.sure)

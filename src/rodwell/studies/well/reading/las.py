@@ -16,7 +16,11 @@ from rodwell.studies.well.reading.numbers import is_number
 from rodwell.studies.well.reading.tables import MOST_COLUMNS, Cell, Declared, RawTable, Row
 
 LONGEST_LINE = 1000
-MOST_HEADER_LINES = 2000
+MOST_HEADER_LINES = 200
+"""lasio takes the third power of their number where many have one name."""
+
+SECTIONS = "VWC"
+"""Sections that are needed: version, well, curves."""
 
 
 def is_las(text: str) -> bool:
@@ -56,14 +60,21 @@ def _header(name: str, lines: list[str]) -> Any:
     """What lasio makes of the sections above the numbers."""
     import lasio  # noqa: PLC0415 - loaded when used
 
-    if len(lines) > MOST_HEADER_LINES or any(len(line) > LONGEST_LINE for line in lines):
-        what = f"has a LAS header of more than {MOST_HEADER_LINES} lines, or a line of more than {LONGEST_LINE} letters"
+    kept, section = [], ""
+    for line in lines:
+        if line.lstrip().startswith("~"):
+            section = line.lstrip()[1:2].upper()
+        if section in SECTIONS and line.strip() and not line.lstrip().startswith("#"):
+            kept.append(line)
+    if len(kept) > MOST_HEADER_LINES or any(len(line) > LONGEST_LINE for line in kept):
+        what = (f"has more than {MOST_HEADER_LINES} lines in ~Version, ~Well, ~Curve, or a line of more than "
+                f"{LONGEST_LINE} letters; a survey has few curves")  # fmt: skip
         raise InputError("survey", name, what)
     log = logging.getLogger("lasio")
     level = log.level
     log.setLevel(logging.CRITICAL)
     try:
-        text = "\n".join(lines) + "\n"
+        text = "\n".join(kept) + "\n"
         return lasio.read(io.StringIO(text), ignore_data=True, ignore_header_errors=True, mnemonic_case="preserve")
     except Exception as error:  # lasio raises many kinds for damaged headers
         what = f"is not a LAS file that can be read: {type(error).__name__}; export it anew, or as CSV"

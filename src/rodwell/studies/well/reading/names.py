@@ -41,6 +41,7 @@ COLUMNS: dict[str, frozenset[str]] = {
     "well": frozenset({
         "well", "well name", "wellname", "uwi", "well uwi", "well id", "wellid", "wellbore", "wellbore name",
         "wellbore id", "borehole", "borehole name", "borehole id", "hole id", "holeid", "bhid", "api", "api number",
+        "well no", "well number",
     }),
 }  # fmt: skip
 """Names that mean one thing; lower case, words separated by blanks, units left out."""
@@ -108,15 +109,15 @@ class Meaning:
     words: tuple[str, ...] = ()
 
 
-@functools.lru_cache(maxsize=4096)
 def meaning(cell: Cell) -> Meaning:
     """Meaning of a header cell, such as "MD [ft]", "md_m", "Azi (azimuth)(°)". Linear in the length of the text."""
-    if not isinstance(cell, str):
-        return Meaning()
-    cell = cell.strip()
-    if not cell or len(cell) > LONGEST_NAME:
-        return Meaning()
-    name, groups = _brackets(cell)
+    text = cell.strip() if isinstance(cell, str) else ""
+    return _meaning_of(text) if 0 < len(text) <= LONGEST_NAME else Meaning()
+
+
+@functools.lru_cache(maxsize=4096)
+def _meaning_of(text: str) -> Meaning:
+    name, groups = _brackets(text)
     words = words_of(name)
     best = Meaning(words=tuple(words))
     for kind in COLUMNS:

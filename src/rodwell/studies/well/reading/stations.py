@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,6 +46,7 @@ class Reading:
     units: dict[str, str]
     factors: dict[str, float]
     mark: str
+    angle_said: bool = True
 
     def found(self, row: Row, kind: str) -> Found:
         """A cell with where it stands."""
@@ -128,16 +129,18 @@ def reading_of(
         if text and kind not in header.columns and kind != "azimuth":
             what = f"is given, but there is no column of {CALLED[kind]}; columns found: {listed(header.names)}"
             raise InputError(OPTIONS[kind], text, what)
+    kinds = ("inclination", "azimuth")
+    said = any(below.get(k) or header.units.get(k) or given.get(k) or table.declared.angle_unit for k in kinds)
     units, factors = {}, {}
     for kind in header.columns:
         if kind != "well":
             units[kind] = _unit(table, kind, below.get(kind) or header.units.get(kind), given.get(kind))
             factors[kind] = in_unit_of(1.0, units[kind], UNITS[kind])
-    plain = Reading(table, header, units, factors, ".")
+    plain = Reading(table, header, units, factors, ".", said)
     texts = (str(row[1][header.columns[kind]]) for row in body for kind in units)
     if decimal is not None or any("," in text or text.count(".") > 1 for text in texts):
         cells = ((kind, plain.found(row, kind)) for row in body for kind in units)
-        return Reading(table, header, units, factors, decimal_mark(cells, decimal))
+        return replace(plain, mark=decimal_mark(cells, decimal))
     return plain
 
 
@@ -220,6 +223,8 @@ def stations_of(reading: Reading, well: str, rows: Sequence[Row], several: bool)
     gone = np.nan_to_num(arrays["azimuth"]).tolist() if "azimuth" in arrays else None
     check_stations(arrays["md"].tolist(), arrays["inclination"].tolist(), gone, full, written)
     notes += list(_about_azimuths(source, arrays, wheres))
+    if not reading.angle_said and _like_radians(arrays):
+        notes.append("Angles are taken to be in degrees; if they are in radians, give --angle-unit rad.")
     return Stations(well, source if several else table.name, arrays, depth, header.ignored, tuple(notes))
 
 
@@ -232,3 +237,9 @@ def _about_azimuths(source: str, arrays: dict[str, FloatArray], wheres: list[str
     if filled is not None:
         arrays["azimuth"] = filled
     yield from notes
+
+
+def _like_radians(arrays: dict[str, FloatArray]) -> bool:
+    """Whether angles without a unit may be radians: none above a right angle, or a full turn, and yet not nothing."""
+    steepest, widest = float(np.max(arrays["inclination"])), float(np.max(np.abs(arrays.get("azimuth", [1.0]))))
+    return 0.1 < steepest < 0.55 * math.pi and 0.0 < widest <= 2.0 * math.pi

@@ -9,7 +9,7 @@ from rodwell.errors import InputError
 from rodwell.studies.well.reading.header import Asked, Sighting, sighted
 from rodwell.studies.well.reading.names import SPELT, words_of
 from rodwell.studies.well.reading.numbers import is_number
-from rodwell.studies.well.reading.tables import LONGEST_NAME, Declared, RawTable, Row
+from rodwell.studies.well.reading.tables import LONGEST_NAME, MOST_COLUMNS, Declared, RawTable, Row
 
 SEPARATORS = ("\t", ";", ",", "|", " ", "  ")
 """One blank: cells stand apart by any white space. Two blanks: names of columns hold single ones."""
@@ -99,10 +99,14 @@ def _fits(rows: Sequence[Row], seen: Sighting) -> bool:
 
 def _rows(name: str, lines: Sequence[Line], separator: str) -> Iterator[Row]:
     for number, line in lines:
+        if separator.strip() and line.count(separator) > MOST_COLUMNS:
+            raise InputError(f"{name}, line {number}", None, f"has more than {MOST_COLUMNS} cells")
         try:
             cells = _blank_separated(line, separator) if separator in "  " else _separated(line, separator)
         except csv.Error as error:
             raise InputError(f"{name}, line {number}", None, f"is not CSV: {error}") from None
+        if len(cells) > MOST_COLUMNS:
+            raise InputError(f"{name}, line {number}", None, f"has more than {MOST_COLUMNS} cells")
         if any(cell.strip() for cell in cells):
             yield number, list(cells)
 
@@ -122,7 +126,7 @@ def _blank_separated(line: str, separator: str) -> list[str]:
     line = line.strip()
     if len(line) > 1 and line[0] == line[-1] == '"' and line.count('"') == 2:
         line = line[1:-1]
-    words = line.replace("\t", " ").split()
+    words = line.split(None, MOST_COLUMNS + 1)
     if '"' in line:
         return [c for c in next(csv.reader([" ".join(words)], delimiter=" ", skipinitialspace=True), []) if c]
     if separator == "  " and words and not is_number(words[0]):

@@ -16,7 +16,7 @@ from rodwell.errors import InputError
 from rodwell.studies.well.reading.stations import MOST_STATIONS
 from rodwell.studies.well.reading.tables import MOST_COLUMNS, Cell, RawTable, Row
 
-LARGEST_UNPACKED = 400_000_000
+LARGEST_UNPACKED = 150_000_000
 MOST_ROWS = 5 * MOST_STATIONS
 MOST_SHEETS = 200
 
