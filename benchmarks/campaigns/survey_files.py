@@ -138,6 +138,8 @@ def damaged(data: bytes, draw: np.random.Generator) -> bytes:
 def mutant(seed: int) -> tuple[str, bytes]:
     """A kind of file and its damaged bytes."""
     draw = np.random.default_rng(seed)
+    if draw.random() < 0.03:
+        return "random bytes", draw.bytes(int(draw.integers(0, 2000)))
     kind = list(KINDS)[int(draw.integers(0, len(KINDS)))]
     data = KINDS[kind](random_rows(draw))
     for _ in range(int(draw.integers(1, 5))):
@@ -197,7 +199,9 @@ def main() -> None:
             done.append(outcome(given.seed * 1_000_000 + number, Path(folder)))
             part.write(json.dumps(done[-1]) + "\n")
             part.flush()
-    kinds = {kind: dict(Counter(one["what"] for one in done if one["kind"] == kind)) for kind in KINDS}
+    kinds = {
+        kind: dict(Counter(one["what"] for one in done if one["kind"] == kind)) for kind in (*KINDS, "random bytes")
+    }
     result = {
         "what": "damaged survey files: read or refused with an InputError, in less than a second of processor time",
         "seed": given.seed, "date": date.today().isoformat(), "rodwell": rodwell.__version__,

@@ -70,6 +70,8 @@ def test_an_unusual_azimuth_is_taken_and_said(tmp_path: Path, name: str) -> None
         ("MD [m],Inc,theta [deg]\n0,0,1\n9,1,1\n", "no column of azimuth"),
         ("MD [m],Dip (deg)\n0,0\n9,1\n", r'no column of inclination; "Dip \(deg\)" looks like one.*--column inclin'),
         ("Depth SS [m],Inc\n0,0\n9,1\n", r'no column of measured depth; "Depth SS \[m\]" looks like one'),
+        ('""\n', "is empty"),
+        (";;;\n,\n", "is empty|no column"),
         ("0 0 30\n9 1 30\n", "--column md=1 --column inclination=2"),
         ("MD [m],Inc,Azi,Azimuth\n0,0,1,1\n9,1,1,1\n", "second column for azimuth"),
         ("MD [m],Inc,Incl\n0,0,1\n9,1,1\n", "second column for inclination"),

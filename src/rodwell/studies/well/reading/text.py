@@ -35,9 +35,9 @@ def text_table(name: str, text: str, asked: Asked) -> RawTable:
     numbered = list(enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), start=1))
     comments = [(number, line.lstrip(" \t#!/")) for number, line in numbered if _is_comment(line)]
     plain = list(_joined([(number, line) for number, line in numbered if line.strip() and not _is_comment(line)]))
+    empty = InputError("survey", name, "is empty: the first line names the columns, for example MD [m],Inc [deg]")
     if not plain:
-        what = "is empty: the first line names the columns, for example MD [m],Inc [deg]"
-        raise InputError("survey", name, what)
+        raise empty
     head = plain[:HEAD_LINES]
     separator, sighting = _separator(name, head, asked)
     if sighting is None or not sighting.complete:  # the header may stand in a comment
@@ -46,6 +46,8 @@ def text_table(name: str, text: str, asked: Asked) -> RawTable:
         if seen is not None and seen.complete:
             separator, plain = other, sorted([*comments[:HEAD_LINES], *plain])
     rows = list(_rows(name, plain, separator))
+    if not rows:
+        raise empty
     above = [*comments[:HEAD_LINES], *head[: 0 if sighting is None else sighting.index]]
     return RawTable(name, rows, separator=separator, declared=declared(sorted(above)))
 
