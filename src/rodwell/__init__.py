@@ -62,6 +62,7 @@ _HOME = {
     "sensitivities": "rodwell.analysis.loads.sensitivity",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
+    "read_surveys": "rodwell.studies.well.survey",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
     "switching_table": "rodwell.analysis.straight.modes",
@@ -102,7 +103,7 @@ if TYPE_CHECKING:
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
-    from rodwell.studies.well.survey import Survey
+    from rodwell.studies.well.survey import Survey, read_surveys
 
 
 def _late(module: str, name: str) -> Face:

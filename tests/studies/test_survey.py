@@ -72,8 +72,8 @@ def test_a_unit_given_beside_the_file_counts_more(tmp_path: Path) -> None:
         ("MD [m],Inc\n0,0\n# remark\n50,x\n", "line 4, Inc"),
         ("MD [m],Inc\n0,0\n50,\n", "is missing"),
         ("MD [m],Inc\n0,0\n50\n", "line 3"),
-        ("MD [m];Inc\n0;0\n50;1,5\n", "decimal point"),
-        ("MD [m],Inc\n0,0\n50,nan\n", "finite"),
+        ("MD [m];Inc\n0.5;0\n50;1,5\n", "decimal point"),
+        ("MD [m],Inc\n0,0\n50,nan\n", "is missing"),
         ("MD [m],Inc\n0,0\ninf,2\n", "finite"),
     ],
 )
@@ -128,3 +128,22 @@ def test_azimuth_passes_north() -> None:
     survey = Survey.of([0.0, 100.0, 200.0], [90.0] * 3, [350.0, 0.0, 10.0])
     assert survey.turn == pytest.approx(np.full(3, math.radians(0.1)), rel=1e-12)
     assert survey.tvd == pytest.approx(np.zeros(3), abs=1e-9)
+
+
+def test_minimum_curvature_against_a_second_code() -> None:
+    """Positions and doglegs by welleng 0.30.0 (minimum curvature, azimuths from grid north), all digits."""
+    md = [0.0, 300.0, 600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2130.0, 2500.0]
+    inclination = [0.0, 0.0, 12.0, 30.0, 45.0, 62.0, 88.0, 93.0, 91.0, 70.0]
+    survey = Survey.of(md, inclination, [0.0, 0.0, 350.0, 355.0, 10.0, 25.0, 40.0, 80.0, 81.0, 185.0])
+    north = [0.0, 0.0, 30.825719838643387, 137.13623945231657, 317.70647234923655, 544.6847525408477, 784.955041088886,
+             931.9114752453693, 936.8594156803742, 734.2939132697777]  # fmt: skip
+    east = [0.0, 0.0, -5.435406107313019, -17.48770998453143, -5.5133140694250375, 69.70255734118894, 225.5369397586591,
+            479.99144945546294, 509.5601418208953, 744.8424641135985]  # fmt: skip
+    tvd = [0.0, 300.0, 597.811559882162, 876.7542652035058, 1114.5692335095625, 1293.0137975800906, 1370.408978763731,
+           1367.6800834530484, 1366.6331251604936, 1450.9549241178788]  # fmt: skip
+    dogleg = [0.0, 12.0, 18.07320241503186, 17.46913780393236, 20.766854826066048, 29.68899486622309,
+              40.29700896776645, 2.2357728429218136, 103.48947095255218]  # fmt: skip
+    assert survey.north == pytest.approx(north, abs=1e-8)
+    assert survey.east == pytest.approx(east, abs=1e-8)
+    assert survey.tvd == pytest.approx(tvd, abs=1e-8)
+    assert np.degrees(survey.dogleg) == pytest.approx(dogleg, abs=1e-9)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,7 +12,9 @@ from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
+    from rodwell.case.case import Case
     from rodwell.studies.well.screening import Screening
+    from rodwell.studies.well.survey import Survey
 
 SHOWN = 12
 """Stations in the table on the terminal."""
@@ -27,6 +29,14 @@ SHOWN = 12
 @click.option("--depth-unit", help="Unit of measured depth, m or ft, if the header does not say.")
 @click.option("--angle-unit", help="Unit of inclination and azimuth, deg or rad.  [default: the header's, or deg]")
 @click.option("--force-unit", help="Unit of the force column, if the header does not say.")
+@click.option(
+    "--column", "columns", multiple=True, metavar="KIND=NAME",
+    help='Which column is md, inclination, azimuth, force or well, by its header or number: inclination="Dip (deg)", '
+    "azimuth=none leaves one out. Can be given several times.",
+)  # fmt: skip
+@click.option("--decimal", help="Decimal mark, point or comma, where numbers such as 1,234 do not tell.")
+@click.option("--well", help="Which well, if the file holds several.")
+@click.option("--all-wells", is_flag=True, help="Every well of the file, each into a folder of its own.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the summary.")
 def screen(
     survey: Path,
@@ -37,9 +47,15 @@ def screen(
     depth_unit: str | None,
     angle_unit: str | None,
     force_unit: str | None,
+    columns: tuple[str, ...],
+    decimal: str | None,
+    well: str | None,
+    all_wells: bool,
     as_json: bool,
 ) -> None:
-    """Screen the well of SURVEY, a CSV file of measured depth and inclination, station by station.
+    """Screen the well of SURVEY, a file of measured depth and inclination, station by station.
+
+    The file is CSV or other text, XLSX, LAS, or a Petrel deviation file; azimuths and forces are taken if it has them.
 
     At every station: the exact load at which a long straight rod of the station's inclination buckles and leaves the
     wall, beside the formulas of practice; with a force at bit or hook, or a column of forces, how much of it is used.
@@ -49,30 +65,74 @@ def screen(
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
-    from rodwell.studies.well.survey import Survey  # noqa: PLC0415
 
     read = Case.read(case)
-    well = Survey.read(survey, depth_unit=depth_unit, angle_unit=angle_unit, force_unit=force_unit)
-    if force_unit is not None and well.force is None:
-        what = f"has no meaning: {well.source} has no column of forces; leave the option out, or name the column Force"
+    how = {
+        "depth_unit": depth_unit, "angle_unit": angle_unit, "force_unit": force_unit, "columns": _columns(columns),
+        "decimal": decimal,
+    }  # fmt: skip
+    wells = _wells(survey, how, well, all_wells)
+    if force_unit is not None and all(each.force is None for each in wells.values()):
+        what = f"has no meaning: {survey.name} has no column of forces; leave the option out, or name the column Force"
         raise InputError("--force-unit", force_unit, what)
     folder = Path("results") / f"{survey.stem}-screen" if out is None else out
-    check_writable(folder)
+    folders = {name: folder / _folder_name(name, i) if all_wells else folder for i, name in enumerate(wells)}
+    for each in folders.values():
+        check_writable(each)
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
+    data = {name: _screened(read, each, forces, folders[name], as_json) for name, each in wells.items()}
+    if as_json:
+        print_json({"wells": data} if all_wells else next(iter(data.values())))
 
+
+def _columns(given: tuple[str, ...]) -> dict[str, str | int]:
+    """Columns by meaning from "inclination=Dip (deg)"."""
+    from rodwell.errors import InputError  # noqa: PLC0415
+
+    columns: dict[str, str | int] = {}
+    for text in given:
+        kind, equals, name = text.partition("=")
+        if not equals:
+            raise InputError("--column", text, 'must be KIND=NAME, for example inclination="Dip (deg)"')
+        columns[kind.strip().lower()] = name
+    return columns
+
+
+def _wells(survey: Path, how: dict[str, Any], well: str | None, all_wells: bool) -> dict[str, Survey]:
+    """The wells that were asked for, by name."""
+    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.studies.well.survey import Survey, read_surveys  # noqa: PLC0415
+
+    if not all_wells:
+        return {"": Survey.read(survey, well=well, **how)}
+    if well is not None:
+        raise InputError("--well", well, "cannot be given together with --all-wells")
+    return read_surveys(survey, **how)
+
+
+def _folder_name(well: str, number: int) -> str:
+    """A name for the folder of a well: letters and digits of its name, and its number, so that no two are one."""
+    plain = "".join(c if c.isalnum() or c in "-_" else "-" for c in well).strip("-")[:60]
+    return f"{number + 1}-{plain}" if plain else str(number + 1)
+
+
+def _screened(
+    case: Case, well: Survey, forces: dict[str, float | None], folder: Path, as_json: bool
+) -> dict[str, Any]:  # fmt: skip
+    """Screen one well, write its folder, and print or return what was found."""
     from rodwell.report.folders.well import write_screening  # noqa: PLC0415
     from rodwell.studies.well.plain import screening_dict  # noqa: PLC0415
     from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
-        result = compute(read, well, **forces, signs_meant=True, progress=tell)
+        result = compute(case, well, **forces, signs_meant=True, progress=tell)
         tell("figure and data", 1.0)
         files = write_screening(result, folder)
     if as_json:
-        print_json(screening_dict(result))
-        return
+        return screening_dict(result)
     _print(result)
     print_written(folder, files)
+    return {}
 
 
 def _force(option: str, text: str | None) -> float | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -67,24 +68,24 @@ class Screening:
     compression: FloatArray | None
     length_effect: dict[float, float]
 
-    @property
+    @cached_property
     def local(self) -> FloatArray:
         """Inclination of the local rods in degrees, (n,), 0 to 90; a hole of 91° is one of 89° that goes uphill."""
         return np.minimum(self.survey.inclination, 180.0 - self.survey.inclination)
 
-    @property
+    @cached_property
     def lengths(self) -> FloatArray:
         """Length of the local rod for the critical load in m, (n,)."""
         return np.array([self.string.length(float(alpha)) for alpha in self.local])
 
-    @property
+    @cached_property
     def utilisation(self) -> FloatArray | None:
         """Compression as a part of the critical compression, (n,); 0 in tension, NaN without a critical load."""
         if self.compression is None:
             return None
         return np.asarray(np.maximum(self.compression, 0.0) / self.critical.values)
 
-    @property
+    @cached_property
     def dropping(self) -> FloatArray:
         """Whether the hole's curvature takes the pipe off the low side, (n,): straight-hole loads are then too high.
 
@@ -232,12 +233,14 @@ def _compression(
 
 
 def _formulas(string: PipeString, survey: Survey) -> dict[str, FloatArray]:
+    """Loads of the formulas at every station; what a formula takes is looked up once, not at 100,000 stations."""
+    known = {"alpha": survey.inclination.tolist(), "build": survey.build.tolist(), "turn": survey.turn.tolist()}
+    same = {"B": string.stiffness, "w": string.weight, "r": string.clearance}
     out: dict[str, FloatArray] = {}
     for key in BESIDE:
-        formula, values = FORMULAS[key], []
-        for i in range(len(survey)):
-            known = {"B": string.stiffness, "w": string.weight, "alpha": float(survey.inclination[i]),
-                     "r": string.clearance, "build": float(survey.build[i]), "turn": float(survey.turn[i])}  # fmt: skip
-            values.append(float(formula.function(**{name: known[name] for name in formula.takes})))
-        out[key] = np.array(values)
+        function, takes = FORMULAS[key].function, FORMULAS[key].takes
+        columns = [known[name] if name in known else [same[name]] * len(survey) for name in takes]
+        out[key] = np.array(
+            [float(function(**dict(zip(takes, values, strict=True)))) for values in zip(*columns, strict=True)]
+        )
     return out

@@ -95,6 +95,7 @@ def assumptions(screening: Screening) -> list[str]:
     first, last = screening.string.ends
     effects = ", ".join(f"{100 * v:.2g} % at {a:.3g}°" for a, v in screening.length_effect.items())
     out = [
+        *screening.survey.notes,
         "Compression positive, at the station, which is the lower end of the local rod.",
         f"Local rod: straight hole of the station's inclination, uphill from the station, {HALF_WAVES} half waves "
         f"of the long-rod wave long ({LIFT_OFF_HALF_WAVES} for lift-off), ends {first} (at the station) and {last}.",
