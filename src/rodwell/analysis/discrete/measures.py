@@ -6,7 +6,14 @@ from enum import IntEnum
 
 import numpy as np
 
-from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE, balanced, balanced_pressures, totals
+from rodwell.analysis.discrete.pressures import (
+    COEFFICIENT_NOISE,
+    balanced,
+    balanced_pressures,
+    derivative,
+    free_ends,
+    totals,
+)
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria.family import Family, State
@@ -59,6 +66,10 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
         u[i, 1] += ramp
     out = np.zeros((3, STEEPEST + 1))
     numbers, scales, noise = out
+    _, turns_0, _, turns_1 = free_ends(mesh)
+    for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
+        u[i, 2], noise[which] = (0.0, 0.0) if turns else derivative(landmarks[i], 2, c, marks[i])
+        noise[which] *= COEFFICIENT_NOISE
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
     numbers[Measured.ENERGY], scales[Measured.ENERGY] = energy, max(abs(energy), bending)
     numbers[Measured.SHORTENING] = scales[Measured.SHORTENING] = shortening
@@ -73,9 +84,6 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
     noise[Measured.P_MAX] = np.max(left)
-    for end, which in ((0, Measured.OMEGA2_0), (2, Measured.OMEGA2_1)):
-        for a in range(len(mesh.local)):
-            noise[which] += COEFFICIENT_NOISE * abs(landmarks[end, 2, a] * c[marks[end] + a])
     return out
 
 

@@ -91,7 +91,7 @@ _pressure = on_lanes(lambda _: _pressed)
 
 
 @formula
-def _ends(mesh):
+def free_ends(mesh):
     """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
     last = mesh.held.size - 1
     tied_0, tied_1 = mesh.follows[0] != 0, mesh.follows[last] != last
@@ -106,7 +106,7 @@ def _ends(mesh):
 @formula
 def _balance(mesh, knots, c, parameters, push, lever, basis, shear):
     """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there."""
-    loose_0, turns_0, loose_1, turns_1 = _ends(mesh)
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
     count, degree = shear.size, len(mesh.local) - 1
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
@@ -153,13 +153,15 @@ def _shear_at(mesh, knots, c, parameters, shear, span, s, basis):
 
 
 @formula
-def _noisy(basis, order, c, first):
-    """A derivative of a spline from its basis functions, and the sum of the sizes of its terms."""
+def derivative(basis, order, c, first):
+    """A derivative (1, 2 …) of a spline from its basis functions, and the size of what round-off enters: its terms.
+
+    The functions' derivatives add up to zero: differences of the coefficients from one of them serve as well.
+    """
     value = size = 0.0
     for a in range(basis.shape[1]):
-        term = basis[order, a] * c[first + a]
-        value += term
-        size += abs(term)
+        value += basis[order, a] * (c[first + a] - c[first])
+        size += abs(basis[order, a] * c[first + a])
     return value, size
 
 
@@ -174,15 +176,17 @@ def balanced(mesh, knots, c, parameters, push, lever, shear, places, values, noi
     basis, known, out = np.empty((3, len(mesh.local))), np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
     uniforms = (parameters,)
     _balance(mesh, knots, c, parameters, push, lever, basis, shear)
-    loose_0, turns_0, loose_1, turns_1 = _ends(mesh)
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
     for i in range(places.size):
         s = places[i]
         span = find_span(knots, degree, s)
         force = _shear_at(mesh, knots, c, parameters, shear, span, s, basis)
         basis_derivatives(knots, span, degree, s, basis)
-        y, _ = _noisy(basis, 0, c, span - degree)
-        slope, size_1 = _noisy(basis, 1, c, span - degree)
-        bend, size_2 = _noisy(basis, 2, c, span - degree)
+        y = 0.0
+        for a in range(degree + 1):
+            y += basis[0, a] * c[span - degree + a]
+        slope, size_1 = derivative(basis, 1, c, span - degree)
+        bend, size_2 = derivative(basis, 2, c, span - degree)
         if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
             bend = size_2 = 0.0
         elif s in (0.0, 1.0):  # the end holds y′

@@ -23,7 +23,8 @@ class Crossing:
     """A change of the stability index: where, from what to what, and whether it is a fold (λ turns back there).
 
     ``place`` is None where only one mesh shows it: the eigenvalue vanishes to round-off (the translation eigenvalue
-    of a long rod is exponentially small), so its sign means nothing.
+    of a long rod is exponentially small), so its sign means nothing. ``doubt`` is by how much λ may be off, since
+    round-off in the eigenvalue hides its zero.
     """
 
     place: LocatedZero | None
@@ -31,6 +32,7 @@ class Crossing:
     before: int
     after: int
     fold: bool
+    doubt: float = 0.0
 
 
 def index_crossings(
@@ -64,6 +66,9 @@ FOLD_OFFSET = 1e-3
 
 DROWNED = 1e3
 """An eigenvalue below this many times its round-off tells nothing by its sign."""
+
+NOISY = 2.0
+"""How many times the round-off in an eigenvalue its located zero may miss: once found, once known."""
 
 CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
@@ -136,13 +141,9 @@ def _located(
         )
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
-    return Crossing(
-        LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t)),
-        low + t * (high - low),
-        before,
-        after,
-        fold,
-    )
+    place = LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t))
+    doubt = parts[0].doubt(place.fine, t, NOISY * eigenvalue.noise / abs(ends[1] - ends[0]))
+    return Crossing(place, place.t, before, after, fold, doubt)
 
 
 def _drowned(fine: Segment, low: float, high: float) -> bool:
