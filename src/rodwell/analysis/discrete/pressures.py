@@ -25,7 +25,7 @@ from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
 from rodwell.physics.on_wall.strand import towards_lift_off
 
-COEFFICIENT_NOISE = 4.0 * float(np.finfo(float).eps)
+COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
 """Round-off in derivatives of a spline, relative to the sum of the sizes of their terms: some units in the last
 place."""
 

@@ -126,7 +126,7 @@ def _located(
         raise LocationError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    steady = fine.family.parity == 0 and not fold
+    steady = not fold and _wanders(fine, low)
     if steady:
         low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
@@ -153,6 +153,17 @@ def _drowned(fine: Segment, low: float, high: float) -> bool:
         if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
             return True
     return False
+
+
+def _wanders(segment: Segment, place: float) -> bool:
+    """Whether Newton's method moves along the direction in which the Hessian becomes singular: symmetry may forbid it.
+
+    States that are periodic beyond their ends branch into others of the same parity.
+    """
+    parity = segment.family.parity
+    vector = _Eigenvalue(segment, place).vector
+    kept = vector + parity * vector[::-1]
+    return parity == 0 or bool(np.linalg.norm(kept) > np.linalg.norm(vector))
 
 
 def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:
