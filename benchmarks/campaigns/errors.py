@@ -123,7 +123,7 @@ def judged(seed: int, every: int = 2) -> tuple[list[Judged], list[str]]:
     try:
         branch = followed(problem, mode, reach, rtol)
     except NotConvergedError as error:
-        return [], [f"not followed: {str(error)[:60]}"]
+        return [], [f"not followed: {str(error).partition(',')[0][:24]}"]
     rows, left = [], []
     for point in branch.special_points:
         if point.kind not in SPECIAL:
@@ -134,15 +134,17 @@ def judged(seed: int, every: int = 2) -> tuple[list[Judged], list[str]]:
         try:
             true = float(abs(load_of(point.solution, point.kind, every) - LONG(point.force)))
         except (NoReference, RuntimeError) as error:
-            left.append(f"{point.kind}: {str(error)[:40]}")
+            left.append(f"{point.kind}: {str(error).partition(':')[0]}")
             continue
         size = abs(point.force)
         rows.append(Judged(point.kind, rtol, point.error / size, true / size))
     last = branch[-1]
+    if not branch.reached_end:
+        left.append(f"ended early: {branch.ended_because}")
     try:
         exact = numbers_of(last, every)
     except (NoReference, RuntimeError) as error:
-        return rows, [*left, f"state: {str(error)[:40]}"]
+        return rows, [*left, f"state: {str(error).partition(':')[0]}"]
     scales = measured_of(last.meshes.fine, last.point.fine)[1]
     for which in Measured:
         value = last.number(which)

@@ -32,7 +32,7 @@ HELD = {"clamped": (0, 1), "pinned": (0, 2), "guided": (1, 3), "free": (2, 3)}
 LONG = np.longdouble
 TINY = LONG("1e-25")
 STENCIL = LONG("1e-6")
-MOST_STEPS, SETTLED = 40, 1e-17
+MOST_STEPS, SETTLED = 60, 1e-17
 
 
 class NoReference(RuntimeError):

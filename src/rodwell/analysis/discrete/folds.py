@@ -25,7 +25,7 @@ def load_noise(family: Family, fold: State) -> float:
     functions = np.repeat(space.starts, space.per_element)[:, None] + np.arange(space.degree + 1)
     terms = np.abs(space.table[:, 2] * c[functions]).sum(axis=1)
     stiffness = 1.0 / (1.0 - (slope + family.parameters(fold.lam)[RAMP]) ** 2)
-    work = 2.0 * COEFFICIENT_NOISE * float(np.linalg.norm(space.weights * bend * stiffness * terms))
+    work = 4.0 * COEFFICIENT_NOISE * float(np.linalg.norm(space.weights * bend * stiffness * terms))
     step, free = SIDE * max(abs(fold.lam), family.lam_scale), family.held
     above, below = (free.gather(family.assemble(c, fold.lam + sign * step)[1]) for sign in (1.0, -1.0))
     lever = abs(float(free.gather(v) @ (above - below))) / (2.0 * step)

@@ -137,13 +137,15 @@ def _located(
     ends = eigenvalue(0.0), eigenvalue(1.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
-        other = near_root(
-            _Eigenvalue(parts[1], t), t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise
-        )
+        rough = _Eigenvalue(parts[1], t)
+        other = near_root(rough, t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise)
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     place = LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t))
-    doubt = parts[0].doubt(place.fine, t, NOISY * eigenvalue.noise / abs(ends[1] - ends[0]))
+    levels = (fine.family, place.fine), (coarse.family, place.coarse)
+    rest = [family.nearest_curvature(state, vector, 3)[0] for (family, state), vector in zip(levels, (eigenvalue.vector, rough.vector), strict=True)]
+    left = NOISY * max(eigenvalue.noise, *map(abs, rest))
+    doubt = parts[0].doubt(place.fine, t, left / abs(ends[1] - ends[0]))
     return Crossing(place, place.t, before, after, fold, doubt)
 
 

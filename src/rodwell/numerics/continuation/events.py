@@ -249,21 +249,25 @@ class _Stretch:
         found = self._refined(
             place, again, lambda meshes, at: _found(event.name, meshes, at, index, index, rising=rising)
         )
-        found = replace(found, lam_error=found.lam_error + self._doubt(event, place, found.point))
-        return [(place.t, found)]
+        return [(place.t, self._doubted(event, place, found))]
 
-    def _doubt(self, event: Event, place: LocatedZero, point: MeshedState) -> float:
-        """How far λ may be off at the zero of an event: what is not known of its function there, over its slope.
+    def _doubted(self, event: Event, place: LocatedZero, found: LocatedEvent) -> LocatedEvent:
+        """Count to the error of λ what is not known of an event's function, over its slope.
 
         Of a function that is bent in one sense, the slope at its zero lies between those of the chords to both ends.
+        Where both meshes put the zero at the same place by chance, the ends of the stretch tell how well they agree.
         """
         if event.level is not None:
-            return 0.0
-        ends, middle = self._values(event), event.function(point.lam, point.values)
-        beside = [event.function(point.lam, point.values + sign * point.error) for sign in (1.0, -1.0)]
-        unknown = max(abs(value - middle) for value in beside)
+            return found
+        ends = self._values(event)
         slope = min(abs(ends[0]) / max(place.t, TINY), abs(ends[1]) / max(1.0 - place.t, TINY))
-        return self.segments[1].doubt(place.fine, place.t, min(1.0, unknown / max(slope, TINY)))
+
+        def doubt(unknown: float) -> float:
+            return self.segments[1].doubt(place.fine, place.t, min(1.0, unknown / max(slope, TINY)))
+
+        beside = min(_unknown(event, point) for point in (self.before, self.after))
+        here = doubt(_unknown(event, found.point))
+        return replace(found, lam_error=max(found.lam_error, doubt(beside)) + here)
 
     def _refined(
         self,
@@ -312,6 +316,12 @@ def _found(
     point = meshes.point(place.coarse, place.fine)
     error = place.gap / CLAIMED_GAIN + doubt
     return LocatedEvent(name, point, meshes, error, before, after, rising=rising, fold=fold)
+
+
+def _unknown(event: Event, point: MeshedState) -> float:
+    """Error of an event's function at a point."""
+    value = event.function(point.lam, point.values)
+    return max(abs(event.function(point.lam, point.values + sign * point.error) - value) for sign in (1.0, -1.0))
 
 
 def _index_at(t: float, index: int, changes: Sequence[_Placed]) -> int:
