@@ -9,6 +9,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
+from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.verdict import verdict
 from rodwell.problem.problem import ends_text
@@ -98,6 +99,7 @@ def _applied(scales: Scales | None, at: AtLoad) -> dict[str, Any]:
         "kind": "real" if load.real else "effective",
         "force": _quantity(scales, Value(load.force)),
         "what": at.what,
+        "reached": at.reached,
         "why": at.why,
         "state": None if at.state is None else at.state.name,
     }
@@ -147,6 +149,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         },
         "critical_loads": [float(f) for f in answer.critical.forces],
         "critical_errors": [float(e) for e in answer.critical.errors],
+        "until": _until(answer),
         "lift_off": None
         if lift is None
         else {
@@ -167,6 +170,16 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         "certificate": answer.worst_certificate.as_dict(),
         "rtol": case.rtol,
     }
+
+
+def _until(answer: Answer) -> dict[str, Any] | None:
+    """The end force asked for, and whether the branch of mode 1 reaches it; None where none was asked for."""
+    until, scales = answer.case.until, answer.case.scales
+    if until is None:
+        return None
+    missed = out_of_reach(answer.first, until)
+    why = why_out_of_reach(answer.first, scales) if missed else ""
+    return {"force": _quantity(scales, Value(until)), "reached": not missed, "why": why}
 
 
 def _spread(spread: Spread | None) -> dict[str, Any]:

@@ -94,8 +94,7 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
     Raises
     ------
     NotConvergedError
-        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
-        to ``load.until``; the message says why and how far it got.
+        If the critical loads cannot be computed, or the first branch cannot be started.
     """
     computed = compute(case, progress)
     return Answer(computed.case, computed.critical, computed.branches, computed.until)

@@ -8,8 +8,9 @@ from functools import cached_property
 from rodwell.answers.comparison.beside import FormulaRow, load_rows
 from rodwell.answers.comparison.exact_loads import ExactLoad
 from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.reach import UNSOLVED, out_of_reach, passes, why_out_of_reach
 from rodwell.case.applied import AppliedLoad
-from rodwell.errors import InputError, NotConvergedError
+from rodwell.errors import NotConvergedError
 from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import Stress, cylinder_stress
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
@@ -93,13 +94,16 @@ class AtLoad:
     state
         The straight or buckled state; None for the others.
     why
-        For UNKNOWN, why.
+        For UNKNOWN, and for a load out of reach, why.
+    reached
+        Whether the branch of mode 1, for a rod kept on the wall, goes so far; True where it was not asked to.
     """
 
     load: AppliedLoad
     what: str
     state: LoadedRod | None = None
     why: str = ""
+    reached: bool = True
 
 
 class Assessment:
@@ -145,15 +149,19 @@ class Assessment:
             name += f" {1 + self.case.applied.index(load)}"
         if load.force >= self.critical.force:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+        reached = not out_of_reach(branch, load.force)
+        why = "" if reached else why_out_of_reach(branch, self.case.scales)
         if branch.lift_off_at_buckling:
-            return AtLoad(load, LEFT)
+            return AtLoad(load, LEFT, None, why, reached)
         end = self.window.end
         if end is not None and end.force is not None and load.force <= end.force:
-            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE)
+            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE, None, why, reached)
+        if not passes(branch, load.force):
+            return AtLoad(load, UNKNOWN, None, why or why_out_of_reach(branch, self.case.scales), reached=False)
         try:
             solution = branch.at(load.force)
-        except (InputError, NotConvergedError) as error:
-            return AtLoad(load, UNKNOWN, why=f"{branch.ended_because}: {error}")
+        except NotConvergedError:
+            return AtLoad(load, UNKNOWN, None, UNSOLVED, reached=False)
         return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
 
     def stress(self, state: LoadedRod) -> RodStress | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.analysis.branch.follow import extended, follow
@@ -14,9 +16,9 @@ from rodwell.analysis.discrete import first_run
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
+from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
-from rodwell.errors import NotConvergedError
 
 
 @dataclass(frozen=True)
@@ -30,9 +32,10 @@ class Computed:
     critical
         Critical loads and modes of the straight rod.
     branches
-        Buckled branches of the modes met before ``until``; the first is that of mode 1.
+        Buckled branches of the modes met before ``until``; the first is that of mode 1, which goes on to the loads
+        that act if these lie farther.
     until
-        End force in B/L² to which they were followed.
+        End force in B/L² to which they were to be followed.
     """
 
     case: Case
@@ -99,8 +102,8 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     Raises
     ------
     NotConvergedError
-        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
-        to ``load.until``; the message says why and how far it got.
+        If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
+        ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
@@ -126,16 +129,16 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
 def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, float]:
     """Branch of the first mode, and the end force to follow branches to.
 
-    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes.
+    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes. The first branch
+    goes on to the loads that act.
     """
     first = critical[0]
     if case.until is not None and case.until < first.force:
-        branch = follow(case.problem, first, until=case.until, rtol=case.rtol)
-        _check_reached(case, branch, case.until)
-        return branch, case.until
+        return follow(case.problem, first, until=case.until, rtol=case.rtol), case.until
     to_lift_off = follow(case.problem, first, rtol=case.rtol)
     until = _reach(critical, to_lift_off)
-    return (extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off), until
+    branch = extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off
+    return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), until
 
 
 def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
@@ -145,17 +148,3 @@ def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
     if lift is not None:
         beyond.append(1.3 * (first - lift.force))
     return float(first - max(beyond))
-
-
-def _check_reached(case: Case, branch: Branch, until: float) -> None:
-    if branch.reached_end:
-        return
-    unit, factor = "B/L²", 1.0
-    if case.scales is not None:
-        size, unit = case.scales.system.unit("force")
-        factor = case.scales.factor("force") / size
-    raise NotConvergedError(
-        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
-        f"{branch.reach[0] * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
-        "give a load.until above that"
-    )

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.result.reach import passes
 from rodwell.answers.words.meaning import SMALL_LOAD
 from rodwell.answers.words.wording import force_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
+from rodwell.errors import NotConvergedError
 from rodwell.quantities.text import amount, minus, percent
 from rodwell.quantities.value import Value
 
@@ -62,9 +65,20 @@ def _buckling(computed: Computed) -> Status:
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {where}")
     reason = f"at {force_text(scales, Value(load))}, beyond {where}"
-    if computed.first.at(load).stable:
+    state = _state(computed, load)
+    if state is None:
+        return Status("Buckling", BAD, "buckled, shape not known", f"{reason}: its branch could not be followed so far")
+    if state.stable:
         return Status("Buckling", CAUTION, "buckled, stable", reason)
     return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
+
+
+def _state(computed: Computed, load: float) -> Solution | None:
+    """The buckled state of mode 1 at an end force; None where it is not known."""
+    try:
+        return computed.first.at(load) if passes(computed.first, load) else None
+    except NotConvergedError:
+        return None
 
 
 def _contact(computed: Computed) -> Status:
@@ -75,6 +89,8 @@ def _contact(computed: Computed) -> Status:
         return Status(subject, OPEN, "no load given", reason)
     if load >= computed.critical[0].force and computed.first.lift_off_at_buckling:
         return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
+    if lift is None and not passes(computed.first, min(load, computed.first.force[0])):
+        return Status(subject, BAD, "not known", "no lift-off was found, but the branch could not be followed so far")
     if lift is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
     if load <= lift.force:

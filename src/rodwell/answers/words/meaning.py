@@ -13,6 +13,7 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
 from rodwell.case.case import Case
@@ -57,7 +58,14 @@ def assumptions(case: Case) -> tuple[str, ...]:
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
     a = answer.assessment
-    out = [verdict(a), *load_sentences(a), _mode(answer.critical, answer.case), _asked(answer), _lift_off(answer)]
+    out = [
+        verdict(a),
+        *load_sentences(a),
+        *unreached(a),
+        _mode(answer.critical, answer.case),
+        _asked(answer),
+        _lift_off(answer),
+    ]
     out += [_stability(answer), *window_sentences(a)]
     out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
     return [sentence for sentence in out if sentence]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import local_sentence
 from rodwell.quantities.text import minus, plain
 from rodwell.quantities.units import SI, System
@@ -53,7 +54,8 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
         "Tension positive. The approach of the ends is that by buckling. Where the rod has left the wall, or mode 1 "
         "has lost its stability, no numbers are given."
     )
-    return (ReportSection("At the loads that act", (table, Words(note, "small"))),)
+    missed = [Words(sentence, "warning") for sentence in unreached(a)]
+    return (ReportSection("At the loads that act", (table, Words(note, "small"), *missed)),)
 
 
 def _strong(a: Assessment) -> bool:
@@ -128,7 +130,7 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     row = {
         "given": f"{minus(given)} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
         "force": _text(a, load.force, "force"),
-        "what": WORDS.get(at.what, at.why),
+        "what": WORDS.get(at.what, f"not known: {at.why}"),
     }
     if state is None:
         return row

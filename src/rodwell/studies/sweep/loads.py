@@ -36,6 +36,8 @@ class LoadResult:
         ``limits.NAMES``; those that are not reached before the rod leaves the wall are missing.
     exceeded
         Kinds of strength that are used up at any load.
+    reached
+        Whether the branch of mode 1 goes so far; True where it was not asked to.
     contact
         Largest contact force per length on the wall, in B/L³; None where the state is not known.
     stress, safety
@@ -50,6 +52,7 @@ class LoadResult:
     contact: Value | None = None
     stress: Value | None = None
     safety: Value | None = None
+    reached: bool = True
 
 
 def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadResult, ...]:
@@ -69,7 +72,7 @@ def _at(a: Assessment, at: AtLoad) -> LoadResult:
     if state is not None and state.solution is not None and not state.solution.converged:
         why = "the state does not meet the tolerance: its errors say how well it is known"
     stress = None if state is None else a.stress(state)
-    return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress))
+    return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress), reached=at.reached)
 
 
 def _to_spare(force: float, limit: Value) -> Value:
@@ -89,7 +92,7 @@ def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadR
     for load in case.applied:
         spare = {BUCKLES: _to_spare(load.force, first.load)}
         if load.force < first.force:
-            out.append(LoadResult(load, UNKNOWN, why, spare))
+            out.append(LoadResult(load, UNKNOWN, why, spare, reached=False))
             continue
         state = LoadedRod("at the applied load", case.problem, load.force)
         stress = None if section is None else section.largest(state)

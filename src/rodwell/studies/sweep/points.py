@@ -8,9 +8,11 @@ from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.special import END
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
+from rodwell.answers.result.reach import followed_on
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
@@ -115,6 +117,14 @@ def computed(case: Case) -> SharedResults:
         return SharedResults(critical, why=str(error))
 
 
+def followed_to_loads(shared: SharedResults, case: Case) -> SharedResults:
+    """The same with the branch followed on to the loads that act, where it was not to end before."""
+    branch, loads = shared.branch, [load.force for load in case.applied]
+    if branch is None or branch.lift_off is not None or not loads:
+        return shared
+    return replace(shared, branch=followed_on(branch, min(loads)))
+
+
 def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedResults) -> StudyPoint:
     """Results of one case, whose critical load and branch are those of ``shared``; reasons for what is missing."""
     out = StudyPoint(number, at, case)
@@ -153,7 +163,8 @@ def _used(case: Case, branch: Branch) -> dict[str, Value]:
 def _at_lift_off(branch: Branch, reasons: dict[str, str]) -> tuple[Value | None, tuple[float, ...], Value | None]:
     lift = branch.lift_off
     if lift is None:
-        reasons.update(lift_off=f"was not found: {branch.ended_because}", contact="no lift-off")
+        ended = "within the range looked at" if branch.ended_because == END else f"({branch.ended_because})"
+        reasons.update(lift_off=f"was not found {ended}", contact="no lift-off")
         return None, (), None
     if branch.lift_off_at_buckling:
         reasons["contact"] = "lift-off coincides with buckling: no lateral weight"
