@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import print_json, progress_bar, units_option
+from rodwell.cli.options import check_missed, print_json, progress_bar, units_option
 from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
@@ -76,9 +76,11 @@ def audit(
         files = write_audit(result, errors, folder)
     if as_json:
         print_json(result.as_dict())
-        return
-    _print(result)
-    click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+    else:
+        _print(result)
+        click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+    missed = [f"{load.label} ± {load.error:.0e}" for load in result.loads if not load.meets(read.rtol)]
+    check_missed(missed, read.rtol)
 
 
 def _print(audit: Audit) -> None:

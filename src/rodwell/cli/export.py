@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import force_at, progress_bar, units_option
+from rodwell.cli.options import check_missed, force_at, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
@@ -89,6 +89,7 @@ def export(
         value = given.get(error.field, error.value)
         raise InputError(names.get(error.field, error.field), value, error.reason) from None
     click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(str(file) for file in written))
+    check_missed([] if state.converged else ["the state that was written"], read.rtol)
 
 
 def _state(case: Case, force: float | None, mode: int, mirror: bool, at: str) -> Solution:

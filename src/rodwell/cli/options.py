@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.problem.problem import Problem
 
+TOLERANCE_MISSED = 3
+
 Progress = Callable[[str, float], None]
 
 PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns")
@@ -78,6 +80,36 @@ def make_problem(given: dict[str, Any]) -> Problem:
 def print_json(data: dict[str, Any]) -> None:
     """Print data as JSON."""
     click.echo(json.dumps(data, ensure_ascii=False))
+
+
+class ToleranceMissed(click.ClickException):
+    """Numbers were shown that miss their tolerance: one line that says which, and an exit code of its own."""
+
+    exit_code = TOLERANCE_MISSED
+
+    def show(self, file: Any = None) -> None:
+        """Print the line on standard error."""
+        click.echo(f"rodwell: tolerance missed: {self.message}", file=file, err=file is None)
+
+
+def check_missed(what: Sequence[str], rtol: float) -> None:
+    """Raise if anything that was shown misses the tolerance.
+
+    Parameters
+    ----------
+    what
+        What misses it, in words.
+    rtol
+        The tolerance.
+
+    Raises
+    ------
+    ToleranceMissed
+        If there is anything.
+    """
+    if what:
+        more = f", and {len(what) - 1} more" if len(what) > 1 else ""
+        raise ToleranceMissed(f"{what[0]}{more} (rtol {rtol:g})")
 
 
 def places_text(places: Sequence[float]) -> str:

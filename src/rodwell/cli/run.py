@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import progress_bar, units_option
+from rodwell.cli.options import check_missed, progress_bar, units_option
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer
@@ -49,6 +49,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
     read = Case.read(case).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
+    from rodwell.answers.result.missed import missed  # noqa: PLC0415
     from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
@@ -59,6 +60,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
         click.echo(json.dumps(result.as_dict(), indent=2, ensure_ascii=False))
     elif not quiet:
         _summary(result, folder, files)
+    check_missed(missed(result), read.rtol)
 
 
 def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:

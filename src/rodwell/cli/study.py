@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import print_json, progress_bar
+from rodwell.cli.options import check_missed, print_json, progress_bar
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,6 +29,8 @@ def run_study(file: Path, folder: Path, units: str | None, as_json: bool, quiet:
     elif not quiet:
         _summary(result)
         click.echo(f"\nWritten to {folder}: " + ", ".join(files))
+    rtol = next(point.case.rtol for point in result.points if point.case is not None)
+    check_missed([f"point {point.number + 1}: {what}" for point in result.points for what in point.missed], rtol)
 
 
 def _summary(study: Study) -> None:

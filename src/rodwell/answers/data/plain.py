@@ -130,7 +130,7 @@ def _formula(scales: Scales | None, row: FormulaRow) -> dict[str, Any]:
 def answer_dict(answer: Answer) -> dict[str, Any]:
     """Return the answer as plain data, for JSON."""
     case, problem = answer.case, answer.case.problem
-    lift, assessment = answer.lift_off, assessment_dict(answer.assessment)
+    lift, load, assessment = answer.lift_off, answer.lift_off_load, assessment_dict(answer.assessment)
     return {
         "title": case.title,
         "verdict": assessment.pop("verdict"),
@@ -147,17 +147,17 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
             "twist": problem.twist,
             "ends": list(problem.ends),
         },
-        "critical_loads": [float(f) for f in answer.critical.forces],
-        "critical_errors": [float(e) for e in answer.critical.errors],
+        **_critical_loads(answer),
         "until": _until(answer),
         "lift_off": None
-        if lift is None
+        if lift is None or load is None
         else {
-            "force": lift.force,
-            "error": lift.error,
+            "force": load.value,
+            "error": load.error,
             "s": list(lift.s),
             "coincides_with_buckling": answer.first.lift_off_at_buckling,
         },
+        "other_arm": _other_arm(answer),
         "conversions": [fact.as_dict() for fact in case.facts],
         "yield_strength_Pa": case.yield_strength,
         "figures": {name: key.as_dict(case) for name, key in answer.key_numbers.items()},
@@ -170,6 +170,26 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         "certificate": answer.worst_certificate.as_dict(),
         "rtol": case.rtol,
     }
+
+
+def _critical_loads(answer: Answer) -> dict[str, Any]:
+    """Loads with the wall's help, as met, and without; those of a rod kept on the wall where these are others."""
+    kept, met, alone = answer.critical, answer.first_met, answer.without_wall
+    loads = {"critical_loads": [float(f) for f in kept.forces], "critical_errors": [float(e) for e in kept.errors]}
+    out: dict[str, Any] = loads
+    if answer.untouched:
+        kept_on_wall = {"loads": loads["critical_loads"], "error": loads["critical_errors"]}
+        out = {"critical_loads": [met.force], "critical_errors": [met.error], "kept_on_wall": kept_on_wall}
+    return out | {"without_wall": {"loads": [alone.force], "error": [alone.error]}}
+
+
+def _other_arm(answer: Answer) -> dict[str, Any] | None:
+    """Lift-off of the other arm of mode 1, where twist makes the two differ; None where it is an image."""
+    if answer.other_arm is None:
+        return None
+    lift = answer.other_arm.lift_off
+    ended = {"ended_because": answer.other_arm.ended_because}
+    return ended if lift is None else {"force": lift.force, "error": lift.error, "s": list(lift.s)}
 
 
 def _until(answer: Answer) -> dict[str, Any] | None:
@@ -195,5 +215,7 @@ def _branch_dict(branch: Branch) -> dict[str, Any]:
         "points": len(branch),
         "reached_end": branch.reached_end,
         "ended_because": branch.ended_because,
-        "special_points": [point.as_dict() for point in branch.special_points],
+        "special_points": [
+            point.as_dict() | {"converged": branch.meets_tolerance(point)} for point in branch.special_points
+        ],
     }

@@ -111,7 +111,7 @@ class Assessment:
 
     def __init__(self, computed: Computed) -> None:
         self.computed, self.case = computed, computed.case
-        self.critical, self.branch = computed.critical[0], computed.first
+        self.buckling, self.branch = computed.buckling, computed.first
 
     @cached_property
     def section(self) -> RodSection | None:
@@ -121,7 +121,7 @@ class Assessment:
     @cached_property
     def at_buckling(self) -> LoadedRod:
         """The straight rod at its first critical load."""
-        return LoadedRod("at buckling", self.case.problem, self.critical.force, self.critical.error)
+        return LoadedRod("at buckling", self.case.problem, self.buckling.value, self.buckling.error)
 
     @cached_property
     def at_lift_off(self) -> LoadedRod | None:
@@ -147,7 +147,7 @@ class Assessment:
         name = "at the applied load"
         if len(self.case.applied) > 1:
             name += f" {1 + self.case.applied.index(load)}"
-        if load.force >= self.critical.force:
+        if load.force >= self.buckling.value:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
         reached = not out_of_reach(branch, load.force)
         why = "" if reached else why_out_of_reach(branch, self.case.scales)
@@ -192,10 +192,9 @@ class Assessment:
     @cached_property
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
-        lift, problem = self.computed.lift_off, self.case.problem
-        gives = limits(self.case, self.branch, self.critical.force)
-        bottom = problem.axial_weight - self.critical.force
-        return Window(self.critical.load, None if lift is None else lift.load, gives, bottom)
+        gives = limits(self.case, self.branch, self.buckling)
+        bottom = self.case.problem.axial_weight - self.buckling.value
+        return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
     @cached_property
     def local(self) -> LocalLimits | None:
@@ -212,7 +211,7 @@ class Assessment:
     def formulas(self) -> tuple[FormulaRow, ...]:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
         weight = self.case.problem.axial_weight
-        loads = [ExactLoad("critical", "first critical load", self.critical.force, self.critical.error, weight)]
+        loads = [ExactLoad("critical", "first critical load", self.buckling.value, self.buckling.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:
             loads.append(ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))

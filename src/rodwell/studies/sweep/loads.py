@@ -65,7 +65,7 @@ def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadR
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:
     force, limits = at.load.force, a.window.limits
-    spare = {BUCKLES: _to_spare(force, a.critical.load)}
+    spare = {BUCKLES: _to_spare(force, a.buckling)}
     spare |= {limit.kind: _to_spare(force, limit.load) for limit in limits if limit.load is not None}
     exceeded = tuple(limit.kind for limit in limits if limit.load is None)
     state, why = at.state, at.why
@@ -88,10 +88,11 @@ def _of_state(state: LoadedRod | None, stress: RodStress | None) -> tuple[Value 
 
 def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadResult, ...]:
     """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known."""
-    out, first, section = [], critical[0], rod_section(case)
+    out, section = [], rod_section(case)
+    first = Computed(case, critical, (), 0.0).buckling
     for load in case.applied:
-        spare = {BUCKLES: _to_spare(load.force, first.load)}
-        if load.force < first.force:
+        spare = {BUCKLES: _to_spare(load.force, first)}
+        if load.force < first.value:
             out.append(LoadResult(load, UNKNOWN, why, spare, reached=False))
             continue
         state = LoadedRod("at the applied load", case.problem, load.force)
