@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from click.testing import CliRunner
 
 from rodwell.analysis.loads.sensitivity import sensitivities
 from rodwell.analysis.straight.critical import critical_loads
+from rodwell.answers.comparison.exact_loads import exact_loads
 from rodwell.answers.result.answer import Answer, answer
 from rodwell.answers.result.assessment import LEFT, STRAIGHT
 from rodwell.answers.words.advice import statuses
@@ -73,6 +75,13 @@ def test_both_loads_stand_in_the_data(twisted: Answer) -> None:
     assert keys["critical_load_1"]["label"] == "Critical load of mode 1 if kept on the wall, end force at s = 1"
 
 
+def test_window_and_formulas_go_by_the_load_that_is_met(twisted: Answer) -> None:
+    window = twisted.assessment.window
+    assert window.end is not None
+    assert window.end.force == window.buckling.value == twisted.buckling.value
+    assert exact_loads(Problem(0, 0, twist=5))[0][0].force == pytest.approx(INWARDS, rel=1e-9)
+
+
 def test_the_front_page_judges_by_the_load_that_is_met() -> None:
     result = answer(case({"twist": 5, "until": -30}))
     words = {status.subject: (status.level, status.word) for status in statuses(result)}
@@ -85,6 +94,25 @@ def test_branches_of_a_rod_kept_on_the_wall_say_so(twisted: Answer) -> None:
     points = next(s for s in report.sections if s.title == "Special points of every branch")
     assert points.blocks[-1].text == KEPT  # type: ignore[union-attr]
     assert not any(text == KEPT for text in sentences(answer(case({"applied": -20}))))
+
+
+def test_a_diagram_of_a_rod_kept_on_the_wall_says_so(tmp_path: Path) -> None:
+    options = [
+        "diagram",
+        "--weight",
+        "0",
+        "--alpha",
+        "0",
+        "--until",
+        "-45",
+        "--rtol",
+        "1e-4",
+        "--out",
+        str(tmp_path / "a"),
+    ]
+    for twist, said in (("5", True), ("0", False)):
+        text = " ".join(CliRunner().invoke(cli, [*options, "--twist", twist]).output.split())
+        assert (KEPT in text) == said
 
 
 def test_the_load_that_is_met_has_its_derivatives(twisted: Answer) -> None:

@@ -97,6 +97,8 @@ def test_without_lift_off_nothing_is_said_to_stay_on_the_wall(monkeypatch: pytes
     assert "the work allowed for one branch is used up" in last.why
     text = sentences(result)[0]
     assert text.startswith("At −122 B/L² at the top, s = 1 (compression) the state of the rod is not known: the branch")
+    window = next(s for s in case_report(result).sections if s.title.startswith("The safe window"))
+    assert "No lift-off was found down to −11" in window.blocks[0].text  # type: ignore[union-attr]
     words = {status.subject: (status.level, status.word) for status in statuses(result)}
     assert words["Buckling"] == ("bad", "buckled, shape not known")
     assert words["Contact"] == ("bad", "not known")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.listing import wrapped
 from rodwell.cli.options import (
     check_missed,
     json_option,
@@ -91,9 +92,12 @@ def diagram(
 
 
 def _print_diagram(result: Diagram) -> None:
+    from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
+    if result.problem.twist != 0.0 and result.problem.lateral_weight == 0.0:
+        wrapped(KEPT)
     for branch in result:
         verb = "leaves" if branch.parameter == "force" else "continues"
         parent = f", {verb} {branch.origin.parent}" if branch.origin.parent else ""

@@ -168,8 +168,12 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     result = torsion(make_problem(given), mode, mirror=mirror, until=until, rtol=rtol)
+    what = [] if result.prepared.solution.converged else ["the state at lift-off"]
+    if result.branch is not None and result.again is not None and not result.branch.meets_tolerance(result.again):
+        what.append("the twist at which it lifts off again")
     if as_json:
         print_json(result.as_dict())
+        check_missed(what, rtol)
         return
     lift = result.prepared
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
@@ -177,3 +181,4 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
         click.echo(f"  at s/L = {s:.6g}  dp/dT₁ = {rate:+.6g} ± {error:.0e} 1/L²")
     click.echo(result.meaning)
+    check_missed(what, rtol)

@@ -154,7 +154,8 @@ def _window_text(a: Assessment) -> str:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
     end, width = window.end, window.width
     if end is None or width is None:
-        return f"No lift-off was found down to {_text(a, a.computed.until, 'force')} at s = 1."
+        down_to = max(a.computed.until, a.branch.reach[0])  # it may end before it is where it was to go
+        return f"No lift-off was found down to {_text(a, down_to, 'force')} at s = 1."
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
