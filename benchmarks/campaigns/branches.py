@@ -9,7 +9,8 @@ step and with a third of it. A *fault* is
 
 - an exception other than those that say what is wrong with the input or could not be computed;
 - two points of which the first leaves the branch with another index than that with which the second meets it;
-- special points of other kinds, indices or places (beyond the errors given) with the other step, where both ended alike.
+- special points of other kinds, indices or places (beyond the errors given) with the other step, where both
+  ended alike.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ def trial(number: int) -> dict[str, Any]:
         branches = [rodwell.follow(problem, first, until=until, largest_step=step) for step in STEPS]
     except (rodwell.InputError, rodwell.NotConvergedError) as error:
         return out | {"ended": type(error).__name__, "why": str(error)[:200]}
-    except Exception as error:  # noqa: BLE001 - the campaign looks for these
+    except Exception as error:
         return out | {"fault": f"{type(error).__name__}: {error}"[:300], "problem": repr(problem)}
     usual, other = branches
     fault = chain_fault(usual) or chain_fault(other) or difference(usual, other)
@@ -80,7 +81,9 @@ def chain_fault(branch: rodwell.Branch) -> str | None:
     """Where the index after one special point is not that before the next."""
     for one, after in pairwise(branch.special_points):
         if one.index_after != after.index_before:
-            return f"index {one.index_after} after {one.kind} at {one.value:.8g}, {after.index_before} before {after.kind}"
+            return (
+                f"index {one.index_after} after {one.kind} at {one.value:.8g}, {after.index_before} before {after.kind}"
+            )
     return None
 
 

@@ -437,7 +437,7 @@ def test_answer_as_data(drilling: Answer) -> None:
     data = whole["assessment"]
     assert [state["name"] for state in data["states"]] == ["at buckling", "at lift-off", "at the applied load"]
     assert data["applied"][0] | {"force": 0} == {
-        "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "why": "",
+        "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "reached": True, "why": "",
         "state": "at the applied load",
     }  # fmt: skip
     assert all("error" in one["force"] for one in data["states"])

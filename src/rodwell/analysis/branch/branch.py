@@ -162,11 +162,12 @@ class Branch(Shown):
 
         Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
         """
-        rtol = self.trace.meshes[0].rtol
+        return all(solution.converged for solution in self) and all(map(self.meets_tolerance, self.special_points))
+
+    def meets_tolerance(self, point: SpecialPoint) -> bool:
+        """Whether a special point of this branch is known to the tolerance: its place, and its state."""
         size = EULER + self.problem.axial_weight if self.parameter == "force" else float(np.ptp(self.values))
-        return all(solution.converged for solution in self) and all(
-            p.solution.converged and p.error <= rtol * max(abs(p.value), size) for p in self.special_points
-        )
+        return point.solution.converged and point.reached.within(self.trace.meshes[0].rtol, max(abs(point.value), size))
 
     @property
     def lift_off(self) -> SpecialPoint | None:

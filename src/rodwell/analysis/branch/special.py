@@ -109,12 +109,15 @@ class Origin:
         Whether its first point is a branch point, which it shares with another branch.
     parent
         Name of the branch that it leaves there.
+    mirror
+        Whether it is the other of the two arms of its mode, ω₂(1) > 0.
     """
 
     name: str
     mode: Mode | None = None
     switched: bool = False
     parent: str | None = None
+    mirror: bool = False
 
 
 def index_at_start(trace: Trace) -> int:
