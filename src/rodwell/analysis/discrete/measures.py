@@ -35,6 +35,11 @@ SOFT = 2e-12
 """Round-off in what a soft direction of the rod moves, relative to its scale: the angle at mid-length, the torque."""
 
 
+OTHER_END = 4.0
+"""How many times the moment that the spline has at an end that turns freely, where there is none, the error of the
+curvature at the other end may be."""
+
+
 class Measured(IntEnum):
     """Position of each measured number. Units B = L = 1; signs as in the nomenclature."""
 
@@ -77,8 +82,9 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     numbers, scales, noise = out
     _, turns_0, _, turns_1 = free_ends(mesh)
     for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
-        u[i, 2], noise[which] = (0.0, 0.0) if turns else derivative(landmarks[i], 2, c, marks[i])
-        noise[which] *= COEFFICIENT_NOISE
+        bend, size = derivative(landmarks[i], 2, c, marks[i])
+        # no moment where the end turns freely: what the spline has there tells how far it is off
+        u[i, 2], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, COEFFICIENT_NOISE * size)
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
     numbers[Measured.ENERGY], scales[Measured.ENERGY] = energy, max(abs(energy), bending)
     numbers[Measured.SHORTENING] = scales[Measured.SHORTENING] = shortening

@@ -189,7 +189,7 @@ def balanced(mesh, knots, c, parameters, push, lever, shear, places, values, noi
         bend, size_2 = derivative(basis, 2, c, span - degree)
         if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
             bend = size_2 = 0.0
-        elif s in (0.0, 1.0):  # the end holds y′
+        elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
             slope = size_1 = 0.0
         for k in range(5):
             known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force

@@ -68,7 +68,7 @@ class Segment:
         a = self.first
         rate = state.tangent_lam * self._length / (float(a.row @ state.tangent) + a.row_lam * state.tangent_lam)
         bent = abs(a.lam - state.lam) / max(t, 0.5) ** 2 + abs(self.last.lam - state.lam) / max(1.0 - t, 0.5) ** 2
-        return abs(rate) * shift + bent * shift * shift
+        return float(abs(rate) * shift + bent * shift * shift)
 
     def _shares(self, t: float) -> tuple[float, float, float, float]:
         """Hermite's cubics at ``t``: shares of the values at both ends and of the tangents there."""

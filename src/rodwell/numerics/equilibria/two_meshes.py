@@ -36,7 +36,7 @@ COARSE_TOLERANCE = 1e-2
 its square, and counts as error, since the finer solve does not share it."""
 
 
-KIN = 1.0 / 256.0
+KIN = 1.0 / 1024.0
 """Part of the error of a number of the same kind at any place that an error may be below it. At places that the problem
 singles out, such as ends, numbers converge to more digits than elsewhere."""
 
