@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE
-from rodwell.numerics.equilibria.family import Family, State
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.parameters import RAMP
 
 SIDE = 1e-4

@@ -47,8 +47,8 @@ def _added(rows: Any, parameters: Any) -> Sequence[Any]:
     omega2 = y2 / cos_eta
     _, _, gradient, _, _ = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
     lateral = clearance * gradient[0]
-    sums = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
-    sums = (*sums, gradient[1], (1.0 - s) * gradient[0])
+    energies = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
+    sums = *energies, gradient[1], (1.0 - s) * gradient[0]
     sizes = omega2, y / clearance, y1
     added = [total + weight * x for total, x in zip(totals, sums, strict=False)]
     return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]
@@ -93,14 +93,19 @@ _pressure = on_lanes(lambda _: _pressed)
 @formula
 def free_ends(mesh):
     """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
-    last = mesh.held.size - 1
-    tied_0, tied_1 = mesh.follows[0] != 0, mesh.follows[last] != last
-    return (
-        tied_0 or not mesh.held[0],
-        not (tied_0 or mesh.held[1]),
-        tied_1 or not mesh.held[last],
-        not (tied_1 or mesh.held[last - 1]),
-    )
+    last = mesh.starts.size + len(mesh.local) - 2
+    loose_0 = turns_0 = loose_1 = turns_1 = True
+    for k in range(mesh.held.size):
+        i, tied = mesh.held[k], mesh.follows[k] != mesh.held[k]
+        if i == 0:
+            loose_0, turns_0 = tied, turns_0 and not tied
+        elif i == last:
+            loose_1, turns_1 = tied, turns_1 and not tied
+        elif i == 1:
+            turns_0 = False
+        elif i == last - 1:
+            turns_1 = False
+    return loose_0, turns_0, loose_1, turns_1
 
 
 @formula
