@@ -14,8 +14,9 @@ from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.continuation.events import INDEX, NEARLY, LocatedEvent, events_between
+from rodwell.numerics.continuation.events import INDEX, LocatedEvent
 from rodwell.numerics.continuation.location import LocationError
+from rodwell.numerics.continuation.stretch import NEARLY, events_between
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.newton import symmetrise
 from rodwell.numerics.equilibria.state import State

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rodwell.numerics.continuation.closing import CLOSED, closes
-from rodwell.numerics.continuation.events import Event, LocatedEvent, events_between
+from rodwell.numerics.continuation.events import Event, LocatedEvent
 from rodwell.numerics.continuation.location import LeftTheBranchError, LocationError
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
+from rodwell.numerics.continuation.stretch import events_between
 from rodwell.numerics.equilibria.family import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
