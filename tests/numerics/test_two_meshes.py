@@ -8,7 +8,6 @@ import pytest
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE
 from rodwell.numerics.equilibria.two_meshes import KIN, _judged
 
-
 NONE = np.empty((0, 2), dtype=np.int64)
 
 
