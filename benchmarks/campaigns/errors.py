@@ -3,9 +3,9 @@
     python benchmarks/campaigns/errors.py [--problems 2000] [--seed 16] [--minutes M]
 
 Every problem is drawn from its own seed and followed; its lift-offs, folds and branch points, and the seven numbers of
-its last state, are computed once more by a second method in extended precision (``extended.py``). A ``--minutes`` that
-runs out leaves what was done in ``errors.part``, and the run goes on there; ``errors.json`` beside it is written each
-time and says how many problems it stands on.
+its last state, are computed once more by a second method in extended precision (``extended.py``, ``extended_rod.py``).
+When ``--minutes`` have passed, what was done stands in ``errors.jsonl``, and the next run goes on there; ``errors.json``
+is written each time and says how many problems it stands on.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 
 import extended
-from extended import LONG, NoReference, Rod
+from extended import UnsettledError
+from extended_rod import LONG, Rod
 
 import rodwell
 from rodwell import NotConvergedError, Problem
@@ -37,7 +38,7 @@ from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT
 
 HERE = Path(__file__).parent
-OUT, PART = HERE / "errors.json", HERE / "errors.part"
+OUT, PART = HERE / "errors.json", HERE / "errors.jsonl"
 SIDES = ("clamped", "pinned", "guided", "free")
 PAIRS = tuple(f"{a}-{b}" for a in SIDES for b in SIDES)
 SPECIAL = ("lift_off", "touch_down", "fold", "branch_point")
@@ -133,24 +134,29 @@ def judged(seed: int, every: int = 2) -> tuple[list[Judged], list[str]]:
             continue
         try:
             true = float(abs(load_of(point.solution, point.kind, every) - LONG(point.force)))
-        except (NoReference, RuntimeError) as error:
+        except (UnsettledError, RuntimeError) as error:
             left.append(f"{point.kind}: {str(error).partition(':')[0]}")
             continue
         size = abs(point.force)
-        rows.append(Judged(point.kind, rtol, point.error / size, true / size))
+        rows.append(_judged(point.kind, rtol, point.error / size, true / size))
     last = branch[-1]
     if not branch.reached_end:
         left.append(f"ended early: {branch.ended_because}")
     try:
         exact = numbers_of(last, every)
-    except (NoReference, RuntimeError) as error:
+    except (UnsettledError, RuntimeError) as error:
         return rows, [*left, f"state: {str(error).partition(':')[0]}"]
     scales = measured_of(last.meshes.fine, last.point.fine)[1]
     for which in Measured:
         value = last.number(which)
         true = float(abs(exact[which] - LONG(value.value)))
-        rows.append(Judged(which.name.lower(), rtol, float(value.error / scales[which]), true / float(scales[which])))
+        rows.append(_judged(which.name.lower(), rtol, value.error / scales[which], true / scales[which]))
     return rows, left
+
+
+def _judged(kind: str, rtol: float, claimed: float, true: float) -> Judged:
+    """As it is written: with three digits."""
+    return Judged(kind, *(float(f"{x:.2e}") for x in (rtol, claimed, true)))
 
 
 def summary(rows: list[Judged]) -> dict[str, Any]:
@@ -205,7 +211,7 @@ def main() -> None:
                 break
             try:
                 rows, left = judged(base + number)
-            except Exception:  # noqa: BLE001 - a campaign tells of it and goes on
+            except Exception:
                 rows, left = [], [f"exception: {traceback.format_exc().splitlines()[-1][:80]}"]
             done.append({"seed": base + number, "rows": rows, "left": left})
             part.write(json.dumps(done[-1]) + "\n")

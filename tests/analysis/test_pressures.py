@@ -7,9 +7,9 @@ import pytest
 
 import rodwell
 from rodwell import Problem
+from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.discrete.pressures import balanced_pressures
-from rodwell.analysis.branch.solution import Solution
 
 PLACES = np.linspace(0.0, 1.0, 41)
 

@@ -132,7 +132,8 @@ def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshe
 def measure(family: Family, state: State) -> FloatArray:
     """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 12).
 
-    Behind them stand STEEPEST, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a spline's derivative comes out of it enlarged by h⁻¹, h⁻².
+    Behind them stand STEEPEST, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a spline's
+    derivatives comes out of these enlarged by h⁻¹, h⁻².
     """
     space, p = state.space, family.parameters(state.lam)
     wait_for("maxima")

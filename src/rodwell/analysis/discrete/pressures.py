@@ -47,8 +47,10 @@ def _added(rows: Any, parameters: Any) -> Sequence[Any]:
     omega2 = y2 / cos_eta
     _, _, gradient, _, _ = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
     lateral = clearance * gradient[0]
-    energies = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
-    sums = *energies, gradient[1], (1.0 - s) * gradient[0]
+    sums = (
+        y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral),
+        gradient[1], (1.0 - s) * gradient[0],
+    )  # fmt: skip
     sizes = omega2, y / clearance, y1
     added = [total + weight * x for total, x in zip(totals, sums, strict=False)]
     return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]

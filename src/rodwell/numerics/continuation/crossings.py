@@ -142,11 +142,10 @@ def _located(
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
     place = LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t))
-    levels = (fine.family, place.fine), (coarse.family, place.coarse)
-    rest = [
-        family.nearest_curvature(state, vector, 3)[0]
-        for (family, state), vector in zip(levels, (eigenvalue.vector, rough.vector), strict=True)
-    ]
+    rest = (
+        fine.family.nearest_curvature(place.fine, eigenvalue.vector, 3)[0],
+        coarse.family.nearest_curvature(place.coarse, rough.vector, 3)[0],
+    )
     left = NOISY * max(eigenvalue.noise, *map(abs, rest))
     doubt = parts[0].doubt(place.fine, t, left / abs(ends[1] - ends[0]))
     return Crossing(place, place.t, before, after, fold, doubt)

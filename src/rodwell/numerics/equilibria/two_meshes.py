@@ -124,7 +124,7 @@ class TwoMeshes:
         First and last of groups of measured numbers of one kind, which share the largest error of the group: a single
         number may agree on both meshes by chance.
     links
-        Pairs of measured numbers: the error of the first is at least a part of that of the second, which is of its kind.
+        Pairs of measured numbers: the error of the first is at least a part of that of the second, of the same kind.
     """
 
     def __init__(
