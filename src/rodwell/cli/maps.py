@@ -110,7 +110,9 @@ def _print_diagram(result: Diagram) -> None:
             index = f"index {p.index_before} → {p.index_after}"
             value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
             click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}")
-        if not branch.reached_end or branch.origin.parent:
+        if branch.closed:
+            click.echo("  closed: the end is where it began")
+        elif not branch.reached_end or branch.origin.parent:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
