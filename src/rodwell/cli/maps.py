@@ -1,4 +1,4 @@
-"""``rodwell diagram`` and ``rodwell curve``: all branches of a problem, and boundaries in two parameters."""
+"""``rodwell diagram`` and ``rodwell curve``: branches of a problem, and boundaries in two parameters."""
 
 from __future__ import annotations
 
