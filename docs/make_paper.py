@@ -46,4 +46,8 @@ def numbers() -> dict[str, str]:
     ):
         branch = rodwell.follow(problem, mode, until=until)
         out[key] = number(next(p.force for p in branch.special_points if p.kind == "branch_point"), 6)
+    for weight in (15.5, 16.5, 17.6):
+        again = rodwell.torsion(rodwell.Problem(weight)).again
+        assert again is not None
+        out[f"again_{10 * weight:.0f}"] = number(again.value, 6)
     return out

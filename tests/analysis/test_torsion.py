@@ -51,6 +51,16 @@ def test_second_lift_off_is_a_lift_off_of_the_twisted_rod() -> None:
     assert abs(top) <= 10.0 * error + 1e-5
 
 
+@pytest.mark.parametrize(("weight", "twist"), [(15.5, -62.812961), (16.5, -37.4611751), (17.6, -29.681445)])
+def test_light_rods_lift_off_again(weight: float, twist: float) -> None:
+    """Below the corner of Fig. 11 at γ = 17.703, too: near mid-length, the later the lighter the rod is."""
+    again = torsion(Problem(weight)).again
+    assert again is not None
+    assert again.value == pytest.approx(twist, abs=1e-6)
+    assert again.error <= 1e-6
+    assert all(0.4 < s < 0.6 for s in again.s)
+
+
 def test_twist_does_not_buckle_a_straight_rod() -> None:
     plain = critical_loads(Problem(15.0, alpha=60.0), 4).forces
     assert critical_loads(Problem(15.0, alpha=60.0, twist=7.0), 4).forces == pytest.approx(plain, rel=1e-14)

@@ -15,7 +15,7 @@ from rodwell import Case, InputError
 from rodwell.case.case import CaseError
 from rodwell.case.catalogue import KINDS, package_catalogue
 from rodwell.case.checks.plausible import RANGES, likely_units
-from rodwell.case.file import read_toml
+from rodwell.case.file import read_case
 from rodwell.quantities.units import KINDS as QUANTITIES
 from rodwell.quantities.units import to_si
 from rodwell.studies.sweep.study import is_study
@@ -235,4 +235,4 @@ def test_every_quantity_of_a_case_has_a_range() -> None:
 
 
 def test_examples_may_be_read_whole() -> None:
-    assert all(read_toml(path)[0] for path in EXAMPLES)
+    assert all(read_case(path).data for path in EXAMPLES)

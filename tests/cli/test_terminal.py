@@ -148,7 +148,7 @@ def test_a_unit_without_a_column(
     Path("well.csv").write_text("MD [m],Inc [deg]\n0,0\n100,20\n", encoding="utf-8")
     Path("case.toml").write_text(GOOD, encoding="utf-8")
     assert run(monkeypatch, "screen", "well.csv", "--case", "case.toml", "--force-unit", "xx") == 2
-    assert "--force-unit = 'xx': has no meaning: well.csv has no column of forces" in capsys.readouterr().err
+    assert "--force-unit = 'xx': is given, but there is no column of force" in capsys.readouterr().err
 
 
 def test_results_of_a_case_without_a_name(
@@ -156,7 +156,7 @@ def test_results_of_a_case_without_a_name(
 ) -> None:
     """From standard input they go to results/case; the study is found in what was read once."""
     monkeypatch.chdir(tmp_path)
-    study = GOOD.replace("16.5", "[0.0, 0.1]")
+    study = "study = true\n" + GOOD.replace("16.5", "[0.0, 0.1]")
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(study.encode())))
     assert run(monkeypatch, "run", "-", "--quiet") == 0
     assert capsys.readouterr().err == ""

@@ -6,14 +6,16 @@ import numpy as np
 import pytest
 
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE
-from rodwell.numerics.equilibria.two_meshes import _judged
+from rodwell.numerics.equilibria.two_meshes import KIN, _judged
+
+NONE = np.empty((0, 2), dtype=np.int64)
 
 
 def test_errors_from_two_meshes() -> None:
     rng = np.random.default_rng(0)
     fine, coarse = rng.uniform(0.1, 1.0, (2, 3, 6))
     fine[1, 5] = np.inf  # a guard: it is not judged
-    error, worst = _judged(fine, coarse, np.array([[2, 4]]))
+    error, worst = _judged(fine, coarse, np.array([[2, 4]]), NONE)
     expected = np.abs(fine[0] - coarse[0]) / CLAIMED_GAIN + NUMBER_NOISE * np.abs(fine[0]) + fine[2]
     expected[:5] += NUMBER_NOISE * fine[1, :5]
     expected[2:5] = expected[2:5].max()  # numbers of one kind share the largest error
@@ -23,14 +25,22 @@ def test_errors_from_two_meshes() -> None:
 
 def test_numbers_without_kin_keep_their_own_errors() -> None:
     fine, coarse = np.array([[1.0, 2.0], [1.0, 1.0], [0.0, 0.0]]), np.zeros((3, 2))
-    error, worst = _judged(fine, coarse, np.empty((0, 2), dtype=np.int64))
+    error, worst = _judged(fine, coarse, NONE, NONE)
     np.testing.assert_allclose(error, np.array([1.0, 2.0]) / CLAIMED_GAIN, rtol=1e-10)
     assert worst == error[1]
     assert len(_judged.signatures) == 1, "the same machine code for any number of groups"
+
+
+def test_a_number_shares_the_error_of_its_kin_at_other_places() -> None:
+    """Both meshes agree on the first by chance; the guard behind, which is not judged, tells how well they do."""
+    fine, coarse = np.array([[1.0, 1.0, 3.0], [1.0, 1.0, np.inf], [0.0, 0.0, 0.0]]), np.ones((3, 3))
+    error, worst = _judged(fine, coarse, NONE, np.array([[0, 2]]))
+    np.testing.assert_allclose(error, [KIN * 2.0 / CLAIMED_GAIN, 0.0, 2.0 / CLAIMED_GAIN], atol=1e-10)
+    assert worst == error[0]
 
 
 @pytest.mark.parametrize("place", range(3))
 def test_a_number_that_is_none_is_not_passed_over(place: int) -> None:
     fine, coarse = np.ones((3, 3)), np.ones((3, 3))
     fine[0, place] = np.nan
-    assert np.isnan(_judged(fine, coarse, np.array([[0, 1]]))[1])
+    assert np.isnan(_judged(fine, coarse, np.array([[0, 1]]), NONE)[1])

@@ -50,7 +50,8 @@ def test_a_study_over_names_of_the_user(tmp_path: Path) -> None:
     )
     case = tmp_path / "case.toml"
     case.write_text(
-        f"""[rod]\nlength = "20 m"\npipe = {names!r}\n[hole]\ndiameter = "8 cm"\nangle_from_vertical = "0 deg"
+        f"""study = true\n[rod]\nlength = "20 m"\npipe = {names!r}
+[hole]\ndiameter = "8 cm"\nangle_from_vertical = "0 deg"
 [catalogue]\nfiles = ["own.toml"]\n[analysis]\nrtol = 1e-3\nmodes = 1\n""",
         encoding="utf-8",
     )

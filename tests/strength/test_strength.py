@@ -437,7 +437,7 @@ def test_answer_as_data(drilling: Answer) -> None:
     data = whole["assessment"]
     assert [state["name"] for state in data["states"]] == ["at buckling", "at lift-off", "at the applied load"]
     assert data["applied"][0] | {"force": 0} == {
-        "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "why": "",
+        "given": -140e3, "at": "bottom", "kind": "effective", "force": 0, "what": "buckled", "reached": True, "why": "",
         "state": "at the applied load",
     }  # fmt: skip
     assert all("error" in one["force"] for one in data["states"])
@@ -483,7 +483,8 @@ def test_a_list_of_loads_is_no_parameter_study(tmp_path: Path) -> None:
     from rodwell.studies.sweep.study import is_study
 
     text = '[rod]\nlength = "30 m"\n[load]\napplied = ["-20 kN", "-30 kN"]\n'
-    for content, varies in ((text, False), (text.replace('"30 m"', '["30 m", "40 m"]'), True)):
+    studied = "study = true\n" + text.replace('"30 m"', '["30 m", "40 m"]')
+    for content, varies in ((text, False), (studied, True)):
         (tmp_path / "case.toml").write_text(content, encoding="utf-8")
         assert is_study(tmp_path / "case.toml") is varies
 

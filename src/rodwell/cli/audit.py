@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import OutPath, print_json, print_written, progress_bar, results_folder, units_option
+from rodwell.cli.options import (
+    OutPath,
+    check_missed,
+    print_json,
+    print_written,
+    progress_bar,
+    results_folder,
+    units_option,
+)
 from rodwell.quantities.text import minus
 
 if TYPE_CHECKING:
@@ -77,9 +85,11 @@ def audit(
         files = write_audit(result, errors, folder)
     if as_json:
         print_json(result.as_dict())
-        return
-    _print(result)
-    print_written(folder, files)
+    else:
+        _print(result)
+        print_written(folder, files)
+    missed = [f"{load.label} ± {load.error:.0e}" for load in result.loads if not load.meets(read.rtol)]
+    check_missed(missed, read.rtol)
 
 
 def _print(audit: Audit) -> None:

@@ -37,8 +37,9 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     """
     from rodwell.analysis.branch.verify import verify as solve_again  # noqa: PLC0415
     from rodwell.answers.result.check import branch_to_verify  # noqa: PLC0415
+    from rodwell.answers.result.reach import passes, why_out_of_reach  # noqa: PLC0415
     from rodwell.case.case import Case  # noqa: PLC0415
-    from rodwell.errors import InputError  # noqa: PLC0415
+    from rodwell.errors import InputError, NotConvergedError  # noqa: PLC0415
 
     read = Case.read(case)
     forces = [force_at(text, read) for text in at]
@@ -48,6 +49,11 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
         except InputError as error:
             name = "--at" if error.field == "until" else error.field
             raise InputError(name, ", ".join(at) if name == "--at" else error.value, error.reason) from None
+        why = why_out_of_reach(branch, read.scales)
+        missed = [force for force in forces if not passes(branch, force)]
+        forces = [force for force in forces if force not in missed]
+        if missed and not forces:
+            raise NotConvergedError(f"--at = {', '.join(at)} cannot be reached: {why}")
         count = [0]
 
         def report(force: float) -> None:
@@ -56,9 +62,12 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
 
         result = solve_again(branch, forces or None, rtol=rtol, progress=report)
     if as_json:
-        print_json({"case": read.title, "mode": mode, **result.as_dict()})
+        not_reached = [{"force": force, "reached": False, "why": why} for force in missed]
+        print_json({"case": read.title, "mode": mode, **result.as_dict(), "not_reached": not_reached})
     else:
         _print(result, read.title, mode)
+        for force in missed:
+            wrapped(f"  F = {force:+.8g}: not reached: {why}")
     if not result.agrees:
         raise click.exceptions.Exit(1)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.options import json_option, make_problem, print_json, problem_options, rtol_option
+from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 
 if TYPE_CHECKING:
     from rodwell.analysis.straight.critical import CriticalLoads
@@ -42,6 +42,10 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         _print_untouched(loads, free)
     else:
         _print_pressed(loads, free)
+    if _untouched(problem):
+        touch = free.at_wall
+        known = touch is None or touch.error <= rtol * (abs(touch.force) + free.scale)
+        check_missed([] if known or touch is None else [f"load with the wall's help ± {touch.error:.0e}"], rtol)
 
 
 def _untouched(problem: Problem) -> bool:

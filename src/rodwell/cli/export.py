@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import OutPath, force_at, progress_bar, units_option
+from rodwell.cli.options import OutPath, check_missed, force_at, progress_bar, units_option
 from rodwell.errors import printable
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def export(
     try:
         radius = checked_rod_radius(rod_radius, read.scales)
         with progress_bar(True, "the branch") as tell:
-            state = _state(read, force, mode, mirror)
+            state = _state(read, force, mode, mirror, at)
             tell("files", 0.9)
             written = write(
                 state,
@@ -90,14 +90,18 @@ def export(
         value = given.get(error.field, error.value)
         raise InputError(names.get(error.field, error.field), value, error.reason) from None
     click.echo(f"{_text(state, read)}\nWritten: " + ", ".join(printable(str(file)) for file in written))
+    check_missed([] if state.converged else ["the state that was written"], read.rtol)
 
 
-def _state(case: Case, force: float | None, mode: int, mirror: bool) -> Solution:
-    """The state asked for, on the branch of the mode."""
+def _state(case: Case, force: float | None, mode: int, mirror: bool, at: str) -> Solution:
+    """The state asked for by ``--at``, on the branch of the mode."""
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
+    from rodwell.answers.result.reach import passes, why_out_of_reach  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
 
     branch = follow(case.problem, mode, until=force, mirror=mirror, rtol=case.rtol)
+    if force is not None and not passes(branch, force):
+        raise NotConvergedError(f"--at = {at} cannot be reached: {why_out_of_reach(branch, case.scales)}")
     if force is not None:
         return branch.at(force)
     if branch.lift_off is None or branch.lift_off_at_buckling:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.listing import wrapped
 from rodwell.cli.options import (
+    check_missed,
     json_option,
     make_problem,
     out_option,
@@ -73,6 +75,7 @@ def diagram(
     problem = make_problem(given)
     check_writable(out)
     from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
+    from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
     from rodwell.report.folders.case import write_diagram  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
@@ -91,15 +94,19 @@ def diagram(
         files = write_diagram(result, out)
     if as_json:
         print_json(result.as_dict())
-        return
-    _print_diagram(result)
-    print_written(out, files)
+    else:
+        _print_diagram(result)
+        print_written(out, files)
+    check_missed([what for branch in result for what in missed(branch)], rtol)
 
 
 def _print_diagram(result: Diagram) -> None:
+    from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
+    if result.problem.twist != 0.0 and result.problem.lateral_weight == 0.0:
+        wrapped(KEPT)
     for branch in result:
         verb = "leaves" if branch.parameter == "force" else "continues"
         parent = f", {verb} {branch.origin.parent}" if branch.origin.parent else ""
@@ -109,7 +116,8 @@ def _print_diagram(result: Diagram) -> None:
         for p in branch.special_points:
             index = f"index {p.index_before} → {p.index_after}"
             value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
-            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}")
+            remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
+            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}{remark}")
         if branch.closed:
             click.echo("  closed: the end is where it began")
         elif not branch.reached_end or branch.origin.parent:
@@ -170,9 +178,12 @@ def curve(
         files = write_curves(curves, out)
     if as_json:
         print_json({"curves": [c.as_dict() for c in curves]})
-        return
-    _print_curves(curves)
-    print_written(out, files)
+    else:
+        _print_curves(curves)
+        print_written(out, files)
+    points = [(item, [p for p in item.points if not p.converged]) for item in curves]
+    what = [f"{c.name}: {len(p)} of {len(c)} points, the first at {c.over} = {p[0].x:.6g}" for c, p in points if p]
+    check_missed(what, rtol)
 
 
 def _with_required(given: dict[str, Any], over: str) -> dict[str, Any]:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.problem.problem import Problem
 
+TOLERANCE_MISSED = 3
+
 Progress = Callable[[str, float], None]
 
 PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns")
@@ -86,6 +88,36 @@ def print_json(data: dict[str, Any], indent: int | None = None) -> None:
 def print_written(folder: Path, files: Sequence[str]) -> None:
     """Say where results are."""
     click.echo(f"\nWritten to {printable(str(folder))}: " + ", ".join(files))
+
+
+class ToleranceMissed(click.ClickException):
+    """Numbers were shown that miss their tolerance: one line that says which, and an exit code of its own."""
+
+    exit_code = TOLERANCE_MISSED
+
+    def show(self, file: Any = None) -> None:
+        """Print the line on standard error."""
+        click.echo(f"rodwell: tolerance missed: {self.message}", file=file, err=file is None)
+
+
+def check_missed(what: Sequence[str], rtol: float) -> None:
+    """Raise if anything that was shown misses the tolerance.
+
+    Parameters
+    ----------
+    what
+        What misses it, in words.
+    rtol
+        The tolerance.
+
+    Raises
+    ------
+    ToleranceMissed
+        If there is anything.
+    """
+    if what:
+        more = f", and {len(what) - 1} more" if len(what) > 1 else ""
+        raise ToleranceMissed(f"{what[0]}{more} (rtol {rtol:g})")
 
 
 def places_text(places: Sequence[float]) -> str:

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.options import json_option, make_problem, places_text, print_json, problem_options, rtol_option
+from rodwell.cli.listing import wrapped
+from rodwell.cli.options import (
+    check_missed,
+    json_option,
+    make_problem,
+    places_text,
+    print_json,
+    problem_options,
+    rtol_option,
+)
+
+if TYPE_CHECKING:
+    from rodwell.analysis.branch.branch import Branch
+    from rodwell.quantities.value import Value
 
 UNIT = "B/L²"
 
@@ -23,11 +36,17 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.
     """
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
+    from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
+    from rodwell.analysis.branch.symmetry import arms_differ  # noqa: PLC0415
+    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.quantities.value import Value  # noqa: PLC0415
 
     problem = make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
+    differ = branch.mode is not None and arms_differ(problem, branch.mode.parity)
+    other = follow(problem, mode, mirror=not mirror, rtol=rtol) if differ else None
     lift, buckling = branch.lift_off, branch.mode
     assert buckling is not None
     if lift is None:
@@ -35,26 +54,61 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
             f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ending})"
         )
     places = () if branch.lift_off_at_buckling else lift.s
+    load = lift.load
+    if branch.lift_off_at_buckling and mode == 1:  # nothing presses the rod to the wall: it buckles where it first can
+        met = critical_loads(problem, 1, rtol=rtol).first_met
+        load = Value(met.force, met.error)
+    what = [line for one in (branch, other) if one is not None for line in missed(one)]
     if as_json:
         print_json(
             {
                 "critical_load": buckling.force,
                 "critical_load_error": buckling.error,
-                "lift_off": {"force": lift.force, "error": lift.error, "s": list(places)},
+                "lift_off": {"force": load.value, "error": load.error, "s": list(places)},
+                "other_arm": _arm(other),
                 "coincides_with_buckling": branch.lift_off_at_buckling,
-                "converged": branch.converged,
+                "converged": not what,
                 "unit": "B/L^2",
                 "convention": "end force at s = 1, tension positive; " + ends_text(problem),
             }
         )
+        check_missed(what, rtol)
         return
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {buckling.number}  {buckling.force:+.10g}  ± {buckling.error:.1e}")
-    click.echo(f"  lift-off            {lift.force:+.10g}  ± {lift.error:.1e}{places_text(places)}")
+    click.echo(f"  lift-off            {load.value:+.10g}  ± {load.error:.1e}{places_text(places)}")
+    _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
-    if not branch.converged:
+    if load != lift.load:
+        wrapped("Twist makes the rod leave the wall inwards before it buckles like a rod that is kept on it.")
+    if what:
         click.echo(f"Not every number meets the tolerance {rtol:g}.")
+    check_missed(what, rtol)
+
+
+def _arm(other: Branch | None) -> dict[str, Any] | None:
+    """Lift-off of the other arm as plain data; None where it is the image of the first."""
+    if other is None:
+        return None
+    lift, ended = other.lift_off, {"mirror": other.origin.mirror, "ended_because": other.ended_because}
+    return ended if lift is None else {**ended, "force": lift.force, "error": lift.error, "s": list(lift.s)}
+
+
+def _print_arms(lift: Value, other: Branch | None) -> None:
+    """Lift-off of the other arm, and which of the two comes first."""
+    if other is None:
+        return
+    if other.lift_off is None:
+        wrapped(f"Twist makes the two arms of the mode differ; the other one has no lift-off ({other.ended_because}).")
+        return
+    second = other.lift_off
+    click.echo(f"  on the other arm    {second.force:+.10g}  ± {second.error:.1e}{places_text(second.s)}")
+    first = max(lift.value, second.force)
+    wrapped(
+        "Twist makes the two arms of the mode differ, and the rod may take either: the one that lifts off first, at "
+        f"{first:+.10g}, counts."
+    )
 
 
 @click.command(short_help="How loads change with weight, inclination, clearance, twist.")
@@ -114,8 +168,12 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     result = torsion(make_problem(given), mode, mirror=mirror, until=until, rtol=rtol)
+    what = [] if result.prepared.solution.converged else ["the state at lift-off"]
+    if result.branch is not None and result.again is not None and not result.branch.meets_tolerance(result.again):
+        what.append("the twist at which it lifts off again")
     if as_json:
         print_json(result.as_dict())
+        check_missed(what, rtol)
         return
     lift = result.prepared
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
@@ -123,3 +181,4 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
         click.echo(f"  at s/L = {s:.6g}  dp/dT₁ = {rate:+.6g} ± {error:.0e} 1/L²")
     click.echo(result.meaning)
+    check_missed(what, rtol)

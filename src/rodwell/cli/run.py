@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import OutPath, print_json, progress_bar, results_folder, units_option
+from rodwell.cli.options import OutPath, check_missed, print_json, progress_bar, results_folder, units_option
 from rodwell.errors import printable
 
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
     read = Case.read(text).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
+    from rodwell.answers.result.missed import missed  # noqa: PLC0415
     from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
@@ -64,6 +65,7 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
         print_json(result.as_dict(), indent=2)
     elif not quiet:
         _summary(result, folder, files)
+    check_missed(missed(result), read.rtol)
 
 
 def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:

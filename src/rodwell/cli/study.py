@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rodwell.cli.options import print_json, print_written, progress_bar
+from rodwell.cli.options import check_missed, print_json, print_written, progress_bar
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -28,6 +28,8 @@ def run_study(file: CaseText, folder: Path, units: str | None, as_json: bool, qu
     elif not quiet:
         _summary(result)
         print_written(folder, files)
+    rtol = next(point.case.rtol for point in result.points if point.case is not None)
+    check_missed([f"point {point.number + 1}: {what}" for point in result.points for what in point.missed], rtol)
 
 
 def _summary(study: Study) -> None:

@@ -112,17 +112,19 @@ def uses(case: Case) -> tuple[Use, ...]:
     return tuple(out)
 
 
-def limits(case: Case, branch: Branch, critical: float) -> tuple[Limit, ...]:
+def limits(case: Case, branch: Branch, buckling: Value) -> tuple[Limit, ...]:
     """Every limit of a rod on the way to lift-off of its first mode, the least compressive first.
 
-    The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached.
+    The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached. ``buckling`` is
+    the load at which the straight rod buckles; where nothing presses it to the wall, it leaves the wall there.
     """
     end = end_of_the_way(branch)
-    out = [limit for use in uses(case) if (limit := _limit(use, branch, end, critical)) is not None]
+    out = [limit for use in uses(case) if (limit := _limit(use, branch, end, buckling.value)) is not None]
     if end is not None:
         buckled = end.kind != CRITICAL
         kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
-        out.append(Limit(kind, end.load, end.s[0] if end.s else None, buckled))
+        load = buckling if branch.lift_off_at_buckling else end.load
+        out.append(Limit(kind, load, end.s[0] if end.s else None, buckled))
     return tuple(sorted(out, key=lambda limit: -np.inf if limit.force is None else -limit.force))
 
 

@@ -140,7 +140,7 @@ class Branch(Shown):
 
     @property
     def last(self) -> tuple[TwoMeshes, MeshedState]:
-        """TwoMeshes and state of the last point, from which the branch can be continued."""
+        """Meshes and state of the last point, from which the branch can be continued."""
         return self.trace.meshes[-1], self.trace.points[-1]
 
     def numbers(self, which: Measured) -> FloatArray:
@@ -162,17 +162,12 @@ class Branch(Shown):
 
         Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
         """
-        rtol = self.trace.meshes[0].rtol
-        return all(solution.converged for solution in self) and all(
-            p.solution.converged and p.error <= rtol * max(abs(p.value), self._scale) for p in self.special_points
-        )
+        return all(solution.converged for solution in self) and all(map(self.meets_tolerance, self.special_points))
 
-    @property
-    def _scale(self) -> float:
-        """Size against which errors of the parameter are judged, where it is near zero itself."""
-        if self.parameter == "force":
-            return EULER + self.problem.axial_weight
-        return float(np.ptp(self.values))
+    def meets_tolerance(self, point: SpecialPoint) -> bool:
+        """Whether a special point of this branch is known to the tolerance: its place, and its state."""
+        size = EULER + self.problem.axial_weight if self.parameter == "force" else float(np.ptp(self.values))
+        return point.solution.converged and point.reached.within(self.trace.meshes[0].rtol, max(abs(point.value), size))
 
     @property
     def lift_off(self) -> SpecialPoint | None:
@@ -203,11 +198,8 @@ class Branch(Shown):
         value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
         inside = self._steps_across(value)
         if not inside:
-            low, high = self.values.min(), self.values.max()
-            unit = " B/L²" if self.parameter == "force" else ""
-            raise InputError(
-                self.parameter, value, f"this branch covers {low:.6g} to {high:.6g}{unit}; follow it further"
-            )
+            range_ = f"{self.values.min():.6g} to {self.values.max():.6g}" + " B/L²" * (self.parameter == "force")
+            raise InputError(self.parameter, value, f"this branch covers {range_}; follow it further")
         return self._state_within(inside[0], value)
 
     def states_at(self, value: float) -> tuple[Solution, ...]:

@@ -128,7 +128,9 @@ class Diagram:
             "reached_end": branch.reached_end,
             "ended_because": branch.ended_because,
             "converged": branch.converged,
-            "special_points": [special_dict(point) for point in branch.special_points],
+            "special_points": [
+                special_dict(point) | {"converged": branch.meets_tolerance(point)} for point in branch.special_points
+            ],
         }
 
 

@@ -147,7 +147,7 @@ def _from_straight(
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
     origin = Origin(f"mode {first.number}" + (", mirror arm" if mirror else ""), first, switched=True)
-    return made(problem, origin, result, reached, result.end)
+    return made(problem, replace(origin, mirror=mirror), result, reached, result.end)
 
 
 def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:

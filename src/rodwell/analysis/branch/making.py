@@ -22,6 +22,7 @@ from rodwell.analysis.branch.special import (
     SpecialPoint,
     index_at_start,
 )
+from rodwell.analysis.discrete.folds import load_noise
 from rodwell.numerics.continuation.events import INDEX, TURN, LocatedEvent
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -105,5 +106,7 @@ class _Finding:
             kind = TOUCH_DOWN
         places = solution.highest_pressure[2] if kind in (LIFT_OFF, TOUCH_DOWN) else ()
         error = event.lam_error + LOCATED_NOISE * abs(event.point.lam) if kind != END else 0.0
+        if kind == FOLD:
+            error += load_noise(event.meshes.fine, event.point.fine)
         reached, index = Value(event.point.lam, error), (event.index_before, event.index_after)
         return SpecialPoint(kind, solution.force, reached, places, *index, solution, event.after, self.parameter)

@@ -26,8 +26,8 @@ STRAIGHT = "it meets the straight rod"
 REJOINS = "it meets a symmetric branch, where it turns into its own mirror image"
 """Why a branch ends at another."""
 
-LOCATED_NOISE = 2e-13
-"""Relative error that round-off in some hundred operations may leave in a located load."""
+LOCATED_NOISE = 3e-13
+"""Relative error that round-off in some hundred operations, and in the numbers given, may leave in a located load."""
 
 
 @dataclass(frozen=True)
@@ -109,12 +109,15 @@ class Origin:
         Whether its first point is a branch point, which it shares with another branch.
     parent
         Name of the branch that it leaves there.
+    mirror
+        Whether it is the other of the two arms of its mode, ω₂(1) > 0.
     """
 
     name: str
     mode: Mode | None = None
     switched: bool = False
     parent: str | None = None
+    mirror: bool = False
 
 
 def index_at_start(trace: Trace) -> int:

@@ -70,6 +70,14 @@ def reflections(problem: Problem) -> tuple[Reflection, ...]:
     return tuple(found)
 
 
+def arms_differ(problem: Problem, parity: int) -> bool:
+    """Whether the two arms of a mode of this parity are no images of each other, of a rod pressed to the wall.
+
+    Where nothing presses it to the wall it leaves the wall as it buckles, whichever arm it takes.
+    """
+    return problem.lateral_weight > 0.0 and len(images(problem, parity)) == 1
+
+
 def images(problem: Problem, parity: int) -> tuple[Reflection, ...]:
     """Reflections that give different branches from one whose states have a parity (0: none), the identity first."""
     out: list[Reflection] = []

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.pressures import (
+    COEFFICIENT_NOISE,
+    balanced,
+    balanced_pressures,
+    derivative,
+    free_ends,
+    totals,
+)
 from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import TwoMeshes
-from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import combine
-from rodwell.numerics.splines.lanes import on_lanes
-from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP, TWIST
+from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
 from rodwell.quantities.arrays import FloatArray
 
 NEAR_THE_TOP = 0.05
@@ -27,8 +31,13 @@ NEAR_THE_TOP = 0.05
 HALF = 0.5
 """Part of the tolerance to which the highest pressure is held: the certificate looks at the pressure everywhere."""
 
-COEFFICIENT_NOISE = 4.0 * float(np.finfo(float).eps)
-"""Round-off in the coefficients of a state, relative to the largest: some units in the last place."""
+SOFT = 2e-12
+"""Round-off in what a soft direction of the rod moves, relative to its scale: the angle at mid-length, the torque."""
+
+
+OTHER_END = 4.0
+"""How many times the moment that the spline has at an end that turns freely, where there is none, the error of the
+curvature at the other end may be."""
 
 
 class Measured(IntEnum):
@@ -46,55 +55,36 @@ class Measured(IntEnum):
 STEEPEST = len(Measured)
 """Position, after the measured numbers, of max |sin η| over the quadrature points: a guard, not reported."""
 
-
-TOTALS = 7
-
-
-def _added(rows: Any, parameters: Any) -> Sequence[Any]:
-    """Totals over the points of an element, added to those that follow what is known at the points in ``rows``."""
-    s, weight, y, y1, y2, *totals = (rows[i] for i in range(SHARED + 3 + TOTALS))
-    clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
-    y, y1 = y + ramp * s, y1 + ramp
-    cos_eta = np.sqrt(1.0 - y1 * y1)
-    omega2 = y2 / cos_eta
-    lateral = clearance * parameters[LATERAL_WEIGHT] * np.sin(y / clearance)
-    integrands = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
-    sizes = omega2, y / clearance, y1
-    sums = [total + weight * x for total, x in zip(totals, integrands, strict=False)]
-    return [*sums, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[4:], sizes, strict=True))]
-
-
-_add = on_lanes(lambda _: _added)
+PROBES = (0.21, 0.46, 0.5, 0.78)
+"""Places at which the contact pressure is compared on both meshes, where these may agree by chance on the largest."""
 
 
 @kernel
-def _totals(mesh, c, parameters):
-    """∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, and scales: ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|."""
-    rows = np.zeros((SHARED + 3 + TOTALS, len(mesh.per_element)))
-    totals = rows[SHARED + 3 :]
-    uniforms = (parameters,)
-    for element in range(mesh.starts.size):
-        at_points(mesh, c, element, rows)
-        _add(mesh.model, mesh.per_element, rows, uniforms, totals)
-    shortening, torque, bending, torque_size = totals[0].sum(), totals[1].sum(), totals[2].sum(), totals[3].sum()
-    return shortening, torque, bending, torque_size, totals[4].max(), totals[5].max(), totals[6].max()
-
-
-@kernel
-def _numbers(mesh, landmarks, marks, c, parameters, energy, highest, lowest, smallest):
-    """Rows of (3, 8): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
+def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowest):
+    """Rows of (3, 12): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
-    ``highest`` and ``lowest`` are contact pressures, ``smallest`` is the length of the smallest element.
+    ``places`` (k,) are those of maxima of the contact pressure, ``lowest`` is the least of that.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
-    shortening, torque, bending, torque_size, sharpest, widest, steepest = _totals(mesh, c, parameters)
+    count, looked_at = places.size, np.concatenate((places, np.array(PROBES)))
+    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(looked_at.size), np.empty(looked_at.size)
+    shortening, torque, bending, torque_size, push, lever, sharpest, widest, steepest = totals(
+        mesh, c, parameters, shear
+    )
+    balanced(mesh, knots, c, parameters, push, lever, shear, looked_at, values, left)
+    highest = np.max(values[:count])
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
         combine(mesh.local, landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
-    out = np.zeros((3, STEEPEST + 1))
+    out = np.zeros((3, STEEPEST + 1 + len(PROBES)))
     numbers, scales, noise = out
+    _, turns_0, _, turns_1 = free_ends(mesh)
+    for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
+        bend, size = derivative(landmarks[i], 2, c, marks[i])
+        # no moment where the end turns freely: what the spline has there tells how far it is off
+        u[i, 2], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, COEFFICIENT_NOISE * size)
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
     numbers[Measured.ENERGY], scales[Measured.ENERGY] = energy, max(abs(energy), bending)
     numbers[Measured.SHORTENING] = scales[Measured.SHORTENING] = shortening
@@ -105,13 +95,20 @@ def _numbers(mesh, landmarks, marks, c, parameters, energy, highest, lowest, sma
     numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
     numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
+    for k in range(len(PROBES)):
+        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], np.inf
     for k in range(STEEPEST):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
-    lever = 4.0 * steepest / clearance + abs(parameters[TWIST])
-    noise[Measured.P_MAX] = COEFFICIENT_NOISE * np.max(np.abs(c)) / smallest**3 * lever
+    noise[Measured.P_MAX] = np.max(left[:count])
+    for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
+        noise[which] = SOFT * scales[which]
     return out
 
+
+LINKS = tuple((int(Measured.P_MAX), STEEPEST + 1 + i) for i in range(len(PROBES)))
+"""The error of the largest contact pressure is not much below that of the pressure at some places that stay
+where they are."""
 
 GROUPS = ((int(Measured.OMEGA2_0), int(Measured.OMEGA2_1)),)
 """Measured numbers of one kind: the end curvatures."""
@@ -129,20 +126,19 @@ def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArra
 
 def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshes:
     """Return the meshes on which states of ``family`` are measured to a tolerance."""
-    return TwoMeshes(family, measure, rtol, most_elements, GROUPS)
+    return TwoMeshes(family, measure, rtol, most_elements, GROUPS, LINKS)
 
 
 def measure(family: Family, state: State) -> FloatArray:
-    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 8).
+    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 12).
 
-    STEEPEST stands last. A spline's third derivative is its coefficients' third difference over h³: round-off in them
-    comes out of it enlarged by h⁻³, and enters the contact pressure with the lever 3ω₁ + T₁ + ω₁, (53)–(55).
+    Behind them stand STEEPEST, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a spline's derivative comes out of it enlarged by h⁻¹, h⁻².
     """
     space, p = state.space, family.parameters(state.lam)
-    _, values, lowest = pressure_maxima(family, state, p)
-    return np.asarray(
-        _numbers(family.mesh, *space.landmarks, state.c, p, state.energy, values.max(), lowest, space.smallest)
-    )
+    wait_for("maxima")
+    places, _, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    numbers = _numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, places, lowest)
+    return np.asarray(numbers)
 
 
 def pressure_maxima(
@@ -151,5 +147,5 @@ def pressure_maxima(
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     wait_for("maxima")
-    places, values, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
-    return places, values, float(lowest)
+    places, _, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    return places, np.asarray(balanced_pressures(family.mesh, space.knots, state.c, p, places)), float(lowest)

@@ -11,6 +11,7 @@ dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +20,9 @@ import numpy as np
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.loads.pressure import pressure_rates
-from rodwell.analysis.straight.critical import Mode, critical_loads
+from rodwell.analysis.straight.critical import EULER, Mode, critical_loads
 from rodwell.analysis.straight.slopes import load_slope, weight_rates
+from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.errors import InputError, checked_whole
 from rodwell.numerics.equilibria.error import NUMBER_NOISE
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -49,7 +51,8 @@ class Sensitivity:
         The load: end force at s = 1 in B/L², tension positive.
     derivatives
         By name of the parameter (:data:`PARAMETERS`): ∂f/∂γ, ∂f/∂α per degree, ∂f/∂(Δ/L), each with its error estimate;
-        for the lift-off load of a twisted rod also ∂f/∂T₁. Critical loads do not depend on T₁.
+        for the lift-off load of a twisted rod, and the load at which one buckles that nothing presses to the wall, also
+        ∂f/∂T₁. Critical loads of a rod kept on the wall do not depend on T₁.
     note
         What to know about them, or nothing.
     """
@@ -65,16 +68,18 @@ class Sensitivity:
 
         ``weight_per_length`` mg, ``clearance`` Δ, ``stiffness`` B, ``length`` L, each with the others constant; and
         ``alpha``, in percent for one degree more. From F = (B/L²) f(mg L³/B, α, Δ/L): e_B = 1 − e_mg,
-        e_L = 3 e_mg − e_Δ − 2.
+        e_L = 3 e_mg − e_Δ − 2; under an end torque T, T₁ = T L/B, 1 − e_mg − e_T and 3 e_mg − e_Δ + e_T − 2.
         """
         weight = self._relative("weight", self.problem.weight)
         clearance = self._relative("clearance", self.problem.clearance)
-        length = 3.0 * weight.value - clearance.value - 2.0
+        # T₁ = T L/B grows with the length and falls with the stiffness
+        twist = self._relative("twist", self.problem.twist) if "twist" in self.derivatives else Value(0.0)
+        length = 3.0 * weight.value - clearance.value - 2.0 + twist.value
         return {
             "weight_per_length": weight,
             "clearance": clearance,
-            "stiffness": Value(1.0 - weight.value, weight.error),
-            "length": Value(length, 3.0 * weight.error + clearance.error),
+            "stiffness": Value(1.0 - weight.value - twist.value, weight.error + twist.error),
+            "length": Value(length, 3.0 * weight.error + clearance.error + twist.error),
             "alpha": self._relative("alpha", 100.0),
         }
 
@@ -119,6 +124,10 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     rtol = checked_rtol(rtol)
     buckling = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
     out = [of_critical_load(buckling)]
+    if mode == 1 and problem.twist != 0.0 and problem.lateral_weight == 0.0:
+        met = critical_loads(problem, 1, rtol=rtol).first_met
+        assert isinstance(met, SpatialMode)
+        out.append(of_first_met(met))
     if problem.pressed:
         lift = follow(problem, buckling, rtol=rtol).lift_off
         if lift is not None:
@@ -135,6 +144,21 @@ def of_critical_load(mode: Mode) -> Sensitivity:
         round_off = NUMBER_NOISE * (abs(fine[name]) + abs(mode.force) / scale)
         derivatives[name] = Value(fine[name], abs(fine[name] - coarse[name]) + round_off)
     return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, derivatives)
+
+
+def of_first_met(mode: SpatialMode) -> Sensitivity:
+    """Derivatives of the load at which a twisted rod that nothing presses to the wall buckles.
+
+    The error of a mode is of the order of the root of that of its load, relative to the size of the load's terms.
+    """
+    problem = mode.problem
+    size = abs(mode.force) + problem.axial_weight + EULER + 0.25 * problem.twist**2
+    part, derivatives = 2.0 * math.sqrt(mode.error / size), {}
+    for name in (*PARAMETERS, "twist"):
+        value = mode.derivative(name)
+        derivatives[name] = Value(value, part * abs(value) + NUMBER_NOISE * size)
+    note = "nothing presses the rod to the wall, so twist counts"
+    return Sensitivity("load at which it buckles", problem, mode.force, derivatives, note)
 
 
 def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:

@@ -144,6 +144,11 @@ class LoadsWithoutWall:
         """Error estimates, (n,), in B/L²."""
         return np.array([mode.error for mode in self.modes])
 
+    @property
+    def scale(self) -> float:
+        """What errors are judged against beside the size of a load: γ cos α + 4π² + T₁²/4."""
+        return _scale(self.problem)
+
     @cached_property
     def at_wall(self) -> WallTouch | None:
         """The first mode with the wall's help, where no lateral weight acts; None where it does.

@@ -11,7 +11,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
-from rodwell.analysis.straight.critical import critical_loads
+from rodwell.analysis.straight.critical import EULER, critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.formulas.record import Place
 from rodwell.problem.ends import HOLD_ANGLE
@@ -52,6 +52,10 @@ class ExactLoad:
     error: float
     axial_weight: float
 
+    def meets(self, rtol: float) -> bool:
+        """Whether the load is known to a tolerance, judged like that of a branch."""
+        return self.error <= rtol * max(abs(self.force), EULER + self.axial_weight)
+
     def at(self, place: Place) -> float:
         """Compression −N(s) at a place in B/L², **compression positive**; N(s) = F + γ cos α (s − 1)."""
         return -self.force + self.axial_weight * (1.0 - WHERE[place])
@@ -59,7 +63,7 @@ class ExactLoad:
 
 def critical(problem: Problem, rtol: float = RTOL) -> ExactLoad:
     """First critical load of the straight rod."""
-    mode = critical_loads(problem, 1, rtol=rtol)[0]
+    mode = critical_loads(problem, 1, rtol=rtol).first_met
     return ExactLoad("critical", "first critical load", mode.force, mode.error, problem.axial_weight)
 
 

@@ -9,6 +9,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
+from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.verdict import verdict
 from rodwell.problem.problem import ends_text
@@ -98,6 +99,7 @@ def _applied(scales: Scales | None, at: AtLoad) -> dict[str, Any]:
         "kind": "real" if load.real else "effective",
         "force": _quantity(scales, Value(load.force)),
         "what": at.what,
+        "reached": at.reached,
         "why": at.why,
         "state": None if at.state is None else at.state.name,
     }
@@ -128,7 +130,7 @@ def _formula(scales: Scales | None, row: FormulaRow) -> dict[str, Any]:
 def answer_dict(answer: Answer) -> dict[str, Any]:
     """Return the answer as plain data, for JSON."""
     case, problem = answer.case, answer.case.problem
-    lift, assessment = answer.lift_off, assessment_dict(answer.assessment)
+    lift, load, assessment = answer.lift_off, answer.lift_off_load, assessment_dict(answer.assessment)
     return {
         "title": case.title,
         "verdict": assessment.pop("verdict"),
@@ -146,16 +148,17 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
             "ends": list(problem.ends),
             **problem.given_torsion,
         },
-        "critical_loads": [float(f) for f in answer.critical.forces],
-        "critical_errors": [float(e) for e in answer.critical.errors],
+        **_critical_loads(answer),
+        "until": _until(answer),
         "lift_off": None
-        if lift is None
+        if lift is None or load is None
         else {
-            "force": lift.force,
-            "error": lift.error,
+            "force": load.value,
+            "error": load.error,
             "s": list(lift.s),
             "coincides_with_buckling": answer.first.lift_off_at_buckling,
         },
+        "other_arm": _other_arm(answer),
         "conversions": [fact.as_dict() for fact in case.facts],
         "yield_strength_Pa": case.yield_strength,
         "figures": {name: key.as_dict(case) for name, key in answer.key_numbers.items()},
@@ -171,6 +174,36 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
     }
 
 
+def _critical_loads(answer: Answer) -> dict[str, Any]:
+    """Loads with the wall's help, as met, and without; those of a rod kept on the wall where these are others."""
+    kept, met, alone = answer.critical, answer.first_met, answer.without_wall
+    loads = {"critical_loads": [float(f) for f in kept.forces], "critical_errors": [float(e) for e in kept.errors]}
+    out: dict[str, Any] = loads
+    if answer.untouched:
+        kept_on_wall = {"loads": loads["critical_loads"], "error": loads["critical_errors"]}
+        out = {"critical_loads": [met.force], "critical_errors": [met.error], "kept_on_wall": kept_on_wall}
+    return out | {"without_wall": {"loads": [alone.force], "error": [alone.error]}}
+
+
+def _other_arm(answer: Answer) -> dict[str, Any] | None:
+    """Lift-off of the other arm of mode 1, where twist makes the two differ; None where it is an image."""
+    if answer.other_arm is None:
+        return None
+    lift = answer.other_arm.lift_off
+    ended = {"ended_because": answer.other_arm.ended_because}
+    return ended if lift is None else {"force": lift.force, "error": lift.error, "s": list(lift.s)}
+
+
+def _until(answer: Answer) -> dict[str, Any] | None:
+    """The end force asked for, and whether the branch of mode 1 reaches it; None where none was asked for."""
+    until, scales = answer.case.until, answer.case.scales
+    if until is None:
+        return None
+    missed = out_of_reach(answer.first, until)
+    why = why_out_of_reach(answer.first, scales) if missed else ""
+    return {"force": _quantity(scales, Value(until)), "reached": not missed, "why": why}
+
+
 def _spread(spread: Spread | None) -> dict[str, Any]:
     """Uncertainty from the inputs, for JSON: in B/L², or in N for a case with dimensions."""
     if spread is None:
@@ -184,5 +217,7 @@ def _branch_dict(branch: Branch) -> dict[str, Any]:
         "points": len(branch),
         "reached_end": branch.reached_end,
         "ended_because": branch.ended_because,
-        "special_points": [point.as_dict() for point in branch.special_points],
+        "special_points": [
+            point.as_dict() | {"converged": branch.meets_tolerance(point)} for point in branch.special_points
+        ],
     }

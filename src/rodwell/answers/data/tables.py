@@ -17,6 +17,10 @@ NOTES = (
 )
 
 
+MISSES = "misses the tolerance: its error says how well it is known"
+"""Remark beside a special point."""
+
+
 def answer_tables(answer: Answer) -> tuple[Table, Table]:
     """Return key numbers and special points, with all digits: as in answer.json, and in the reader's units."""
     scales = answer.case.scales
@@ -47,6 +51,7 @@ def _special_points(branches: Iterable[Branch], scales: Scales | None) -> Table:
         columns += [f"end force F at s = 1 [{unit}]", f"± error [{unit}]"]
     columns += ["stability index before", "stability index after", "places s/L"]
     rows: list[tuple[Cell, ...]] = []
+    remarks: list[str | None] = []
     for branch in branches:
         for point in branch.special_points:
             cells: list[Cell] = [branch.mode.number if branch.mode else None, point.kind, point.force, point.error]
@@ -55,6 +60,10 @@ def _special_points(branches: Iterable[Branch], scales: Scales | None) -> Table:
                 cells += [shown["value"], shown["error"]]
             places = ", ".join(f"{s:.10g}" for s in point.s) or None
             rows.append((*cells, point.index_before, point.index_after, places))
+            remarks.append(None if branch.meets_tolerance(point) else MISSES)
+    if any(remarks):
+        columns.append("remark")
+        rows = [(*row, remark) for row, remark in zip(rows, remarks, strict=True)]
     notes = (
         *NOTES,
         "Stability index: number of unstable ways under dead loads, for a rod kept on the wall; 0 is stable.",

@@ -15,10 +15,12 @@ from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.answers.result.key_numbers import (
     critical_length,
     critical_number,
+    first_met,
     real_force,
     rotations,
     state_numbers,
     stress_number,
+    without_wall,
 )
 from rodwell.case.case import Case
 from rodwell.faces import Shown, drawn, plain
@@ -26,6 +28,9 @@ from rodwell.faces import Shown, drawn, plain
 if TYPE_CHECKING:
     from rodwell.analysis.discrete.measures import Measured
     from rodwell.faces import Axes
+
+
+ARMS = "twist makes the arms differ: the rod may take either"
 
 
 @dataclass(frozen=True)
@@ -50,16 +55,22 @@ class Answer(Computed, Shown):
     @cached_property
     def key_numbers(self) -> dict[str, KeyNumber]:
         """The key numbers by name."""
-        out = [critical_number(mode) for mode in self.critical]
-        out += real_force(out[0], self.case) + critical_length(self.case.problem)
+        out = [critical_number(mode, kept=self.untouched) for mode in self.critical]
+        met = first_met(self.first_met) if self.untouched else out[0]
+        out += ([met] if self.untouched else []) + [without_wall(self.without_wall)]
+        out += real_force(met, self.case) + ([] if self.untouched else critical_length(self.case.problem))
         lift = self.lift_off
         if lift is not None:
             note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
             if self.first.lift_off_at_buckling:
                 note = "coincides with buckling: no lateral weight presses the rod to the wall"
-            label = "Lift-off load, end force at s = 1"
-            out.append(KeyNumber("lift_off_load", label, lift.load, "force", force_scale(lift.force), note))
+            label, load = "Lift-off load, end force at s = 1", self.lift_off_load or lift.load
+            out.append(KeyNumber("lift_off_load", label, load, "force", force_scale(load.value), note))
             out += real_force(out[-1], self.case)
+        other = None if self.other_arm is None else self.other_arm.lift_off
+        if other is not None:
+            label = "Lift-off load of the other arm, end force at s = 1"
+            out.append(KeyNumber("lift_off_load_other_arm", label, other.load, "force", force_scale(other.force), ARMS))
         if self.at_lift_off is not None:
             out += [*state_numbers(self.at_lift_off), *rotations(self.at_lift_off)]
         out += assessment_numbers(self.assessment)
@@ -95,8 +106,7 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
     Raises
     ------
     NotConvergedError
-        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
-        to ``load.until``; the message says why and how far it got.
+        If the critical loads cannot be computed, or the first branch cannot be started.
     """
     computed = compute(case, progress)
-    return Answer(computed.case, computed.critical, computed.branches, computed.until)
+    return Answer(computed.case, computed.critical, computed.branches, computed.until, computed.other_arm)

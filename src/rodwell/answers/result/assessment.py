@@ -8,6 +8,7 @@ from functools import cached_property
 from rodwell.answers.comparison.beside import FormulaRow, load_rows
 from rodwell.answers.comparison.exact_loads import ExactLoad
 from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.reach import UNSOLVED, out_of_reach, passes, why_out_of_reach
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.value import Value
@@ -94,13 +95,16 @@ class AtLoad:
     state
         The straight or buckled state; None for the others.
     why
-        For UNKNOWN, why.
+        For UNKNOWN, and for a load out of reach, why.
+    reached
+        Whether the branch of mode 1, for a rod kept on the wall, goes so far; True where it was not asked to.
     """
 
     load: AppliedLoad
     what: str
     state: LoadedRod | None = None
     why: str = ""
+    reached: bool = True
 
 
 class Assessment:
@@ -108,7 +112,7 @@ class Assessment:
 
     def __init__(self, computed: Computed) -> None:
         self.computed, self.case = computed, computed.case
-        self.critical, self.branch = computed.critical[0], computed.first
+        self.buckling, self.branch = computed.buckling, computed.first
 
     @cached_property
     def section(self) -> RodSection | None:
@@ -118,7 +122,7 @@ class Assessment:
     @cached_property
     def at_buckling(self) -> LoadedRod:
         """The straight rod at its first critical load."""
-        return LoadedRod("at buckling", self.case.problem, self.critical.force, self.critical.error)
+        return LoadedRod("at buckling", self.case.problem, self.buckling.value, self.buckling.error)
 
     @cached_property
     def at_lift_off(self) -> LoadedRod | None:
@@ -143,7 +147,7 @@ class Assessment:
     def validity(self) -> Validity:
         """How far the loads shown are from what the theory assumes: strain, slenderness, slope, shortening."""
         without = [(self._name(at.load), at.load.force) for at in self.applied if at.state is None]
-        return validity(self.case, self.states, without, self.critical.wavenumber)
+        return validity(self.case, self.states, without, self.computed.critical[0].wavenumber)
 
     def _name(self, load: AppliedLoad) -> str:
         name = "at the applied load"
@@ -151,17 +155,21 @@ class Assessment:
 
     def _at(self, load: AppliedLoad) -> AtLoad:
         problem, branch, name = self.case.problem, self.branch, self._name(load)
-        if load.force >= self.critical.force:
+        if load.force >= self.buckling.value:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+        reached = not out_of_reach(branch, load.force)
+        why = "" if reached else why_out_of_reach(branch, self.case.scales)
         if branch.lift_off_at_buckling:
-            return AtLoad(load, LEFT)
+            return AtLoad(load, LEFT, None, why, reached)
         end = self.window.end
         if end is not None and end.force is not None and load.force <= end.force:
-            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE)
+            return AtLoad(load, LEFT if end.kind == LIFTS_OFF else OTHER_SHAPE, None, why, reached)
+        if not passes(branch, load.force):
+            return AtLoad(load, UNKNOWN, None, why or why_out_of_reach(branch, self.case.scales), reached=False)
         try:
             solution = branch.at(load.force)
-        except (InputError, NotConvergedError) as error:
-            return AtLoad(load, UNKNOWN, why=f"{branch.ending}: {error}")
+        except (InputError, NotConvergedError):
+            return AtLoad(load, UNKNOWN, None, UNSOLVED, reached=False)
         return AtLoad(load, BUCKLED, LoadedRod(name, problem, load.force, solution=solution))
 
     def stress(self, state: LoadedRod) -> RodStress | None:
@@ -192,10 +200,9 @@ class Assessment:
     @cached_property
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
-        lift, problem = self.computed.lift_off, self.case.problem
-        gives = limits(self.case, self.branch, self.critical.force)
-        bottom = problem.axial_weight - self.critical.force
-        return Window(self.critical.load, None if lift is None else lift.load, gives, bottom)
+        gives = limits(self.case, self.branch, self.buckling)
+        bottom = self.case.problem.axial_weight - self.buckling.value
+        return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
     @cached_property
     def local(self) -> LocalLimits | None:
@@ -212,7 +219,7 @@ class Assessment:
     def formulas(self) -> tuple[FormulaRow, ...]:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
         weight = self.case.problem.axial_weight
-        loads = [ExactLoad("critical", "first critical load", self.critical.force, self.critical.error, weight)]
+        loads = [ExactLoad("critical", "first critical load", self.buckling.value, self.buckling.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:
             loads.append(ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))

@@ -5,18 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.analysis.branch.follow import extended, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.discrete import first_run
-from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_lift_off
+from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
+from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
+from rodwell.answers.result.arms import with_other_arm
+from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
+from rodwell.quantities.value import Value
 
 
 @dataclass(frozen=True)
@@ -30,15 +37,55 @@ class Computed:
     critical
         Critical loads and modes of the straight rod.
     branches
-        Buckled branches of the modes met before ``until``; the first is that of mode 1.
+        Buckled branches of the modes met before ``until``; the first is that of mode 1, which goes on to the loads
+        that act if these lie farther.
     until
-        End force in B/L² to which they were followed.
+        End force in B/L² to which they were to be followed.
+    other_arm
+        The other arm of mode 1, to lift-off, where twist makes the two differ: the first branch is the arm that leaves
+        the wall or loses its stability at less compression. None where it is the image of the first.
     """
 
     case: Case
     critical: CriticalLoads
     branches: tuple[Branch, ...]
     until: float
+    other_arm: Branch | None = None
+
+    @property
+    def untouched(self) -> bool:
+        """Whether twist counts for the straight rod, since nothing presses it to the wall."""
+        return self.case.problem.twist != 0.0 and self.case.problem.lateral_weight == 0.0
+
+    @cached_property
+    def first_met(self) -> Mode | SpatialMode:
+        """The mode that the straight rod meets first, with the wall's help.
+
+        Where that cannot be computed (very large twist) the one without it, which comes no later.
+        """
+        if not self.untouched:
+            return self.critical[0]
+        try:
+            return self.critical.first_met
+        except NotConvergedError:
+            return self.without_wall
+
+    @property
+    def without_wall(self) -> SpatialMode:
+        """The mode that the straight rod would meet first without the wall's help."""
+        return loads_without_wall(self.case.problem).modes[0]
+
+    @property
+    def buckling(self) -> Value:
+        """The first load that the straight rod meets: end force F at s = 1 in B/L², tension positive."""
+        return Value(self.first_met.force, self.first_met.error)
+
+    @property
+    def lift_off_load(self) -> Value | None:
+        """Lift-off of the first branch; where nothing presses the rod to the wall that is where it buckles."""
+        if self.lift_off is None:
+            return None
+        return self.buckling if self.first.lift_off_at_buckling else self.lift_off.load
 
     @property
     def first(self) -> Branch:
@@ -76,6 +123,8 @@ class Computed:
     def sensitivities(self) -> tuple[Sensitivity, ...]:
         """How the first critical load and the lift-off load change with the inputs."""
         out = [of_critical_load(self.critical[0])]
+        if isinstance(self.first_met, SpatialMode):
+            out.append(of_first_met(self.first_met))
         if self.at_lift_off is not None and self.lift_off is not None:
             out.append(of_lift_off(self.lift_off))
         return tuple(out)
@@ -99,8 +148,8 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     Raises
     ------
     NotConvergedError
-        If the critical loads or the first branch cannot be computed, or the first branch cannot be followed
-        to ``load.until``; the message says why and how far it got.
+        If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
+        ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
@@ -108,7 +157,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
-    first, until = _first_branch(case, critical)
+    first, other, until = _first_branch(case, critical)
     branches = [first]
     followed = [mode for mode in critical if mode.force > until]
     for number, mode in enumerate(followed[1:], start=1):
@@ -120,22 +169,28 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
 
         branches.append(follow(problem, mode, until=until, rtol=case.rtol, progress=report))
     tell("done", 1.0)
-    return Computed(case, critical, tuple(branches), until)
+    return Computed(case, critical, tuple(branches), until, other)
 
 
-def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, float]:
-    """Branch of the first mode, and the end force to follow branches to.
+def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, Branch | None, float]:
+    """Branch of the first mode, its other arm where that differs, and the end force to follow branches to.
 
-    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes.
+    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes. The first branch
+    goes on to the loads that act.
     """
     first = critical[0]
-    if case.until is not None and case.until < first.force:
-        branch = follow(case.problem, first, until=case.until, rtol=case.rtol)
-        _check_reached(case, branch, case.until)
-        return branch, case.until
-    to_lift_off = follow(case.problem, first, rtol=case.rtol)
+    until, asked = case.until, case.until is not None and case.until < first.force
+    if until is not None and asked and not arms_differ(case.problem, first.parity):
+        return follow(case.problem, first, until=until, rtol=case.rtol), None, until
+    to_lift_off, other = follow(case.problem, first, rtol=case.rtol), None
+    if arms_differ(case.problem, first.parity):
+        to_lift_off, other = with_other_arm(to_lift_off, case.rtol)
+    if until is not None and asked:
+        mirror = to_lift_off.origin.mirror
+        return follow(case.problem, first, until=until, mirror=mirror, rtol=case.rtol), other, until
     until = _reach(critical, to_lift_off)
-    return (extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off), until
+    branch = extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off
+    return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), other, until
 
 
 def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
@@ -145,17 +200,3 @@ def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
     if lift is not None:
         beyond.append(1.3 * (first - lift.force))
     return float(first - max(beyond))
-
-
-def _check_reached(case: Case, branch: Branch, until: float) -> None:
-    if branch.reached_end:
-        return
-    unit, factor = "B/L²", 1.0
-    if case.scales is not None:
-        size, unit = case.scales.system.unit("force")
-        factor = case.scales.factor("force") / size
-    raise NotConvergedError(
-        f"load.until = {until * factor:.6g} {unit} cannot be reached: the branch of mode 1 goes no lower than "
-        f"{branch.reach[0] * factor:.6g} {unit} and ends there or on its way back ({branch.ended_because}); "
-        "give a load.until above that"
-    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import EULER, Mode
+from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case
 from rodwell.case.cylinder import Cylinder
@@ -16,12 +17,30 @@ from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
 
 
-def critical_number(mode: Mode) -> KeyNumber:
-    """Critical load of a mode."""
+def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
+    """Critical load of a mode; ``kept``: it is that of a rod kept on the wall, and twist makes it buckle before."""
     symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
-    label = f"Critical load of mode {mode.number}, end force at s = 1"
+    label = f"Critical load of mode {mode.number}{' if kept on the wall' if kept else ''}, end force at s = 1"
     scale = force_scale(mode.force) + mode.problem.axial_weight
     return KeyNumber(f"critical_load_{mode.number}", label, mode.load, "force", scale, symmetry)
+
+
+def first_met(mode: Mode | SpatialMode) -> KeyNumber:
+    """The load at which a twisted rod that nothing presses to the wall buckles."""
+    label = "Load at which the straight rod buckles, end force at s = 1"
+    note = "with the wall's help; the critical loads are those of a rod kept on the wall"
+    return KeyNumber("first_load_met", label, Value(mode.force, mode.error), "force", _size(mode), note)
+
+
+def without_wall(mode: SpatialMode) -> KeyNumber:
+    """The load at which the straight rod would buckle without the wall's help."""
+    label = "First critical load without the wall's help, end force at s = 1"
+    return KeyNumber("critical_load_without_wall", label, Value(mode.force, mode.error), "force", _size(mode))
+
+
+def _size(mode: Mode | SpatialMode) -> float:
+    """Size against which the error of such a load is judged."""
+    return force_scale(mode.force) + mode.problem.axial_weight + 0.25 * mode.problem.twist**2
 
 
 STANDING = {

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.result.reach import passes
 from rodwell.answers.words.meaning import SMALL_LOAD
 from rodwell.answers.words.wording import force_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
+from rodwell.errors import NotConvergedError
 from rodwell.quantities.text import amount, minus, percent
 from rodwell.quantities.value import Value
 
@@ -53,7 +56,7 @@ def _most(case: Case) -> AppliedLoad | None:
 
 
 def _buckling(computed: Computed) -> Status:
-    load, limit, scales = judged(computed.case), computed.critical[0].load, computed.case.scales
+    load, limit, scales = judged(computed.case), computed.buckling, computed.case.scales
     where = force_text(scales, limit)
     if load is None:
         reason = f"straight as long as the end force at s = 1 is above {where}"
@@ -63,26 +66,40 @@ def _buckling(computed: Computed) -> Status:
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {where}")
     reason = f"at {force_text(scales, Value(load))}, beyond {where}"
-    if load < computed.first.reach[0]:
-        return Status("Buckling", BAD, "buckled, shape not known", f"{reason}: the first mode was not followed so far")
-    if computed.first.at(load).stable:
+    if computed.untouched:
+        return Status("Buckling", BAD, "buckled, off the wall", f"{reason}: nothing presses it to the wall")
+    state = _state(computed, load)
+    if state is None:
+        return Status("Buckling", BAD, "buckled, shape not known", f"{reason}: its branch could not be followed so far")
+    if state.stable:
         return Status("Buckling", CAUTION, "buckled, stable", reason)
     return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
 
 
+def _state(computed: Computed, load: float) -> Solution | None:
+    """The buckled state of mode 1 at an end force; None where it is not known."""
+    try:
+        return computed.first.at(load) if passes(computed.first, load) else None
+    except NotConvergedError:
+        return None
+
+
 def _contact(computed: Computed) -> Status:
     load, lift, subject = judged(computed.case), computed.lift_off, "Contact"
-    where = "" if lift is None else force_text(computed.case.scales, lift.load)
+    limit = computed.lift_off_load
+    where = "" if limit is None else force_text(computed.case.scales, limit)
     if load is None:
         reason = f"leaves the wall at {where}" if where else "no lift-off over the range computed"
         return Status(subject, OPEN, "no load given", reason)
-    if load >= computed.critical[0].force and computed.first.lift_off_at_buckling:
+    if load >= computed.buckling.value and computed.first.lift_off_at_buckling:
         return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
-    if lift is None:
+    if lift is None and not passes(computed.first, min(load, computed.first.force[0])):
+        return Status(subject, BAD, "not known", "no lift-off was found, but the branch could not be followed so far")
+    if limit is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
-    if load <= lift.force:
+    if load <= limit.value:
         return Status(subject, BAD, "leaves the wall", f"lift-off is at {where}")
-    level, margin = _margin(computed.case, load, lift.load)
+    level, margin = _margin(computed.case, load, limit)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
     return Status(subject, level, word, f"{margin} the lift-off load, {where}")
 
@@ -157,13 +174,13 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
 
 
 def _about_the_load(computed: Computed) -> list[str]:
-    load, limit, lift = judged(computed.case), computed.critical[0].load, computed.lift_off
+    load, limit, lift = judged(computed.case), computed.buckling, computed.lift_off_load
     scales = computed.case.scales
     if load is None:
         return ["Give the end force that acts as load.applied in the case file: this page then judges it."]
     if load >= limit.value:
         return []
     out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(scales, limit)}."]
-    if lift is not None and load <= lift.force and lift.force < limit.value:
-        out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(scales, lift.load)}.")
+    if lift is not None and load <= lift.value and lift.value < limit.value:
+        out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(scales, lift)}.")
     return out

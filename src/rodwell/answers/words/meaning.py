@@ -13,6 +13,8 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.words.first_met import other_arm, without_wall
+from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
 from rodwell.case.case import Case
@@ -57,15 +59,23 @@ def assumptions(case: Case) -> tuple[str, ...]:
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
     a = answer.assessment
-    out = [verdict(a), *load_sentences(a), _mode(answer.critical, answer.case), _asked(answer), _lift_off(answer)]
+    out = [
+        verdict(a),
+        *load_sentences(a),
+        *unreached(a),
+        without_wall(answer),
+        _mode(answer.critical, answer.case, kept=answer.untouched),
+        _asked(answer),
+        _lift_off(answer),
+    ]
     out += [_stability(answer), *window_sentences(a)]
     out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
     out.append(a.validity.sentence)
     return [sentence for sentence in out if sentence]
 
 
-def _mode(critical: Sequence[Mode], case: Case) -> str:
-    """How the rod buckles, and how far up."""
+def _mode(critical: Sequence[Mode], case: Case, *, kept: bool) -> str:
+    """How the rod buckles, and how far up; ``kept``: how it would, if it were kept on the wall."""
     first = critical[0]
     s = np.union1d(np.linspace(0.0, 1.0, 2001), first.space.greville)[1:-1]
     y = first.shape(s)
@@ -76,7 +86,8 @@ def _mode(critical: Sequence[Mode], case: Case) -> str:
     why = "axial weight" if case.problem.axial_weight != 0.0 else "unequal ends"
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
-    text = f"It buckles sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
+    text = "Kept on the wall it would buckle" if kept else "It buckles"
+    text += f" sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
         place = place_text(case.scales, Value(farthest, error / _falls(first, farthest)))
         text += f" Beyond {place} the rod stays straight (deflections below {FADED:g} of the largest)."
@@ -107,7 +118,7 @@ def _falls(mode: Mode, faded: float) -> float:
 def _asked(computed: Computed) -> str:
     """The rod at the end force asked for, if that does not buckle it."""
     until, scales = computed.case.until, computed.case.scales
-    if until is None or until < computed.critical[0].force:
+    if until is None or until < computed.buckling.value:
         return ""
     return (
         f"At the end force asked for, {force_text(scales, Value(until))} at s = 1, the straight rod is stable; the "
@@ -133,7 +144,7 @@ def _lift_off(computed: Computed) -> str:
         )
     return (
         f"The buckled rod stays on the wall until the end force at s = 1 is {force_text(scales, lift.load)}; there it "
-        f"lifts off at {places_text(scales, lift)}."
+        f"lifts off at {places_text(scales, lift)}.{other_arm(computed)}"
     )
 
 

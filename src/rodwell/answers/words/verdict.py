@@ -58,8 +58,9 @@ def _range(a: Assessment) -> str:
     """Where the straight rod buckles, and how far it is from there to lift-off."""
     load, scales = a.window.buckling, a.case.scales
     if load.value > 0.0:
+        cause = "own weight" if not a.computed.untouched else "weight and twist" if a.case.problem.weight else "twist"
         text = (
-            "The rod buckles under its own weight: it stays straight only if the end s = 1 is held in tension of at "
+            f"The rod buckles under its {cause}: it stays straight only if the end s = 1 is held in tension of at "
             f"least {force_text(scales, load)}"
         )
     else:

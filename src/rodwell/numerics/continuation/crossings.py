@@ -24,7 +24,8 @@ class Crossing:
     """A change of the stability index: where, from what to what, and whether it is a fold (λ turns back there).
 
     ``place`` is None where only one mesh shows it: the eigenvalue vanishes to round-off (the translation eigenvalue
-    of a long rod is exponentially small), so its sign means nothing.
+    of a long rod is exponentially small), so its sign means nothing. ``doubt`` is by how much λ may be off, since
+    round-off in the eigenvalue hides its zero.
     """
 
     place: LocatedZero | None
@@ -32,6 +33,7 @@ class Crossing:
     before: int
     after: int
     fold: bool
+    doubt: float = 0.0
 
 
 def index_crossings(
@@ -65,6 +67,9 @@ FOLD_OFFSET = 1e-3
 
 DROWNED = 1e3
 """An eigenvalue below this many times its round-off tells nothing by its sign."""
+
+NOISY = 2.0
+"""How many times the round-off in an eigenvalue its located zero may miss: once found, once known."""
 
 CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
@@ -122,7 +127,7 @@ def _located(
         raise LeftTheBranchError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    steady = not fold and _stays_singular(fine, low)
+    steady = not fold and _wanders(fine, low)
     if steady:
         low, high = _shrunk(fine, low, high, before)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
@@ -132,28 +137,16 @@ def _located(
     ends = eigenvalue(0.0), eigenvalue(1.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
-        other = near_root(
-            _Eigenvalue(parts[1], t), t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise
-        )
+        rough = _Eigenvalue(parts[1], t)
+        other = near_root(rough, t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise)
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
-    return Crossing(
-        LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t)),
-        low + t * (high - low),
-        before,
-        after,
-        fold,
-    )
-
-
-def _stays_singular(fine: Segment, place: float) -> bool:
-    """Whether Newton's method sees the direction in which the Hessian becomes singular: symmetry may hide it."""
-    parity = fine.family.parity
-    if parity == 0:
-        return True
-    vector = _Eigenvalue(fine, place).vector
-    kept = 0.5 * (vector + parity * vector[::-1])
-    return bool(np.max(np.abs(kept)) > 0.5 * np.max(np.abs(vector)))
+    place = LocatedZero(low + t * (high - low), parts[1].with_exact_tangent(other), parts[0].with_exact_tangent(t))
+    levels = (fine.family, place.fine), (coarse.family, place.coarse)
+    rest = [family.nearest_curvature(state, vector, 3)[0] for (family, state), vector in zip(levels, (eigenvalue.vector, rough.vector), strict=True)]
+    left = NOISY * max(eigenvalue.noise, *map(abs, rest))
+    doubt = parts[0].doubt(place.fine, t, left / abs(ends[1] - ends[0]))
+    return Crossing(place, place.t, before, after, fold, doubt)
 
 
 def _drowned(fine: Segment, low: float, high: float) -> bool:
@@ -163,6 +156,17 @@ def _drowned(fine: Segment, low: float, high: float) -> bool:
         if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
             return True
     return False
+
+
+def _wanders(segment: Segment, place: float) -> bool:
+    """Whether Newton's method moves along the direction in which the Hessian becomes singular: symmetry may forbid it.
+
+    States that are periodic beyond their ends branch into others of the same parity.
+    """
+    parity = segment.family.parity
+    vector = _Eigenvalue(segment, place).vector
+    kept = vector + parity * vector[::-1]
+    return parity == 0 or bool(np.linalg.norm(kept) > np.linalg.norm(vector))
 
 
 def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
@@ -41,6 +41,9 @@ LEFT_THE_BRANCH = "the step has left the branch: the stability index and the sen
 points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there. What
 may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods in
 Bifurcation Problems* (1987), chapter 5."""
+
+TINY = 1e-300
+"""Stands for zero in a denominator."""
 
 MOST_REFINEMENTS = 2
 """How often the meshes are refined for a located point that does not meet the tolerance."""
@@ -198,7 +201,9 @@ class _Stretch:
             return min(near, key=lambda c: abs(c.t - crossing.t)).place if near else None
 
         return self._refined(
-            crossing.place, again, lambda meshes, at: _found(INDEX, meshes, at, *index, fold=crossing.fold)
+            crossing.place,
+            again,
+            lambda meshes, at: _found(INDEX, meshes, at, *index, fold=crossing.fold, doubt=crossing.doubt),
         )
 
     def turn(self) -> LocatedZero | None:
@@ -244,7 +249,25 @@ class _Stretch:
         found = self._refined(
             place, again, lambda meshes, at: _found(event.name, meshes, at, index, index, rising=rising)
         )
-        return [(place.t, found)]
+        return [(place.t, self._doubted(event, place, found))]
+
+    def _doubted(self, event: Event, place: LocatedZero, found: LocatedEvent) -> LocatedEvent:
+        """Count to the error of λ what is not known of an event's function, over its slope.
+
+        Of a function that is bent in one sense, the slope at its zero lies between those of the chords to both ends.
+        Where both meshes put the zero at the same place by chance, the ends of the stretch tell how well they agree.
+        """
+        if event.level is not None:
+            return found
+        ends = self._values(event)
+        slope = min(abs(ends[0]) / max(place.t, TINY), abs(ends[1]) / max(1.0 - place.t, TINY))
+
+        def doubt(unknown: float) -> float:
+            return self.segments[1].doubt(place.fine, place.t, min(1.0, unknown / max(slope, TINY)))
+
+        beside = min(_unknown(event, point) for point in (self.before, self.after))
+        here = doubt(_unknown(event, found.point))
+        return replace(found, lam_error=max(found.lam_error, doubt(beside)) + here)
 
     def _refined(
         self,
@@ -288,9 +311,17 @@ def _found(
     *,
     rising: bool = False,
     fold: bool = False,
+    doubt: float = 0.0,
 ) -> LocatedEvent:
     point = meshes.point(place.coarse, place.fine)
-    return LocatedEvent(name, point, meshes, place.gap / CLAIMED_GAIN, before, after, rising=rising, fold=fold)
+    error = place.gap / CLAIMED_GAIN + doubt
+    return LocatedEvent(name, point, meshes, error, before, after, rising=rising, fold=fold)
+
+
+def _unknown(event: Event, point: MeshedState) -> float:
+    """Error of an event's function at a point."""
+    value = event.function(point.lam, point.values)
+    return max(abs(event.function(point.lam, point.values + sign * point.error) - value) for sign in (1.0, -1.0))
 
 
 def _index_at(t: float, index: int, changes: Sequence[_Placed]) -> int:

@@ -63,6 +63,13 @@ class Segment:
         """Growth of the distance along the first tangent, at the last point."""
         return float(self.first.row @ self.last.tangent) + self.first.row_lam * self.last.tangent_lam
 
+    def doubt(self, state: State, t: float, shift: float) -> float:
+        """How far λ may be off, if the place of a state at ``t`` is off by ``shift``; λ may turn back there."""
+        a = self.first
+        rate = state.tangent_lam * self._length / (float(a.row @ state.tangent) + a.row_lam * state.tangent_lam)
+        bent = abs(a.lam - state.lam) / max(t, 0.5) ** 2 + abs(self.last.lam - state.lam) / max(1.0 - t, 0.5) ** 2
+        return float(abs(rate) * shift + bent * shift * shift)
+
     def _shares(self, t: float) -> tuple[float, float, float, float]:
         """Hermite's cubics at ``t``: shares of the values at both ends and of the tangents there."""
         slopes = self._length * t * (1.0 - t) ** 2, self._length / self._rate * t * t * (t - 1.0)

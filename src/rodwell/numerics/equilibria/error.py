@@ -13,7 +13,7 @@ CLAIMED_GAIN = 8.0
 pressure at degree 9, gains 2⁷; where the gain is not seen (round-off), the point counts as not converged."""
 
 
-NUMBER_NOISE = 2e-12
+NUMBER_NOISE = 5e-13
 """Error that round-off leaves in a number even where both meshes agree, relative to its scale."""
 
 

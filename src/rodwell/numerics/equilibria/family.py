@@ -287,10 +287,8 @@ class Family:
         if MIRROR in self.reflections and np.max(np.abs(state.c)) < tolerance * self.scale_c:
             return True
         parity = state.symmetry_within(tolerance) if self.parity == 0 and state.space.symmetric else 0
-        return parity != 0 and (parity, True) in self.reflections and self.loses(state, parity)
-
-    def loses(self, state: State, parity: int) -> bool:
-        """Whether the branch through a state breaks its symmetry rather than keep it: so its tangent does."""
+        if parity == 0 or (parity, True) not in self.reflections:
+            return False
         kept = _part(state.tangent, parity)
         return self.distance(state.tangent - kept, 0.0) > self.distance(kept, state.tangent_lam)
 

@@ -36,6 +36,11 @@ COARSE_TOLERANCE = 1e-2
 its square, and counts as error, since the finer solve does not share it."""
 
 
+KIN = 1.0 / 1024.0
+"""Part of the error of a number of the same kind at any place that an error may be below it. At places that the problem
+singles out, such as ends, numbers converge to more digits than elsewhere."""
+
+
 @formula
 def _larger(a, b):
     """The larger of two numbers; none if one of them is none."""
@@ -43,16 +48,19 @@ def _larger(a, b):
 
 
 @kernel
-def _judged(fine, coarse, groups):
+def _judged(fine, coarse, groups, links):
     """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale.
 
-    ``groups`` (g, 2) is an array, not a tuple: its type is the same for any number of groups, and for none.
+    ``groups`` (g, 2) and ``links`` (l, 2) are arrays, not tuples: their type is the same for any number, and for none.
     """
     error = np.empty(fine.shape[1])
     for i in range(error.size):
         scale = fine[1, i]
         known = NUMBER_NOISE * scale if np.isfinite(scale) else 0.0
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
+    for link in range(links.shape[0]):
+        i, j = links[link, 0], links[link, 1]
+        error[i] = _larger(error[i], KIN * error[j])
     for group in range(groups.shape[0]):
         first, last = groups[group, 0], groups[group, 1]
         for i in range(first, last + 1):
@@ -115,6 +123,8 @@ class TwoMeshes:
     groups
         First and last of groups of measured numbers of one kind, which share the largest error of the group: a single
         number may agree on both meshes by chance.
+    links
+        Pairs of measured numbers: the error of the first is at least a part of that of the second, which is of its kind.
     """
 
     def __init__(
@@ -124,9 +134,11 @@ class TwoMeshes:
         rtol: float,
         most_elements: int = 20_000,
         groups: Sequence[tuple[int, int]] | IntArray = (),
+        links: Sequence[tuple[int, int]] | IntArray = (),
     ) -> None:
         self.floor = 1.0  # excess below which refinement was found not to help (round-off)
         self.groups = np.array(groups, dtype=np.int64).reshape(-1, 2)  # first and last number of each group
+        self.links = np.array(links, dtype=np.int64).reshape(-1, 2)
         self.coarse = family
         self.fine = family.on(family.space.refined())
         self.up = Prolongation(self.coarse.space, self.fine.space)
@@ -149,7 +161,7 @@ class TwoMeshes:
     def point(self, coarse: State, fine: State) -> MeshedState:
         """Measure a pair of states."""
         measured = self.measure(self.fine, fine)
-        error, worst = _judged(measured, self.measure(self.coarse, coarse), self.groups)
+        error, worst = _judged(measured, self.measure(self.coarse, coarse), self.groups, self.links)
         return MeshedState(coarse, fine, measured[0], error, worst / self.rtol)
 
     def _without_gain(self, point: MeshedState) -> MeshedState:
@@ -203,7 +215,8 @@ class TwoMeshes:
         space = self.coarse.space.refined(marked)
         if 2 * space.elements > self.most_elements:
             return None
-        finer = TwoMeshes(self.coarse.on(space), self.measure, self.rtol, self.most_elements, self.groups)
+        kinds = self.groups, self.links
+        finer = TwoMeshes(self.coarse.on(space), self.measure, self.rtol, self.most_elements, *kinds)
         finer.floor = self.floor
         return finer
 

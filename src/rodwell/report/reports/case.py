@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Sequence
 
 from rodwell._version import __version__
-from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.advice import next_steps, statuses
+from rodwell.answers.words.first_met import KEPT
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
-from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus
 from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.strength import strength_sections
@@ -33,6 +31,7 @@ from rodwell.report.reports.texts import (
 )
 
 DECISIVE = (
+    "first_load_met",
     "critical_load_1",
     "lift_off_load",
     "window",
@@ -63,7 +62,7 @@ def case_report(answer: Answer) -> Report:
             key_numbers(answer),
             *strength_sections(answer.assessment),
             _pictures(answer),
-            _special_points(answer.branches, case.scales),
+            _special_points(answer),
             _inputs_and_loads(answer),
             _inputs(case),
             *_conversions(case),
@@ -122,6 +121,7 @@ def key_numbers(answer: Answer) -> ReportSection:
 
 def _pictures(computed: Computed) -> ReportSection:
     at = " at lift-off" if computed.at_lift_off else ""
+    kept = f" {KEPT}" if computed.untouched else ""
     wall = computed.shown.wall.meaning
     ordinate = ORDINATES[telling(computed.branches)][1]
     return ReportSection(
@@ -131,7 +131,7 @@ def _pictures(computed: Computed) -> ReportSection:
                 "bifurcation",
                 "Bifurcation diagram",
                 f"Bifurcation diagram: {ordinate} against the compression at s = 1. Thick: stable under dead loads "
-                "for a rod kept on the wall. Pale: beyond lift-off, where the wall would have to pull.",
+                f"for a rod kept on the wall. Pale: beyond lift-off, where the wall would have to pull.{kept}",
             ),
             Picture(
                 "wall-loads",
@@ -156,7 +156,9 @@ def _pictures(computed: Computed) -> ReportSection:
     )
 
 
-def _special_points(branches: Sequence[Branch], scales: Scales | None) -> ReportSection:
+def _special_points(computed: Computed) -> ReportSection:
+    branches, scales = computed.branches, computed.case.scales
+    kept = [Words(KEPT, "warning")] if computed.untouched else []
     physical = scales is not None
     names = ["mode", "kind", *(["physical"] if physical else []), "plain", "error", "index", "place"]
     head = ["Mode", "What", *(["End force at s = 1"] if physical else []), "F in B/L²", "±\u00a0error"]
@@ -165,12 +167,14 @@ def _special_points(branches: Sequence[Branch], scales: Scales | None) -> Report
         "kept on the wall; 0 is stable. With end shortening or end rotation controlled instead of the loads, the "
         "index is lower by at most one for each."
     )
+    lines = special(branches, scales)
+    missed = any(row["remark"] for row in lines)
     table = Grid(
-        (*head, "Stability index", "Place s/L"),
-        tuple(tuple(str(row[name]) for name in names) for row in special(branches, scales)),
+        (*head, "Stability index", "Place s/L", *(["Remark"] if missed else [])),
+        tuple(tuple(str(row[name]) for name in [*names, *(["remark"] if missed else [])]) for row in lines),
         numeric=(2, 3, 4) if physical else (2, 3),
     )
-    return ReportSection("Special points of every branch", (table, Words(note, "small")))
+    return ReportSection("Special points of every branch", (table, Words(note, "small"), *kept))
 
 
 def _inputs_and_loads(computed: Computed) -> ReportSection:

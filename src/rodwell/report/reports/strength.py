@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import local_sentence
 from rodwell.answers.words.wording import quantity
 from rodwell.quantities.text import amount, minus, plain, supported
@@ -55,7 +56,8 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
         "Tension positive. The approach of the ends is that by buckling. Where the rod has left the wall, or mode 1 "
         "has lost its stability, no numbers are given."
     )
-    return (ReportSection("At the loads that act", (table, Words(note, "small"))),)
+    missed = [Words(sentence, "warning") for sentence in unreached(a)]
+    return (ReportSection("At the loads that act", (table, Words(note, "small"), *missed)),)
 
 
 def _strong(a: Assessment) -> bool:
@@ -149,7 +151,7 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     row = {
         "given": f"{minus(given)} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
         "force": _text(a, load.force, "force"),
-        "what": WORDS.get(at.what, at.why),
+        "what": WORDS.get(at.what, f"not known: {at.why}"),
     }
     if state is None:
         return row
@@ -173,7 +175,8 @@ def _window_text(a: Assessment) -> str:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
     end, width = window.end, window.width
     if end is None or width is None:
-        return f"No lift-off was found down to {_text(a, a.computed.until, 'force')} at s = 1."
+        down_to = max(a.computed.until, a.branch.reach[0])  # it may end before it is where it was to go
+        return f"No lift-off was found down to {_text(a, down_to, 'force')} at s = 1."
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"

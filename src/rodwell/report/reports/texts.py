@@ -161,6 +161,7 @@ def special(branches: Iterable[Branch], scales: Scales | None) -> list[dict[str,
                     if point.index_before != point.index_after
                     else str(point.index_after),
                     "place": ", ".join(f"{s:.6g}" for s in point.s),
+                    "remark": "" if branch.meets_tolerance(point) else "misses the tolerance",
                 }
             )
     return out

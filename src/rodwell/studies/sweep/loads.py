@@ -37,6 +37,8 @@ class LoadResult:
         ``limits.NAMES``; those that are not reached before the rod leaves the wall are missing.
     exceeded
         Kinds of strength that are used up at any load.
+    reached
+        Whether the branch of mode 1 goes so far; True where it was not asked to.
     contact
         Largest contact force per length on the wall, in B/L³; None where the state is not known.
     stress, safety
@@ -51,6 +53,7 @@ class LoadResult:
     contact: Value | None = None
     stress: Value | None = None
     safety: Value | None = None
+    reached: bool = True
 
 
 def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadResult, ...]:
@@ -68,22 +71,22 @@ def validity_of(case: Case, critical: CriticalLoads, branch: Branch | None) -> V
     """
     if branch is not None:
         return Assessment(Computed(case, critical, (branch,), branch[-1].force)).validity
-    first = critical[0]
-    straight = LoadedRod("at buckling", case.problem, first.force, first.error)
+    first = Computed(case, critical, (), 0.0).buckling
+    straight = LoadedRod("at buckling", case.problem, first.value, first.error)
     acting = [("at the applied load", load.force) for load in case.applied]
-    return validity(case, (straight,), acting, first.wavenumber)
+    return validity(case, (straight,), acting, critical[0].wavenumber)
 
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:
     force, limits = at.load.force, a.window.limits
-    spare = {BUCKLES: _to_spare(force, a.critical.load)}
+    spare = {BUCKLES: _to_spare(force, a.buckling)}
     spare |= {limit.kind: _to_spare(force, limit.load) for limit in limits if limit.load is not None}
     exceeded = tuple(limit.kind for limit in limits if limit.load is None)
     state, why = at.state, at.why
     if state is not None and state.solution is not None and not state.solution.converged:
         why = "the state does not meet the tolerance: its errors say how well it is known"
     stress = None if state is None else a.stress(state)
-    return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress))
+    return LoadResult(at.load, at.what, why, spare, exceeded, *_of_state(state, stress), reached=at.reached)
 
 
 def _to_spare(force: float, limit: Value) -> Value:
@@ -99,11 +102,12 @@ def _of_state(state: LoadedRod | None, stress: RodStress | None) -> tuple[Value 
 
 def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadResult, ...]:
     """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known."""
-    out, first, section = [], critical[0], rod_section(case)
+    out, section = [], rod_section(case)
+    first = Computed(case, critical, (), 0.0).buckling
     for load in case.applied:
-        spare = {BUCKLES: _to_spare(load.force, first.load)}
-        if load.force < first.force:
-            out.append(LoadResult(load, UNKNOWN, why, spare))
+        spare = {BUCKLES: _to_spare(load.force, first)}
+        if load.force < first.value:
+            out.append(LoadResult(load, UNKNOWN, why, spare, reached=False))
             continue
         state = LoadedRod("at the applied load", case.problem, load.force)
         stress = None if section is None else section.largest(state)

@@ -70,6 +70,7 @@ def load_dict(point: StudyPoint, state: LoadResult) -> dict[str, Any]:
         "kind": "real" if state.load.real else "effective",
         "force": _number(Value(state.load.force), point.scales, "force"),
         "what": state.what,
+        "reached": state.reached,
         "why": state.why,
         "to_spare": {kind: _number(spare, point.scales, "force") for kind, spare in state.spare.items()},
         "exceeded_at_any_load": list(state.exceeded),

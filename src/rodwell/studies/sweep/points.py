@@ -9,9 +9,14 @@ from dataclasses import dataclass, field, replace
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import END
+from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
-from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
+from rodwell.analysis.straight.critical import EULER, CriticalLoads, critical_loads
+from rodwell.answers.result.arms import with_other_arm
+from rodwell.answers.result.assessment import BUCKLED
+from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.reach import followed_on
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
@@ -70,6 +75,20 @@ class StudyPoint:
     validity: Validity | None = None
 
     @property
+    def missed(self) -> tuple[str, ...]:
+        """The results that are shown but miss the tolerance, in words."""
+        if self.case is None:
+            return ()
+        out = ["lift-off"] if self.lift_off is not None and "lift_off" in (self.reasons or {}) else []
+        size, rtol = EULER + self.case.problem.axial_weight, self.case.rtol
+        for state in self.loads:
+            force = state.load.force
+            vague = any(not one.within(rtol, size + abs(force - one.value)) for one in state.spare.values())
+            if vague or (state.what == BUCKLED and state.why):
+                out.append(f"the load {state.load.given:.6g}")
+        return tuple(out)
+
+    @property
     def scales(self) -> Scales | None:
         """Units of the case; None without dimensions."""
         return None if self.case is None else self.case.scales
@@ -116,9 +135,20 @@ def computed(case: Case) -> SharedResults:
     except NotConvergedError as error:
         return SharedResults(None, why=str(error))
     try:
-        return SharedResults(critical, follow(case.problem, critical[0], rtol=case.rtol))
+        branch = follow(case.problem, critical[0], rtol=case.rtol)
+        if arms_differ(case.problem, critical[0].parity):
+            branch, _ = with_other_arm(branch, case.rtol)
+        return SharedResults(critical, branch)
     except (InputError, NotConvergedError) as error:
         return SharedResults(critical, why=str(error))
+
+
+def followed_to_loads(shared: SharedResults, case: Case) -> SharedResults:
+    """The same with the branch followed on to the loads that act, where it was not to end before."""
+    branch, loads = shared.branch, [load.force for load in case.applied]
+    if branch is None or branch.lift_off is not None or not loads:
+        return shared
+    return replace(shared, branch=followed_on(branch, min(loads)))
 
 
 def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedResults) -> StudyPoint:
@@ -126,13 +156,13 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     out = StudyPoint(number, at, case)
     if shared.critical is None:
         return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
-    mode = shared.critical[0]
+    mode, first = shared.critical[0], Computed(case, shared.critical, (), 0.0).buckling
     reasons: dict[str, str] = {}
-    out = replace(out, critical=mode.load, half_waves=mode.wavenumber / math.pi)
+    out = replace(out, critical=first, half_waves=mode.wavenumber / math.pi)
     try:
         if shared.branch is None:
             raise NotConvergedError(shared.why)
-        lift_off, places, contact = _at_lift_off(case, shared.branch, reasons)
+        lift_off, places, contact = _at_lift_off(case, shared.branch, first, reasons)
         used = {} if contact is None else _used(case, shared.branch)
         loads = at_loads(case, shared.critical, shared.branch)
         valid = validity_of(case, shared.critical, shared.branch)
@@ -171,7 +201,7 @@ def _no_lift_off(case: Case, branch: Branch) -> str:
 
 
 def _at_lift_off(
-    case: Case, branch: Branch, reasons: dict[str, str]
+    case: Case, branch: Branch, buckling: Value, reasons: dict[str, str]
 ) -> tuple[Value | None, tuple[float, ...], Value | None]:
     lift = branch.lift_off
     if lift is None:
@@ -179,7 +209,7 @@ def _at_lift_off(
         return None, (), None
     if branch.lift_off_at_buckling:
         reasons["contact"] = "lift-off coincides with buckling: no lateral weight"
-        return lift.load, lift.s, None
+        return buckling, lift.s, None
     if not branch.converged:
         reasons["lift_off"] = (
             "the branch to it does not meet the tolerance everywhere: its error says how well it is known"

@@ -13,7 +13,7 @@ from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
-from rodwell.studies.sweep.points import StudyPoint, computed, computed_point
+from rodwell.studies.sweep.points import StudyPoint, computed, computed_point, followed_to_loads
 from rodwell.studies.sweep.varied import LISTS, Varied, check_declared, may_vary, varied_inputs
 
 APPLIED = "load.applied"
@@ -159,7 +159,7 @@ def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: P
             if not isinstance(case, Case):
                 points.append(StudyPoint(number, grid[number], None, reasons={"case": str(case)}))
                 continue
-            shared = computed(case) if shared is None else shared
+            shared = followed_to_loads(computed(case) if shared is None else shared, case)
             points.append(computed_point(number, grid[number], case, shared))
     return tuple(sorted(points, key=lambda point: point.number))
 

@@ -1,0 +1,217 @@
+"""The largest contact pressure from the balance of forces: without a third derivative of the spline.
+
+The contact pressure takes y‴, and the third derivative of a spline enlarges round-off in its coefficients by h⁻³, at a
+free end some hundred times more. But y‴ follows from y, y′, y″ and the natural boundary term V = ∂e/∂y′ − (∂e/∂y″)′,
+and V from integrals: V′ = ∂e/∂y, and V = 0 where an end does not hold y. Where both ends hold it, V(0) follows from
+the balance of moments,
+
+    V(0) = ∫ ∂e/∂y′ ds − ∫ (1 − s) ∂e/∂y ds − [∂e/∂y″]₀¹.
+
+What is left of round-off is that of y″, enlarged by h⁻², and where an end does not hold y′ it is zero: y″ = 0 there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rodwell.compiling.kernels import formula, kernel
+from rodwell.numerics.splines.assembly import SHARED, at_points
+from rodwell.numerics.splines.basis import basis_derivatives, find_span
+from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.physics.on_wall._density import rod_density
+from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
+from rodwell.physics.on_wall.strand import towards_lift_off
+
+COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
+"""Round-off in derivatives of a spline, relative to the sum of the sizes of their terms: some units in the last
+place."""
+
+TOTALS = 9
+
+CHANGED = (0,) * 5
+"""As long as the stencil in which y′ and y″ are changed one at a time."""
+
+CHANGE = 1e-5
+"""By which part of the size of their terms."""
+
+
+def _added(rows: Any, parameters: Any) -> Sequence[Any]:
+    """Totals over the points of an element, added to those that follow what is known at the points in ``rows``."""
+    s, weight, y, y1, y2, *totals = (rows[i] for i in range(SHARED + 3 + TOTALS))
+    clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
+    y, y1 = y + ramp * s, y1 + ramp
+    cos_eta = np.sqrt(1.0 - y1 * y1)
+    omega2 = y2 / cos_eta
+    _, _, gradient, _, _ = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
+    lateral = clearance * gradient[0]
+    energies = y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral)
+    sums = *energies, gradient[1], (1.0 - s) * gradient[0]
+    sizes = omega2, y / clearance, y1
+    added = [total + weight * x for total, x in zip(totals, sums, strict=False)]
+    return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]
+
+
+_add = on_lanes(lambda _: _added)
+
+
+@formula
+def totals(mesh, c, parameters, shear):
+    """Integrals over the rod and largest values; write to ``shear`` (elements + 1,) ∫ ∂e/∂y ds up to mesh points.
+
+    Returns
+    -------
+    ∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, ½∫ω₂², ∫Δ wₗ |sin ξ₂|, ∫∂e/∂y′, ∫(1 − s) ∂e/∂y, max |ω₂|, |ξ₂|, |sin η|
+    """
+    rows = np.zeros((SHARED + 3 + TOTALS, len(mesh.per_element)))
+    found = rows[SHARED + 3 :]
+    uniforms = (parameters,)
+    shear[0] = 0.0
+    for element in range(mesh.starts.size):
+        at_points(mesh, c, element, rows)
+        _add(mesh.model, mesh.per_element, rows, uniforms, found)
+        shear[element + 1] = -found[1].sum() / parameters[CLEARANCE]
+    return (
+        found[0].sum(), found[1].sum(), found[2].sum(), found[3].sum(), found[4].sum(), found[5].sum(),
+        found[6].max(), found[7].max(), found[8].max(),
+    )  # fmt: skip
+
+
+def _pressed(rows: Any, parameters: Any) -> Sequence[Any]:
+    """Contact pressure, negative in contact, from s, y, y′, y″ and V."""
+    s, y, y1, y2, shear = (rows[i] for i in range(5))
+    _, _, gradient, _, hessian = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
+    y3 = (gradient[1] - shear - hessian[1][2] * y2) / hessian[2][2]
+    return (towards_lift_off(s, y, y1, y2, y3, parameters),)
+
+
+_pressure = on_lanes(lambda _: _pressed)
+
+
+@formula
+def free_ends(mesh):
+    """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
+    last = mesh.starts.size + len(mesh.local) - 2
+    loose_0 = turns_0 = loose_1 = turns_1 = True
+    for k in range(mesh.held.size):
+        i, tied = mesh.held[k], mesh.follows[k] != mesh.held[k]
+        if i == 0:
+            loose_0, turns_0 = tied, turns_0 and not tied
+        elif i == last:
+            loose_1, turns_1 = tied, turns_1 and not tied
+        elif i == 1:
+            turns_0 = False
+        elif i == last - 1:
+            turns_1 = False
+    return loose_0, turns_0, loose_1, turns_1
+
+
+@formula
+def _balance(mesh, knots, c, parameters, push, lever, basis, shear):
+    """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there."""
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
+    count, degree = shear.size, len(mesh.local) - 1
+    whole = shear[count - 1]
+    if loose_0 and loose_1:  # from the nearer end
+        for i in range(count):
+            if knots[degree + i] > 0.5:
+                shear[i] -= whole
+        return
+    start = 0.0
+    if loose_1:
+        start = -whole
+    elif not loose_0:
+        start = push - lever
+        for end, turns, sign in ((0.0, turns_0, 1.0), (1.0, turns_1, -1.0)):
+            if not turns:
+                span = find_span(knots, degree, end)
+                basis_derivatives(knots, span, degree, end, basis)
+                slope, bend = parameters[RAMP], 0.0
+                for a in range(degree + 1):
+                    slope += basis[1, a] * c[span - degree + a]
+                    bend += basis[2, a] * c[span - degree + a]
+                start += sign * bend / (1.0 - slope * slope)
+    for i in range(count):
+        shear[i] += start
+
+
+@formula
+def _shear_at(mesh, knots, c, parameters, shear, span, s, basis):
+    """V at a place: ∂e/∂y is integrated from the last mesh point, with the Gauss points of the element moved there."""
+    degree, count = len(mesh.local) - 1, len(mesh.per_element)
+    element = span - degree
+    low, width = knots[span], knots[span + 1] - knots[span]
+    share, total = (s - low) / width, shear[element]
+    if share == 1.0:
+        return shear[element + 1]
+    for i in range(count if share > 0.0 else 0):
+        place = low + (mesh.points[element * count + i] - low) * share
+        basis_derivatives(knots, span, degree, place, basis)
+        y = parameters[RAMP] * place
+        for a in range(degree + 1):
+            y += basis[0, a] * c[element + a]
+        rate = parameters[LATERAL_WEIGHT] * np.sin(y / parameters[CLEARANCE])
+        total += mesh.weights[element * count + i] * share * rate
+    return total
+
+
+@formula
+def derivative(basis, order, c, first):
+    """A derivative (1, 2 …) of a spline from its basis functions, and the size of what round-off enters: its terms.
+
+    The functions' derivatives add up to zero: differences of the coefficients from one of them serve as well.
+    """
+    value = size = 0.0
+    for a in range(basis.shape[1]):
+        value += basis[order, a] * (c[first + a] - c[first])
+        size += abs(basis[order, a] * c[first + a])
+    return value, size
+
+
+@formula
+def balanced(mesh, knots, c, parameters, push, lever, shear, places, values, noise):
+    """Write to ``values`` (k,) the contact pressure at ``places`` (k,), and to ``noise`` (k,) what round-off leaves.
+
+    ``shear`` are the integrals of ∂e/∂y up to mesh points that :func:`totals` writes, ``push`` and ``lever`` the
+    integrals that it returns; V takes the place of the former.
+    """
+    degree = len(mesh.local) - 1
+    basis, known, out = np.empty((3, len(mesh.local))), np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
+    uniforms = (parameters,)
+    _balance(mesh, knots, c, parameters, push, lever, basis, shear)
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
+    for i in range(places.size):
+        s = places[i]
+        span = find_span(knots, degree, s)
+        force = _shear_at(mesh, knots, c, parameters, shear, span, s, basis)
+        basis_derivatives(knots, span, degree, s, basis)
+        y = 0.0
+        for a in range(degree + 1):
+            y += basis[0, a] * c[span - degree + a]
+        slope, size_1 = derivative(basis, 1, c, span - degree)
+        bend, size_2 = derivative(basis, 2, c, span - degree)
+        if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
+            bend = size_2 = 0.0
+        elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
+            slope = size_1 = 0.0
+        for k in range(5):
+            known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force
+            known[2, k], known[3, k] = slope + parameters[RAMP], bend
+        known[2, 1] -= CHANGE * size_1
+        known[2, 2] += CHANGE * size_1
+        known[3, 3] -= CHANGE * size_2
+        known[3, 4] += CHANGE * size_2
+        _pressure(mesh.model, CHANGED, known, uniforms, out)
+        values[i] = out[0, 0]
+        noise[i] = COEFFICIENT_NOISE / (2.0 * CHANGE) * (abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3]))
+
+
+@kernel
+def balanced_pressures(mesh, knots, c, parameters, places):
+    """Contact pressure (k,) at ``places`` (k,)."""
+    shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
+    found = totals(mesh, c, parameters, shear)
+    balanced(mesh, knots, c, parameters, found[4], found[5], shear, places, values, noise)
+    return values

@@ -1,0 +1,51 @@
+"""How far the branch of the first mode goes: to the loads that are named, or to where it ends, and why there."""
+
+from __future__ import annotations
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import extended
+from rodwell.analysis.branch.special import END, LIFT_OFF
+from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import minus
+from rodwell.quantities.tolerance import LARGEST_FORCE
+
+UNSOLVED = "the branch passes this load, but the state there could not be computed"
+
+
+def followed_on(branch: Branch, until: float) -> Branch:
+    """Return the branch, followed on down to the end force ``until`` in B/L² if it does not go so far yet.
+
+    A branch that had to end before its own end comes back as it is.
+    """
+    ended = branch.ended_because not in (END, LIFT_OFF)
+    until = max(until, -LARGEST_FORCE)
+    return branch if ended or until >= branch.force[-1] else extended(branch, until)
+
+
+def passes(branch: Branch, force: float) -> bool:
+    """Whether the branch has a state at an end force in B/L²."""
+    return bool(branch.force.min() <= force <= branch.force.max())
+
+
+def out_of_reach(branch: Branch, force: float) -> bool:
+    """Whether the branch had to end before an end force in B/L², tension positive.
+
+    False where the branch was not followed towards it: on the side of tension, and beyond lift-off if it was to end
+    there.
+    """
+    wanted = force < branch.force[0] and not passes(branch, force)
+    return bool(wanted and branch.ended_because != LIFT_OFF)
+
+
+def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
+    """How far the branch goes, in the reader's units, and why it ends."""
+    lowest, number = branch.reach[0], 1 if branch.mode is None else branch.mode.number
+    text = minus(f"{lowest:.6g} B/L²") if scales is None else scales.text(lowest, "force", 6)
+    return (
+        f"the branch of mode {number} goes no lower than {text} and ends there or on its way back ({_ending(branch)})"
+    )
+
+
+def _ending(branch: Branch) -> str:
+    """Why a branch ends, in words."""
+    return "its state there could not be followed" if branch.ended_because == END else branch.ended_because
