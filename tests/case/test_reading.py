@@ -14,7 +14,7 @@ import pytest
 
 from rodwell.case.case import LONGEST_TITLE, Case
 from rodwell.case.catalogue import key_of, read_catalogue
-from rodwell.case.explain import MOST_PROBLEMS
+from rodwell.case.checks.explain import MOST_PROBLEMS
 from rodwell.case.file import LARGEST_CASE, LARGEST_CATALOGUE, parsed, printable_data, read_case
 from rodwell.case.uncertain import split
 from rodwell.errors import InputError, printable

@@ -13,12 +13,12 @@ from pydantic import ValidationError
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
+from rodwell.case.checks.explain import SECTIONS, explain
 from rodwell.case.checks.plausible import implausible
 from rodwell.case.checks.said import gauge_facts, in_users_words
 from rodwell.case.checks.signs import check_loads
 from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
-from rodwell.case.explain import SECTIONS, explain
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
@@ -183,7 +183,9 @@ class Case(Shown):
             parsed = schema.CaseFile.model_validate(dict(data))
         except ValidationError as error:
             raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
-        return _assemble(parsed, data, source, text, _catalogue(parsed, folder))
+        files = parsed.catalogue
+        catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
+        return _assemble(parsed, data, source, text, catalogue)
 
 
 def _uncertain(
@@ -205,10 +207,6 @@ def _uncertain(
 def _given(data: Mapping[str, Any]) -> dict[str, Any]:
     """The sections as they were written."""
     return {name: values for name, values in data.items() if name in SECTIONS}
-
-
-def _catalogue(parsed: schema.CaseFile, folder: Path) -> Catalogue:
-    return package_catalogue() if parsed.catalogue is None else read_catalogue(parsed.catalogue.files, folder)
 
 
 def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from rodwell.case import schema
-from rodwell.case.explain import SECTIONS, plain, unknown
+from rodwell.case.checks.explain import SECTIONS, plain, unknown
 from rodwell.case.kinds import Several
 from rodwell.errors import InputError
 from rodwell.quantities.units import KINDS

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.case.explain import LIST, TAPER, TAPERED
+from rodwell.case.checks.explain import LIST, TAPER, TAPERED
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import in_unit_of

@@ -8,7 +8,7 @@ import re
 from pydantic import BaseModel, ValidationError
 
 from rodwell.case import schema
-from rodwell.case.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
+from rodwell.case.checks.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
 from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
