@@ -54,6 +54,7 @@ PURPOSE = {
     "problem": "the dimensionless problem",
     "physics": "no solver",
     "physics/on_wall": "energy,\nfields,\ncontact,\nframes",
+    "physics/off_wall": "two\nlateral\nfields,\nlinear",
     "physics/exact": "closed\nforms of\nloads and\ncoils",
     "numerics": "no rod",
     "numerics/continuation": "steps, events",
@@ -87,7 +88,7 @@ WAY = (
 COLUMNS = 10.5, 11.85, 13.9
 WIDTH, GAP, PAD = 9.6, 0.16, 0.14
 ROW, BETWEEN, INSET, LINE = 0.44, 0.2, 0.13, 0.21
-SHARES = {"analysis": 2.5, "numerics": 1.7, "physics": 1.0, "analysis/curves": 1.65}
+SHARES = {"analysis": 2.5, "numerics": 1.7, "physics": 1.15, "analysis/curves": 1.65}
 """Widths of rooms that stand side by side, where they are not equal."""
 
 ROOM, INNER, DATA = "#e3edf7", "#ffffff", "#fdf1e7"

@@ -1,4 +1,4 @@
-"""Every branch of a horizontal rod: the bifurcation diagram of the paper's Fig. 3(c).
+"""How branches of a horizontal rod hang together: the bifurcation diagram of the paper's Fig. 3(c).
 
 Four pairs of branches leave the straight rod. The orange and turquoise ones leave those branches: shapes
 without symmetry. Thick is stable, pale is off the wall.

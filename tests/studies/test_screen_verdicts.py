@@ -16,10 +16,13 @@ import rodwell
 from rodwell import Case, InputError, Survey
 from rodwell.analysis.loads.by_inclination import Loads
 from rodwell.cli.main import cli
+from rodwell.cli.screen import _stations
+from rodwell.plots.survey import plot_screening
 from rodwell.studies.sweep.varied import varied_inputs
 from rodwell.studies.well import verdict
 from rodwell.studies.well.plain import screening_dict
-from rodwell.studies.well.tables import sentences
+from rodwell.studies.well.screening import BESIDE, Beside
+from rodwell.studies.well.tables import screening_table, sentences
 
 ROOT = Path(__file__).parents[2]
 DATA: dict[str, Any] = {
@@ -69,6 +72,21 @@ def screening(**changes: Any) -> rodwell.Screening:
     return rodwell.Screening(
         case, survey, string, critical, Loads(lift, errors, {}, 4, 0.0), formulas, force, {60.0: 0.0}
     )
+
+
+def test_one_more_formula_beside_the_loads_has_a_column_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On the terminal, in the file and in the figure: none of the others shifts."""
+    found = screening(force=[10, 20, 30, 40])
+    monkeypatch.setitem(BESIDE, "fourth", Beside("A fourth, sinusoidal", "fourth"))
+    found.formulas["fourth"] = np.full(4, 77e3)
+    shown: Any = _stations(found)
+    cells = {str(column.header): next(iter(column.cells)) for column in shown.columns}
+    assert (cells["He–K."], cells["fourth"], cells["the string"], cells["used"]) == ("95", "77", "10", "10 %")
+    table = screening_table(found)
+    row = dict(zip(table.columns, table.rows[0], strict=True))
+    assert (row["A fourth, sinusoidal [kN]"], row["compression of the string [kN]"]) == (77.0, 10.0)
+    labels = plot_screening(found).axes[1].get_legend_handles_labels()[1]
+    assert "A fourth, sinusoidal" in labels
 
 
 NAN = math.nan

@@ -1,4 +1,4 @@
-"""``rodwell diagram`` and ``rodwell curve``: all branches of a problem, and boundaries in two parameters."""
+"""``rodwell diagram`` and ``rodwell curve``: branches of a problem, and boundaries in two parameters."""
 
 from __future__ import annotations
 
@@ -118,7 +118,9 @@ def _print_diagram(result: Diagram) -> None:
             value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
             remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
             click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}{remark}")
-        if not branch.reached_end or branch.origin.parent:
+        if branch.closed:
+            click.echo("  closed: the end is where it began")
+        elif not branch.reached_end or branch.origin.parent:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
         click.echo(f"not explored: {line}")

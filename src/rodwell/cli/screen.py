@@ -178,11 +178,13 @@ def _stations(screening: Screening) -> object:
     from rich.markup import escape  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
+    from rodwell.studies.well.screening import BESIDE  # noqa: PLC0415
     from rodwell.studies.well.verdict import units  # noqa: PLC0415
 
     depth, metre, force, newton = units(screening)
     table = Table(box=None, pad_edge=False, header_style="bold")
-    heads = [f"MD [{depth}]", "incl.", f"buckles [{force}]", "lifts off", "Dawson–P.", "Chen", "He–K."]
+    heads = [f"MD [{depth}]", "incl.", f"buckles [{force}]", "lifts off"]
+    heads += [BESIDE[key].head for key in screening.formulas]
     used = screening.utilisation
     heads += [] if used is None else ["the string", "used"]
     for head in heads:

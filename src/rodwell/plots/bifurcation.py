@@ -36,8 +36,8 @@ ORDINATES = {
 }
 """What can be drawn against the end compression: name in the nomenclature and label."""
 
-HOLDS_ANGLE = ("clamped", "guided")
-"""Ends that bend the rod: at others ω₂ vanishes."""
+HOLDS_SLOPE = ("clamped", "guided")
+"""Ends that hold the slope y', and so bend the rod: at others ω₂ vanishes."""
 
 
 STRAIGHT_END = 1e-6
@@ -53,9 +53,9 @@ def telling(branches: Sequence[Branch]) -> Measured:
     if problem.turns:
         return Measured.ENERGY
     last, first = (max(abs(b.numbers(at)).max() for b in branches) for at in (Measured.OMEGA2_1, Measured.OMEGA2_0))
-    if problem.ends[1] in HOLDS_ANGLE and last >= STRAIGHT_END * first:
+    if problem.ends[1] in HOLDS_SLOPE and last >= STRAIGHT_END * first:
         return Measured.OMEGA2_1
-    return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_ANGLE else Measured.SHORTENING
+    return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_SLOPE else Measured.SHORTENING
 
 
 def plot_bifurcation(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any
 
 import matplotlib as mpl
@@ -10,16 +11,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN
-from rodwell.studies.well.screening import Screening
+from rodwell.studies.well.screening import BESIDE, Screening
 from rodwell.studies.well.verdict import units
 
 EXACT, LIFT_OFF = MODES[0], MODES[3]
-LINES = {
-    "dawson_paslay": ("Dawson–Paslay, sinusoidal", MODES[1], (0, (4, 2))),
-    "chen_lin_cheatham": ("Chen–Lin–Cheatham, helical", MODES[2], (0, (4, 2))),
-    "he_kyllingstad": ("He–Kyllingstad, sinusoidal, curved", MODES[4], (0, (1, 1.3))),
-}
-"""Label, colour and dashes of each formula."""
+LINES = ((MODES[1], (0, (4, 2))), (MODES[2], (0, (4, 2))), (MODES[4], (0, (1, 1.3))))
+"""Colours and dashes of the formulas, in turn."""
 
 
 def plot_screening(screening: Screening) -> Figure:
@@ -59,8 +56,8 @@ def _limit_lines(ax: Any, screening: Screening, md: Any, newton: float) -> None:
         values, errors = loads.values / newton, loads.errors / newton
         ax.fill_betweenx(md, values - errors, values + errors, color=colour, alpha=0.25, lw=0)
         ax.plot(values, md, color=colour, lw=2.0, label=label)
-    for key, (label, colour, dashes) in LINES.items():
-        ax.plot(screening.formulas[key] / newton, md, color=colour, lw=1.3, ls=dashes, label=label)
+    for key, (colour, dashes) in zip(screening.formulas, cycle(LINES), strict=False):
+        ax.plot(screening.formulas[key] / newton, md, color=colour, lw=1.3, ls=dashes, label=BESIDE[key].name)
 
 
 def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:

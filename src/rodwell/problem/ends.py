@@ -16,6 +16,10 @@ leaves the wall there at once, so beyond critical loads they make no sense for a
 HOLD_ANGLE = ("clamped", "pinned", "ball")
 """End conditions that hold y."""
 
+WITH_Y_HELD = {"guided": "clamped", "free": "pinned", "loose": "ball"}
+"""The others, each with the one that holds y besides: what picks one of the equal states of a rod that can be turned
+around the cylinder as a whole."""
+
 
 def checked_ends(ends: object) -> tuple[str, str]:
     """Return the end conditions at s = 0 and s = 1 from a pair or a text like "clamped-pinned", or raise."""

@@ -36,6 +36,10 @@ class Scales:
         """A number in units B = L = 1 as text in the units of ``system``."""
         return self.system.text(value * self.factor(dimension), dimension, digits)
 
+    def beside_error(self, number: Value, dimension: str, digits: int = 6) -> str:
+        """A number in units B = L = 1 as text for a table that has its error, in the units of ``system``."""
+        return self.system.beside_error(number.times(self.factor(dimension)), dimension, digits)
+
     def si(self, number: Value, dimension: str) -> dict[str, float | str]:
         """A number in units B = L = 1 with its error in SI units, for JSON."""
         return _plain(number.times(self.factor(dimension)), SI_UNITS[dimension])

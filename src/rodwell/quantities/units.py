@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from rodwell.quantities.text import minus, plain, prefix_for, readable
+from rodwell.quantities.text import minus, plain, prefix_for, readable, supported
+from rodwell.quantities.value import Value
 from rodwell.quantities.written import (
     DEFINITIONS,
     NUMBER,
@@ -239,6 +240,11 @@ class System:
             return readable(value, text, digits)
         unit, text = self.unit(dimension, value)
         return minus(f"{plain(value / unit, digits)} {text if text != '1' else ''}".rstrip())
+
+    def beside_error(self, number: Value, dimension: str, digits: int = 6) -> str:
+        """Return a :class:`Value` in SI as text for a table that has its error: with the digits that this supports."""
+        count = supported(number, digits)
+        return self.text(number.value if count else 0.0, dimension, max(count, 1))
 
 
 SI = System()

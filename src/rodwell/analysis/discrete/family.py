@@ -9,7 +9,7 @@ from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.model import RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
-from rodwell.problem.ends import OFF_WALL_ENDS, refuse_off_wall
+from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -41,7 +41,7 @@ def spline_ends(problem: Problem) -> Ends:
     """
     first, last = problem.ends
     if problem.lateral_weight == 0.0 and not problem.holds_angle:
-        first = {"guided": "clamped", "free": "pinned", "loose": "ball"}[first]
+        first = WITH_Y_HELD[first]
     (held_0, tied_0), (held_1, tied_1) = HELD[first], HELD[last]
     return Ends((held_0, held_1), (tied_0, tied_1))
 

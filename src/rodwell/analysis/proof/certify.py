@@ -20,7 +20,7 @@ from rodwell.analysis.proof.inertia import EnclosedRod
 from rodwell.analysis.proof.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
-from rodwell.problem.ends import refuse_off_wall
+from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem, ends_text
 
 Ball = Any
@@ -153,7 +153,7 @@ def _rod(problem: Problem, x: Ball) -> EnclosedRod:
     """The rod at the end force −x, at the present precision."""
     weight, clearance, ends = weights(problem), ball(exact(problem.clearance)), problem.ends
     if problem.lateral_weight == 0.0 and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
-        ends = {"guided": "clamped", "free": "pinned"}[ends[0]], ends[1]
+        ends = WITH_Y_HELD[ends[0]], ends[1]
     foundation = weight[1] / clearance
     return EnclosedRod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
 

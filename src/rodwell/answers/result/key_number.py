@@ -8,7 +8,6 @@ from typing import Any
 from rodwell.analysis.straight.critical import EULER
 from rodwell.case.case import Case
 from rodwell.quantities.names import SI_UNITS, UNITS
-from rodwell.quantities.text import supported
 from rodwell.quantities.units import SI
 from rodwell.quantities.value import Value
 
@@ -46,10 +45,7 @@ class KeyNumber:
 
     def text(self, case: Case, digits: int = 6) -> str:
         """Value in the case's units with the digits that its error supports, or nothing for one without dimensions."""
-        if case.scales is None:
-            return ""
-        count = supported(self.number, digits)
-        return case.scales.text(self.value if count else 0.0, self.dimension, max(count, 1))
+        return "" if case.scales is None else case.scales.beside_error(self.number, self.dimension, digits)
 
     def as_dict(self, case: Case) -> dict[str, Any]:
         """Everything about the number, for JSON."""

@@ -7,8 +7,10 @@ from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import local_sentence
-from rodwell.quantities.text import minus, plain
+from rodwell.answers.words.wording import quantity
+from rodwell.quantities.text import amount, minus, plain, supported
 from rodwell.quantities.units import SI, System
+from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Block, Grid, Picture, ReportSection, Words
 from rodwell.strength.limits import LIFTS_OFF, Limit
 from rodwell.strength.loaded import LoadedRod
@@ -116,12 +118,30 @@ def _system(a: Assessment) -> System:
     return SI if a.case.scales is None else a.case.scales.system
 
 
+_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "length": "L"}
+
+
 def _text(a: Assessment, value: float, dimension: str, digits: int = 5) -> str:
     """A number in units B = L = 1 in those of the case."""
     if a.case.scales is not None:
         return a.case.scales.text(value, dimension, digits)
-    unit = {"force": "B/L²", "force_per_length": "B/L³", "length": "L"}[dimension]
-    return minus(f"{value:.{digits}g} {unit}")
+    return minus(f"{value:.{digits}g} {_UNITS[dimension]}")
+
+
+def _sized(a: Assessment, number: Value, dimension: str, digits: int = 4) -> str:
+    """The same with the digits that its error allows, where that is not shown."""
+    scales = a.case.scales
+    if scales is None:
+        return f"{amount(number, digits)} {_UNITS[dimension]}"
+    return quantity(scales.system, number.times(scales.factor(dimension)), dimension, digits)
+
+
+def _beside_error(a: Assessment, number: Value, dimension: str) -> str:
+    """The same with the digits that its error supports, where that is shown."""
+    if a.case.scales is not None:
+        return a.case.scales.beside_error(number, dimension)
+    count = supported(number, 6)
+    return minus(f"{number.value:.{count}g} {_UNITS[dimension]}") if count else "0"
 
 
 def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
@@ -139,11 +159,11 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     cylinder = a.cylinder(state)
     used += [] if cylinder is None else [cylinder.utilisation]
     return row | {
-        "contact": _text(a, state.contact.value, "force_per_length", 4),
-        "total": _text(a, state.total_contact.value, "force", 4),
-        "shortening": _text(a, state.shortening.value, "length", 4) if not state.straight else "0",
-        "stress": "" if stress is None else _system(a).text(stress.value, "stress", 4),
-        "safety": "" if stress is None or stress.safety is None else f"{stress.safety.value:.3g}",
+        "contact": _sized(a, state.contact, "force_per_length"),
+        "total": _sized(a, state.total_contact, "force"),
+        "shortening": _sized(a, state.shortening, "length") if not state.straight else "0",
+        "stress": "" if stress is None else quantity(_system(a), stress, "stress"),
+        "safety": "" if stress is None or stress.safety is None else amount(stress.safety, 3),
         "used": f"{100.0 * max(used):.3g} %" if used else "",
     }
 
@@ -160,7 +180,7 @@ def _window_text(a: Assessment) -> str:
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
     percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
-    text = f"From buckling to {end.name} {_text(a, width.value, 'force')} of compression can be added{percent}"
+    text = f"From buckling to {end.name} {_sized(a, width, 'force', 5)} of compression can be added{percent}"
     text += "; the buckled shape lies on the wall and is stable all the way (under dead loads)"
     limit = a.limiting
     return text + ("." if limit is None else f". What limits first is {limit.name}.")
@@ -180,8 +200,8 @@ def _limits(a: Assessment) -> Grid:
         rows.append(
             (
                 "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
-                _text(a, limit.load.value, "force", 6),
-                _text(a, limit.load.value - weight, "force", 6),
+                _beside_error(a, limit.load, "force"),
+                _beside_error(a, Value(limit.load.value - weight, limit.load.error), "force"),
                 _error(_text(a, limit.load.error, "force", 1)),
                 note.removeprefix("; "),
             )
@@ -206,12 +226,12 @@ def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
     assert stress is not None
     row = (
         f"{state.name}, {'straight' if state.straight else 'buckled'}",
-        system.text(stress.value, "stress", 6),
+        system.beside_error(stress, "stress"),
         _error(system.text(stress.error, "stress", 1)),
         f"s/L = {stress.s:.4g}, {stress.fibre}",
         *(system.text(part, "stress") for part in (stress.axial, stress.bending, stress.torsion)),
     )
-    return row if stress.safety is None else (*row, f"{stress.safety.value:.4g}")
+    return row if stress.safety is None else (*row, amount(stress.safety))
 
 
 def _formula(a: Assessment, row: FormulaRow) -> tuple[str, ...]:

@@ -154,7 +154,7 @@ def special(branches: Iterable[Branch], scales: Scales | None) -> list[dict[str,
                 {
                     "mode": branch.mode.number,
                     "kind": KINDS[point.kind],
-                    "physical": "" if scales is None else scales.text(point.force, "force", 6),
+                    "physical": "" if scales is None else scales.beside_error(point.load, "force"),
                     "plain": number(point.load),
                     "error": "" if point.kind == "end" else short(point.error),
                     "index": f"{point.index_before} → {point.index_after}"

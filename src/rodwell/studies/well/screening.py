@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,12 +29,20 @@ LIFT_OFF_PRECISION = Precision(1e-2, 4)
 """Relative errors to which loads are interpolated where there are many inclinations; lift-off jumps where the place
 that lifts off changes."""
 
+
+class Beside(NamedTuple):
+    """How a formula of practice that is set beside the exact loads is called: in full, and at the head of a column."""
+
+    name: str
+    head: str
+
+
 BESIDE = {
-    "dawson_paslay": "Dawson–Paslay, sinusoidal",
-    "chen_lin_cheatham": "Chen–Lin–Cheatham, helical",
-    "he_kyllingstad": "He–Kyllingstad, sinusoidal, curved",
+    "dawson_paslay": Beside("Dawson–Paslay, sinusoidal", "Dawson–P."),
+    "chen_lin_cheatham": Beside("Chen–Lin–Cheatham, helical", "Chen"),
+    "he_kyllingstad": Beside("He–Kyllingstad, sinusoidal, curved", "He–K."),
 }
-"""Formulas of practice that are set beside the exact loads, by key."""
+"""Formulas of practice that are set beside the exact loads, by key, in the order of columns."""
 
 Progress = Callable[[str, float], None]
 

@@ -37,8 +37,8 @@ def screening_table(screening: Screening) -> Table:
         f"exact lift-off compression [{force}]": screening.lift_off.values / newton,
         f"± error of lift-off [{force}]": screening.lift_off.errors / newton,
     }
-    for key, name in BESIDE.items():
-        columns[f"{name} [{force}]"] = screening.formulas[key] / newton
+    for key, beside in BESIDE.items():
+        columns[f"{beside.name} [{force}]"] = screening.formulas[key] / newton
     columns[f"length of the local rod [{depth}]"] = screening.lengths / metre
     if screening.compression is not None and screening.utilisation is not None:
         columns[f"compression of the string [{force}]"] = screening.compression / newton

@@ -55,6 +55,15 @@ def test_diagram_in_words_and_its_netcdf(place: Path) -> None:
         assert set(data["branch"].values) == {1, 2}
 
 
+def test_a_closed_loop_is_told_and_what_was_searched(place: Path) -> None:
+    done = run("diagram", "--weight", "15", "--alpha", "89", "--until", "-700", "--search", "unfolding")
+    assert done.exit_code == 0, done.output
+    loop = done.output.split("\nisolated 1")[1].split("\n\n")[0]
+    assert "closed: the end is where it began" in loop
+    assert "Searched: connected to the straight rod; unfolded from alpha = 90" in done.output
+    assert "There may be other branches." in done.output
+
+
 def test_diagram_continued_in_the_inclination(place: Path) -> None:
     from rodwell import Problem, follow
     from rodwell.analysis.discrete.measures import Measured

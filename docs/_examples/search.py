@@ -1,0 +1,12 @@
+import rodwell
+
+problem = rodwell.Problem(weight=15, alpha=89)  # both ends clamped, Δ/L = 0.01
+result = rodwell.diagram(problem, until=-700, search=("unfolding", "deflation"))
+for line in result.searched:
+    print("searched:", line)
+loop = next(branch for branch in result if branch.closed)
+print(loop.name, "ended because", loop.ended_because)
+for p in loop.special_points:
+    print(f"  {p.kind}: F = {p.force:.4f} ± {p.error:.0e}, index {p.index_before} → {p.index_after}")
+for state in loop.states_at(-500.0):
+    print(f"F = {state.force:g}: ω₂(1) = {state.fields(2)['omega2'][-1]:.4f}, index {state.stability_index}")
