@@ -11,8 +11,8 @@ from click.testing import CliRunner
 from rodwell import InputError
 from rodwell.case import schema
 from rodwell.case.checks.explain import SECTIONS
-from rodwell.case.keys import TOP, Key, every_key, keys_named, keys_of
 from rodwell.case.checks.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
+from rodwell.case.keys import TOP, Key, every_key, keys_named, keys_of
 from rodwell.cli.main import cli
 from rodwell.quantities.units import KINDS, to_si
 

@@ -14,7 +14,7 @@ from rodwell.analysis.discrete.pressures import (
     free_ends,
     totals,
 )
-from rodwell.compiling.kernels import kernel
+from rodwell.compiling.kernels import direct, kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
@@ -106,6 +106,8 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     return out
 
 
+_quick_numbers, _quick_maxima = direct(_numbers), direct(maxima)
+
 LINKS = tuple((int(Measured.P_MAX), STEEPEST + 1 + i) for i in range(len(PROBES)))
 """The error of the largest contact pressure is not much below that of the pressure at some places that stay
 where they are."""
@@ -137,8 +139,8 @@ def measure(family: Family, state: State) -> FloatArray:
     """
     space, p = state.space, family.parameters(state.lam)
     wait_for("maxima")
-    places, _, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
-    numbers = _numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, places, lowest)
+    places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, places, lowest)
     return np.asarray(numbers)
 
 
@@ -148,5 +150,5 @@ def pressure_maxima(
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     wait_for("maxima")
-    places, _, lowest = maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
     return places, np.asarray(balanced_pressures(family.mesh, space.knots, state.c, p, places)), float(lowest)
