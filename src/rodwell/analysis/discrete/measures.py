@@ -31,6 +31,10 @@ NEAR_THE_TOP = 0.05
 HALF = 0.5
 """Part of the tolerance to which the highest pressure is held: the certificate looks at the pressure everywhere."""
 
+SPARE = 0.25
+"""Part of the same to which the pressure at the :data:`PROBES` is held: as a field it has the spline's own third
+derivative, which is that much less accurate."""
+
 SOFT = 2e-12
 """Round-off in what a soft direction of the rod moves, relative to its scale: the angle at mid-length, the torque."""
 
@@ -96,9 +100,9 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
     numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
     for k in range(len(PROBES)):
-        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], scales[Measured.P_MAX]
+        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], SPARE * scales[Measured.P_MAX]
         noise[STEEPEST + 1 + k] = left[count + k]
-    for k in range(STEEPEST):
+    for k in range(scales.size):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
     noise[Measured.P_MAX] = np.max(left[:count])
