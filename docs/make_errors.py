@@ -92,8 +92,7 @@ LOADS = ("p_max", "lift_off", "touch_down", "fold", "branch_point")
 
 
 def _share(part: dict[str, Any]) -> str:
-    above = "all" if part["above"] == 0 else f"{100.0 * part['within']:.2f} %"
-    return above
+    return "all" if part["above"] == 0 else f"{100.0 * part['within']:.2f} %"
 
 
 def _cells(part: dict[str, Any]) -> tuple[str, ...]:
@@ -110,11 +109,10 @@ def sentences() -> str:
     data = result()
     loads, everything = data["special_points_and_largest_pressures"], data["all"]
     return (
-        f"{data['problems']} problems, seed {data['seed']}, {data['date']}, {data['machine']}. Of {loads['numbers']} "
-        f"located loads and largest pressures {loads['above'] or 'none'} {'is' if loads['above'] < 2 else 'are'} farther "
-        f"off than estimated; the largest true error is {loads['worst']:.2f} times its estimate, and in the median the "
-        f"estimate is {loads['median_caution']:.0f} times too large. Of all {everything['numbers']} numbers "
-        f"{everything['above'] or 'none'} {'is' if everything['above'] < 2 else 'are'}, the worst by a factor of "
+        f"{data['problems']} problems, seed {data['seed']}, {data['date']}, {data['machine']}. Farther off than "
+        f"estimated: {loads['above']} of {loads['numbers']} located loads and largest pressures, the worst "
+        f"{loads['worst']:.2f} times its estimate; in the median the estimate is {loads['median_caution']:.0f} "
+        f"times too large. Of all {everything['numbers']} numbers: {everything['above']}, the worst by a factor of "
         f"{everything['worst']:.2f}.\n"
     )
 

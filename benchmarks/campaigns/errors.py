@@ -2,7 +2,7 @@
 
     python benchmarks/campaigns/errors.py [--problems 2000] [--seed 16] [--minutes M]
 
-Every problem is drawn from its own seed and followed; its lift-offs, folds and branch points, and the seven numbers
+Each problem is drawn from its own seed and followed; its lift-offs, folds and branch points, and the seven numbers
 of its last state, are computed once more by a second method in extended precision (``extended.py``,
 ``extended_rod.py``). When ``--minutes`` have passed, what was done stands in ``errors.jsonl``, and the next run goes on
 there; ``errors.json`` is written each time and says how many problems it stands on.

@@ -99,12 +99,12 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
     numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
+    for k in range(STEEPEST):
+        if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
+            scales[k] = 1.0
     for k in range(len(PROBES)):
         numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], SPARE * scales[Measured.P_MAX]
         noise[STEEPEST + 1 + k] = left[count + k]
-    for k in range(scales.size):
-        if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
-            scales[k] = 1.0
     noise[Measured.P_MAX] = np.max(left[:count])
     for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
         noise[which] = SOFT * scales[which]
