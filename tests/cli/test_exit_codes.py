@@ -22,7 +22,7 @@ from rodwell.report.reports.case import case_report
 ROD = ["--weight", "15", "--alpha", "90", "--rtol", "1e-4"]
 CASE = "[dimensionless]\nweight = 15\nalpha = 90\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
 ROD_AND_TOLERANCE = {"dimensionless": {"weight": 15, "alpha": 90}, "analysis": {"modes": 1, "rtol": 1e-4}}
-STUDY = CASE.replace("alpha = 90", "alpha = [89, 90]")
+STUDY = "study = true\n" + CASE.replace("alpha = 90", "alpha = [89, 90]")
 
 
 @pytest.fixture
