@@ -96,7 +96,8 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
     numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
     for k in range(len(PROBES)):
-        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], np.inf
+        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], scales[Measured.P_MAX]
+        noise[STEEPEST + 1 + k] = left[count + k]
     for k in range(STEEPEST):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
