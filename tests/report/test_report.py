@@ -22,7 +22,9 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.answers.words.advice import statuses
 from rodwell.cli.main import main
 from rodwell.plots.bifurcation import telling
+from rodwell.quantities.names import UNITS
 from rodwell.report.folders.case import write_results
+from rodwell.report.reports import texts
 
 TITLE = 'A <script>alert("1")</script> & *bold* #pagebreak() $x$ pipe'
 PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
@@ -233,3 +235,11 @@ def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) 
         assert made.pages[0].mediabox.height == pytest.approx(792, abs=1)
         assert "effectiveforce" in "".join(made.pages[0].extract_text().split())
         assert made.pages[1].extract_text().startswith("What the numbers mean")
+
+
+def test_every_dimension_of_the_nomenclature_has_a_unit_that_is_read() -> None:
+    """The rotation of a twisted end is an angle: a case with twist has it among its key numbers."""
+    assert set(texts.PLAIN_UNITS) == set(UNITS)
+    data = {"dimensionless": {"weight": 15, "alpha": 90}, "load": {"twist": 2}, "analysis": {"modes": 1}}
+    twisted = rodwell.answer(rodwell.Case.from_dict(data))
+    assert "rad" in {row["plain"].split(" ")[-1] for row in texts.rows(twisted.key_numbers.values(), twisted.case)}

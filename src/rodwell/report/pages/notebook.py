@@ -22,8 +22,6 @@ from rodwell.report.reports.case import key_numbers
 from rodwell.report.reports.content import Grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
 
-UNITS = {**PLAIN_UNITS, "energy": "B/L", "curvature": "1/L", "angle": "rad"}
-
 FORCE = "F is the end force at s = 1, tension positive; units B = L = 1 where no other stand."
 
 PARAMETERS = {
@@ -106,7 +104,7 @@ def _(result: Solution) -> Card:
     for which in Measured:
         known = result.number(which)
         quantity = QUANTITIES[ORDINATES[which][0]]
-        unit = UNITS[quantity.dimension]
+        unit = PLAIN_UNITS[quantity.dimension]
         meaning = quantity.meaning.partition(";")[0]
         rows.append((meaning, quantity.symbol, number(known), short(known.error), unit))
     lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))

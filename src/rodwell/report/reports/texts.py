@@ -14,7 +14,11 @@ from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus, supported
 from rodwell.quantities.value import Value
 
-PLAIN_UNITS = {"force": "B/L²", "force_per_length": "B/L³", "moment": "B/L", "length": "L", "stress": "B/L⁴", "1": ""}
+PLAIN_UNITS = {
+    "1": "", "angle": "rad", "length": "L", "curvature": "1/L", "force": "B/L²", "force_per_length": "B/L³",
+    "moment": "B/L", "energy": "B/L", "stress": "B/L⁴",
+}  # fmt: skip
+"""Units B = L = 1 as they are read, for every dimension of the nomenclature."""
 
 
 def number(known: Value) -> str:
