@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from types import SimpleNamespace
 
 import pytest
 
@@ -59,10 +60,15 @@ def test_without_permission_to_start_processes_there_is_no_helper(no_helper, mon
 
 def test_helper_starts_on_the_first_run_only(no_helper, monkeypatch):
     begun = []
+    fresh = SimpleNamespace(overloads={}, stats=first_run.newton.stats)
+    monkeypatch.setattr(first_run, "newton", fresh)
     monkeypatch.setattr(second_process, "begin", begun.append)
     monkeypatch.setattr(first_run, "done", lambda: False)
     first_run.begin()
     assert begun == ["rodwell.analysis.discrete.first_run"]
     monkeypatch.setattr(first_run, "done", lambda: True)
+    first_run.begin()
+    monkeypatch.setattr(first_run, "done", lambda: False)
+    fresh.overloads["its types"] = "machine code"
     first_run.begin()
     assert len(begun) == 1

@@ -59,8 +59,8 @@ def done() -> bool:
 
 
 def begin() -> None:
-    """Start the second process, on the first run."""
-    if newton.stats.cache_path is not None and not done():
+    """Start the second process, on the first run; where the largest kernel is at hand already, nothing is asked."""
+    if not newton.overloads and newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)
 
 
