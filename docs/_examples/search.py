@@ -7,6 +7,8 @@ for line in result.searched:
 loop = next(branch for branch in result if branch.closed)
 print(loop.name, "ended because", loop.ended_because)
 for p in loop.special_points:
-    print(f"  {p.kind}: F = {p.force:.4f} ± {p.error:.0e}, index {p.index_before} → {p.index_after}")
+    index = f"index {p.index_before} → {p.index_after}"
+    print(f"  {p.kind}: F = {p.force:.4f} ± {p.error:.0e}, {index}")
 for state in loop.states_at(-500.0):
-    print(f"F = {state.force:g}: ω₂(1) = {state.fields(2)['omega2'][-1]:.4f}, index {state.stability_index}")
+    end = state.fields(2)["omega2"][-1]
+    print(f"F = {state.force:g}: ω₂(1) = {end:.4f}, index {state.stability_index}")
