@@ -27,17 +27,11 @@ from rodwell.quantities.arrays import FloatArray
 NEAR_THE_TOP = 0.05
 """Sampled maxima of the contact pressure within this part of its range from the highest are refined."""
 
-
 HALF = 0.5
 """Part of the tolerance to which the highest pressure is held: the certificate looks at the pressure everywhere."""
 
-SPARE = 0.25
-"""Part of the same to which the pressure at the :data:`PROBES` is held: as a field it has the spline's own third
-derivative, which is that much less accurate."""
-
 SOFT = 2e-12
 """Round-off in what a soft direction of the rod moves, relative to its scale: the angle at mid-length, the torque."""
-
 
 OTHER_END = 4.0
 """How many times the moment that the spline has at an end that turns freely, where there is none, the error of the
@@ -59,16 +53,24 @@ class Measured(IntEnum):
 STEEPEST = len(Measured)
 """Position, after the measured numbers, of max |sin η| over the quadrature points: a guard, not reported."""
 
+AS_FIELD = STEEPEST + 1
+"""Position of the highest contact pressure as a field has it, from the spline's own third derivative: it is held to the
+tolerance too, so that fields along the rod keep their digits, and the paper's equations are met."""
+
+PROBED = AS_FIELD + 1
+"""Position of the contact pressure at the first of the :data:`PROBES`."""
+
 PROBES = (0.21, 0.46, 0.5, 0.78)
 """Places at which the contact pressure is compared on both meshes, where these may agree by chance on the largest."""
 
 
 @kernel
-def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowest):
-    """Rows of (3, 12): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
+def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, sizes, lowest):
+    """Rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
-    ``places`` (k,) are those of maxima of the contact pressure, ``lowest`` is the least of that.
+    ``places`` (k,) are those of maxima of the contact pressure, ``sizes`` (k,) what the spline has there, ``lowest`` is
+    the least of that.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
     count, looked_at = places.size, np.concatenate((places, np.array(PROBES)))
@@ -82,7 +84,7 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     for i in range(3):
         combine(mesh.local, landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
-    out = np.zeros((3, STEEPEST + 1 + len(PROBES)))
+    out = np.zeros((3, PROBED + len(PROBES)))
     numbers, scales, noise = out
     _, turns_0, _, turns_1 = free_ends(mesh)
     for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
@@ -102,9 +104,9 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
     for k in range(STEEPEST):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
+    numbers[AS_FIELD], scales[AS_FIELD] = np.max(sizes), scales[Measured.P_MAX]
     for k in range(len(PROBES)):
-        numbers[STEEPEST + 1 + k], scales[STEEPEST + 1 + k] = values[count + k], SPARE * scales[Measured.P_MAX]
-        noise[STEEPEST + 1 + k] = left[count + k]
+        numbers[PROBED + k], scales[PROBED + k] = values[count + k], np.inf
     noise[Measured.P_MAX] = np.max(left[:count])
     for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
         noise[which] = SOFT * scales[which]
@@ -113,7 +115,7 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, lowes
 
 _quick_numbers, _quick_maxima = direct(_numbers), direct(maxima)
 
-LINKS = tuple((int(Measured.P_MAX), STEEPEST + 1 + i) for i in range(len(PROBES)))
+LINKS = tuple((int(Measured.P_MAX), PROBED + i) for i in range(len(PROBES)))
 """The error of the largest contact pressure is not much below that of the pressure at some places that stay
 where they are."""
 
@@ -137,15 +139,15 @@ def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshe
 
 
 def measure(family: Family, state: State) -> FloatArray:
-    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 12).
+    """Return the :class:`Measured` numbers of a state, the scales of their errors and what round-off leaves, (3, 13).
 
-    Behind them stand STEEPEST, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a spline's
-    derivatives comes out of these enlarged by h⁻¹, h⁻².
+    Behind them stand STEEPEST, AS_FIELD, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a
+    spline's derivatives comes out of these enlarged by h⁻¹, h⁻².
     """
     space, p = state.space, family.parameters(state.lam)
     wait_for("maxima")
-    places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
-    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, places, lowest)
+    found = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, *found)
     return np.asarray(numbers)
 
 
