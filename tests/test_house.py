@@ -13,7 +13,8 @@ from rodwell import faces
 
 SOURCE = Path(rodwell.__file__).parent.parent
 FILES = {
-    ".".join(p.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__"): p for p in SOURCE.rglob("*.py")
+    ".".join(p.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__"): p
+    for p in (SOURCE / "rodwell").rglob("*.py")
 }
 
 
