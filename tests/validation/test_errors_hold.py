@@ -56,7 +56,8 @@ def test_the_committed_campaign() -> None:
     result = json.loads((CAMPAIGNS / "errors.json").read_text(encoding="utf-8"))
     found, asked = result["special_points_and_largest_pressures"], result["asked"]
     assert found["numbers"] > 2 * result["problems"] > 600
-    assert found["within"] >= 0.998  # 0.999 is asked for: branch points of states periodic beyond their ends miss it
+    assert found["within"] >= asked["within"]
+    assert found["worst"] <= asked["worst"]
     assert found["median_caution"] <= asked["median_caution"]
     assert len(result["by_ends"]) == 16
 
