@@ -12,7 +12,8 @@ from rodwell.analysis.branch.solution import Solution, solution_of
 from rodwell.analysis.branch.special import END, LIFT_OFF, LOCATED_NOISE, Origin, SpecialPoint, index_at_start
 from rodwell.analysis.branch.symmetry import Reflection, images
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.straight.critical import EULER, Mode
+from rodwell.analysis.straight.critical import Mode
+from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.faces import Shown, drawn, face
 from rodwell.numerics.continuation.closing import CLOSED
@@ -166,7 +167,7 @@ class Branch(Shown):
 
     def meets_tolerance(self, point: SpecialPoint) -> bool:
         """Whether a special point of this branch is known to the tolerance: its place, and its state."""
-        size = EULER + self.problem.axial_weight if self.parameter == "force" else float(np.ptp(self.values))
+        size = load_scale(self.problem) if self.parameter == "force" else float(np.ptp(self.values))
         return point.solution.converged and point.reached.within(self.trace.meshes[0].rtol, max(abs(point.value), size))
 
     @property

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.curves.curve import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
-from rodwell.analysis.straight.critical import EULER, MOST_MODES, Mode, critical_loads
+from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
+from rodwell.analysis.straight.scale import EULER
 from rodwell.analysis.straight.slopes import load_slope, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.continuation.location import bracketed_root

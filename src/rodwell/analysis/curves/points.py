@@ -12,7 +12,7 @@ import numpy as np
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import CurvePoint
 from rodwell.analysis.discrete.measures import pressure_maxima
-from rodwell.analysis.straight.critical import EULER
+from rodwell.analysis.straight.scale import EULER
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State

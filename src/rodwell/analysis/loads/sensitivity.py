@@ -20,7 +20,8 @@ import numpy as np
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.loads.pressure import pressure_rates
-from rodwell.analysis.straight.critical import EULER, Mode, critical_loads
+from rodwell.analysis.straight.critical import Mode, critical_loads
+from rodwell.analysis.straight.scale import twisted_load_scale
 from rodwell.analysis.straight.slopes import load_slope, weight_rates
 from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.errors import InputError, checked_whole
@@ -152,7 +153,7 @@ def of_first_met(mode: SpatialMode) -> Sensitivity:
     The error of a mode is of the order of the root of that of its load, relative to the size of the load's terms.
     """
     problem = mode.problem
-    size = abs(mode.force) + problem.axial_weight + EULER + 0.25 * problem.twist**2
+    size = abs(mode.force) + twisted_load_scale(problem)
     part, derivatives = 2.0 * math.sqrt(mode.error / size), {}
     for name in (*PARAMETERS, "twist"):
         value = mode.derivative(name)

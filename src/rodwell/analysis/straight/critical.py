@@ -10,6 +10,7 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
+from rodwell.analysis.straight.scale import EULER, LOAD_NOISE
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
@@ -29,12 +30,6 @@ MOST_MODES = 200
 
 RIGID = 1e-3
 """Wavenumber in rad/L below which a mode does not bend but by round-off."""
-
-LOAD_NOISE = 64.0 * np.finfo(float).eps
-"""Relative to the size of the terms that make up a load; certified enclosures show up to half of it."""
-
-EULER = 4.0 * np.pi**2
-"""First critical load of the weightless rod: the size against which loads near zero are judged."""
 
 
 @dataclass(frozen=True)

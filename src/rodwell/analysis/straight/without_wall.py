@@ -17,6 +17,7 @@ from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import pair_ends
 from rodwell.analysis.discrete.meshes import free_space
 from rodwell.analysis.straight.pencil import Pencil
+from rodwell.analysis.straight.scale import LOAD_NOISE, twisted_load_scale
 from rodwell.analysis.straight.slopes import weight_rates
 from rodwell.analysis.straight.touching import first_inwards
 from rodwell.errors import InputError, NotConvergedError, checked_whole
@@ -29,11 +30,6 @@ from rodwell.quantities.arrays import ComplexArray, FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 MOST_LOADS = 100
-
-LOAD_NOISE = 64.0 * np.finfo(float).eps
-"""Relative to the size of the terms that make up a load."""
-
-EULER = 4.0 * np.pi**2
 
 SINGLE, DOUBLE = 1, 2
 
@@ -147,7 +143,7 @@ class LoadsWithoutWall:
     @property
     def scale(self) -> float:
         """What errors are judged against beside the size of a load: γ cos α + 4π² + T₁²/4."""
-        return _scale(self.problem)
+        return twisted_load_scale(self.problem)
 
     @cached_property
     def at_wall(self) -> WallTouch | None:
@@ -170,7 +166,7 @@ class LoadsWithoutWall:
                 f"the load with the wall's help is not computed for |T₁| above {MOST_TWIST:g}, where the mode touches "
                 f"the wall in too many places; it is not above {first.force:.6g} B/L² (tension positive)"
             )
-        size = abs(first.force) + _scale(self.problem)
+        size = abs(first.force) + twisted_load_scale(self.problem)
         found = first_inwards(_pencil(self.problem), first.space, first.multiplicity == DOUBLE, self.rtol * size)
         error = found.error + (first.error if found.moves_inward else LOAD_NOISE * size)
         force = first.force if found.moves_inward else -found.value
@@ -221,7 +217,7 @@ def _loads(problem: Problem, count: int, rtol: float) -> LoadsWithoutWall:
         start = np.array([pair.as_real(up(v.real.copy()) + 1j * up(v.imag.copy())) for v in vectors])
         better, shapes = pencil.lowest(finer, wanted, (values, start))
         forces = -better[:wanted]
-        size = np.abs(forces) + _scale(problem)
+        size = np.abs(forces) + twisted_load_scale(problem)
         error = np.abs(better[:wanted] - values[:wanted]) + LOAD_NOISE * size
         if np.all(error <= rtol * size):
             break
@@ -248,10 +244,6 @@ def _alike(problem: Problem) -> int:
     """How many modes each load has: two where every end holds x and y alike."""
     clear = all(end == "clamped" or end in OFF_WALL_ENDS for end in problem.ends)
     return DOUBLE if clear else SINGLE
-
-
-def _scale(problem: Problem) -> float:
-    return problem.axial_weight + EULER + 0.25 * problem.twist**2
 
 
 def _pencil(problem: Problem) -> Pencil:

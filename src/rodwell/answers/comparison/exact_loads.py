@@ -11,7 +11,8 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
-from rodwell.analysis.straight.critical import EULER, critical_loads
+from rodwell.analysis.straight.critical import critical_loads
+from rodwell.analysis.straight.scale import EULER
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.formulas.record import Place
 from rodwell.problem.ends import HOLD_ANGLE

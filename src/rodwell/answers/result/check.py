@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import extended, follow
-from rodwell.analysis.straight.critical import EULER
+from rodwell.analysis.straight.scale import EULER
 from rodwell.case.case import Case
 
 BEYOND = 1.3

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rodwell.analysis.straight.critical import EULER
+from rodwell.analysis.straight.scale import EULER
 from rodwell.case.case import Case
 from rodwell.quantities.names import SI_UNITS, UNITS
 from rodwell.quantities.units import SI

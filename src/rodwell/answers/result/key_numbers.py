@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.straight.critical import EULER, Mode
+from rodwell.analysis.straight.critical import Mode
+from rodwell.analysis.straight.scale import EULER
 from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case

@@ -56,25 +56,13 @@ class LoadResult:
     reached: bool = True
 
 
-def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[LoadResult, ...]:
-    """Return what becomes of the rod at each load that acts, from its first critical load and its first branch."""
-    if not case.applied:
-        return ()
-    assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
-    return tuple(_at(assessment, at) for at in assessment.applied)
+def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[tuple[LoadResult, ...], Validity]:
+    """Return what becomes of the rod at each load that acts, from its first critical load and its first branch.
 
-
-def validity_of(case: Case, critical: CriticalLoads, branch: Branch | None) -> Validity:
-    """How far the rod at buckling, at lift-off and at the loads that act is from what the theory assumes.
-
-    Without a branch only the straight rod is looked at.
+    And how far the rod at buckling, at lift-off and at these loads is from what the theory assumes.
     """
-    if branch is not None:
-        return Assessment(Computed(case, critical, (branch,), branch[-1].force)).validity
-    first = Computed(case, critical, (), 0.0).buckling
-    straight = LoadedRod("at buckling", case.problem, first.value, first.error)
-    acting = [("at the applied load", load.force) for load in case.applied]
-    return validity(case, (straight,), acting, critical[0].wavenumber)
+    assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
+    return tuple(_at(assessment, at) for at in assessment.applied), assessment.validity
 
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:
@@ -100,10 +88,17 @@ def _of_state(state: LoadedRod | None, stress: RodStress | None) -> tuple[Value 
     return contact, stress, None if stress is None else stress.safety
 
 
-def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadResult, ...]:
-    """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known."""
+def without_branch(
+    case: Case, critical: CriticalLoads, first: Value, why: str
+) -> tuple[tuple[LoadResult, ...], Validity]:
+    """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known.
+
+    ``first`` is the load at which the rod buckles.
+    """
     out, section = [], rod_section(case)
-    first = Computed(case, critical, (), 0.0).buckling
+    straight = LoadedRod("at buckling", case.problem, first.value, first.error)
+    acting = [("at the applied load", load.force) for load in case.applied]
+    valid = validity(case, (straight,), acting, critical[0].wavenumber)
     for load in case.applied:
         spare = {BUCKLES: _to_spare(load.force, first)}
         if load.force < first.value:
@@ -112,4 +107,4 @@ def without_branch(case: Case, critical: CriticalLoads, why: str) -> tuple[LoadR
         state = LoadedRod("at the applied load", case.problem, load.force)
         stress = None if section is None else section.largest(state)
         out.append(LoadResult(load, STRAIGHT, "", spare, (), *_of_state(state, stress)))
-    return tuple(out)
+    return tuple(out), valid

@@ -12,7 +12,8 @@ from rodwell.analysis.branch.special import END
 from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
-from rodwell.analysis.straight.critical import EULER, CriticalLoads, critical_loads
+from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
+from rodwell.analysis.straight.scale import load_scale
 from rodwell.answers.result.arms import with_other_arm
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
@@ -25,7 +26,7 @@ from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.validity import Validity
-from rodwell.studies.sweep.loads import LoadResult, at_loads, validity_of, without_branch
+from rodwell.studies.sweep.loads import LoadResult, at_loads, without_branch
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,7 @@ class StudyPoint:
         if self.case is None:
             return ()
         out = ["lift-off"] if self.lift_off is not None and "lift_off" in (self.reasons or {}) else []
-        size, rtol = EULER + self.case.problem.axial_weight, self.case.rtol
+        size, rtol = load_scale(self.case.problem), self.case.rtol
         for state in self.loads:
             force = state.load.force
             vague = any(not one.within(rtol, size + abs(force - one.value)) for one in state.spare.values())
@@ -164,13 +165,12 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
             raise NotConvergedError(shared.why)
         lift_off, places, contact = _at_lift_off(case, shared.branch, first, reasons)
         used = {} if contact is None else _used(case, shared.branch)
-        loads = at_loads(case, shared.critical, shared.branch)
-        valid = validity_of(case, shared.critical, shared.branch)
+        loads, valid = at_loads(case, shared.critical, shared.branch)
         out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads, validity=valid)
     except (InputError, NotConvergedError) as error:
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
-        straight = validity_of(case, shared.critical, None)
-        out = replace(out, loads=without_branch(case, shared.critical, str(error)), validity=straight)
+        loads, valid = without_branch(case, shared.critical, first, str(error))
+        out = replace(out, loads=loads, validity=valid)
     amiss = "; ".join(dict.fromkeys(state.why for state in out.loads if state.why))
     if amiss:
         reasons["applied"] = amiss

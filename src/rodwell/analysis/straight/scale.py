@@ -1,0 +1,23 @@
+"""Size of the terms that make up a critical load: what its errors are judged against where it is near zero itself."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.problem.problem import Problem
+
+LOAD_NOISE = 64.0 * np.finfo(float).eps
+"""Round-off, relative to that size; certified enclosures show up to half of it."""
+
+EULER = 4.0 * np.pi**2
+"""First critical load of the weightless rod: the size against which loads near zero are judged."""
+
+
+def load_scale(problem: Problem) -> float:
+    """γ cos α + 4π², of a rod that is kept on the wall."""
+    return problem.axial_weight + EULER
+
+
+def twisted_load_scale(problem: Problem) -> float:
+    """γ cos α + 4π² + T₁²/4, of a rod that nothing presses to the wall."""
+    return load_scale(problem) + 0.25 * problem.twist**2
