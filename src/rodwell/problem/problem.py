@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from rodwell.errors import InputError, checked_number, checked_whole
+from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
 
 LARGEST_WEIGHT = 1e9
@@ -26,6 +27,10 @@ LIMITS = {
     "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
 }
 """Lowest and highest value of each number, and what is allowed in words."""
+
+
+RADIANS = tuple(math.radians(degrees) for degrees in (15, 30, 45, 60, 75, 80, 85, 89, 90))
+"""Inclinations that are asked back, since they are round in degrees if they are meant in radians."""
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
@@ -112,6 +117,14 @@ class Problem:
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
         self._check_ends()
+        if any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
+            degrees = math.degrees(self.alpha)
+            warnings.warn(
+                f"alpha = {self.alpha:.6g} is taken in degrees, nearly vertical; for {self.alpha:.6g} rad give "
+                f"{degrees:.6g}",
+                InputWarning,
+                stacklevel=3,
+            )
 
     def _check_ends(self) -> None:
         """Refuse what the ends cannot hold."""
@@ -173,6 +186,11 @@ class Problem:
     def given_torsion(self) -> dict[str, float]:
         """C/B by name where it was given and does not follow from ν: for what lists the data of a problem."""
         return {} if self.torsion is None else {"torsion": self.torsion}
+
+    def differences(self, other: Problem) -> str:
+        """What differs in another problem, in words: names, its value, and that of this one."""
+        names = [field.name for field in fields(self) if getattr(self, field.name) != getattr(other, field.name)]
+        return ", ".join(f"{name} = {getattr(other, name)!r} there, {getattr(self, name)!r} here" for name in names)
 
     def but(self, **changes: Any) -> Problem:
         """Return this problem with some values changed."""

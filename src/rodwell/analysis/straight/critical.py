@@ -65,6 +65,9 @@ class Mode:
     coefficients: FloatArray
     coarse: tuple[SplineSpace, FloatArray]
 
+    def __repr__(self) -> str:
+        return f"<Mode {self.number} at F = {self.force:.10g} B/L², {self.wavenumber / np.pi:.3g} half waves>"
+
     @property
     def force(self) -> float:
         """Critical end force F at s = 1 in B/L², tension positive."""
