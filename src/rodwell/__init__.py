@@ -68,6 +68,7 @@ _HOME = {
     "read_surveys": "rodwell.studies.well.survey",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
+    "special_curve": "rodwell.analysis.curves.special",
     "switching_table": "rodwell.analysis.straight.modes",
     "study": "rodwell.studies.sweep.study",
     "torsion": "rodwell.analysis.loads.torsion",
@@ -88,6 +89,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.verify import verify
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve
+    from rodwell.analysis.curves.special import special_curve
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
