@@ -20,7 +20,7 @@ SMALLEST_TORSION, LARGEST_TORSION = 1e-6, 1e6
 
 LIMITS = {
     "weight": (0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
-    "alpha": (0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
+    "alpha": (0.0, 180.0, "from 0 (vertical) over 90 (horizontal) to 180 (s = 1 below), in degrees"),
     "clearance": (0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
     "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
     "torsion": (SMALLEST_TORSION, LARGEST_TORSION, f"from {SMALLEST_TORSION:g} to {LARGEST_TORSION:g}, C/B"),
@@ -51,7 +51,9 @@ class Problem:
     weight
         γ = mg L³/B ≥ 0, weight of the whole rod (paper, section 4).
     alpha
-        Angle α between the cylinder and the vertical in degrees, 0 (vertical) to 90 (horizontal).
+        Angle α between the cylinder and the vertical in degrees, 0 (vertical, s = 1 above) over 90 (horizontal) to 180
+        (vertical, s = 1 below). Seen from its other end, a rod has 180° − α and its ends exchanged; a rod lighter than
+        what surrounds it is one with its weight downwards and 180° − α, seen upside down.
     clearance
         Δ/L, distance between the axes of rod and cylinder, 0 < Δ < 1.
     poisson
@@ -77,8 +79,8 @@ class Problem:
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
-    end force acts at s = 1, the upper end of an inclined cylinder, along the cylinder's axis; the axial resultant is
-    N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
+    end force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
+    resultant is N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
 
     Raises
     ------
@@ -98,6 +100,10 @@ class Problem:
     torsion: float | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.weight, int | float) and self.weight < 0.0:
+            floats = "a rod lighter than what surrounds it presses on the upper side; seen upside down, it is one of "
+            same = f"weight={-self.weight:g} at alpha={180.0 - self.alpha:g}"
+            raise InputError("weight", self.weight, f"must be {LIMITS['weight'][2]}: {floats}{same}")
         for name, (low, high, allowed) in LIMITS.items():
             if name == "torsion" and self.torsion is None:
                 continue
@@ -159,13 +165,28 @@ class Problem:
 
     @property
     def axial_weight(self) -> float:
-        """wₐ = γ cos α, exactly zero for a horizontal cylinder."""
+        """wₐ = γ cos α, exactly zero for a horizontal cylinder; negative where the end s = 1 is the lower one."""
+        if self.alpha > 90.0:  # exactly what it is for 180° − α, but for the sign
+            return -self.weight * math.cos(math.radians(180.0 - self.alpha))
         return self.weight * (0.0 if self.alpha == 90.0 else math.cos(math.radians(self.alpha)))
 
     @property
     def lateral_weight(self) -> float:
         """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`."""
-        return self.weight * math.sin(math.radians(self.alpha))
+        return self.weight * math.sin(math.radians(min(self.alpha, 180.0 - self.alpha)))
+
+    @property
+    def heaviest(self) -> float:
+        """Max wₐ, 0: by how much compression may be larger somewhere along the rod than at s = 1."""
+        return max(self.axial_weight, 0.0)
+
+    @property
+    def turned_round(self) -> Problem:
+        """The same rod seen from its other end, y(s) → y(1 − s): inclination 180° − α, ends exchanged.
+
+        Its end force, which acts at the other end, is F − wₐ.
+        """
+        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1])
 
     @property
     def foundation(self) -> float:

@@ -253,8 +253,8 @@ class Zero(ABC):
                 raise CurveLostError("the function does not change along the line")
             farthest = FARTHEST * travel.unit
             before, value, step = step, new, float(np.clip(-new * step / (new - value), -farthest, farthest))
-            if abs(before) <= self.noise * travel.unit and abs(step) >= 0.5 * abs(before):  # round-off: no nearer than that
-                return float(x), state
+            if 2.0 * abs(step) >= abs(before) and abs(before) <= self.noise * travel.unit:
+                return float(x), state  # round-off: no nearer than that
         raise CurveLostError("the secant method did not settle")
 
 

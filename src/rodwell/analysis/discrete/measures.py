@@ -73,8 +73,8 @@ def measured(which: Measured | str) -> Measured:
     InputError
         If no measured number has that name.
     """
-    if isinstance(which, Measured):
-        return which
+    if isinstance(which, int):
+        return Measured(which)
     if which not in _NAMED:
         raise unknown_name("number", which, _NAMED)
     return _NAMED[which]
