@@ -105,9 +105,10 @@ class Problem:
             same = f"weight={-self.weight:g} at alpha={180.0 - self.alpha:g}"
             raise InputError("weight", self.weight, f"must be {LIMITS['weight'][2]}: {floats}{same}")
         for name, (low, high, allowed) in LIMITS.items():
-            if name == "torsion" and self.torsion is None:
-                continue
-            object.__setattr__(self, name, checked_number(name, getattr(self, name), low, high, allowed))
+            value = getattr(self, name)
+            if (type(value) is float and low <= value <= high) or (name == "torsion" and value is None):
+                continue  # mostly: curves make thousands of problems
+            object.__setattr__(self, name, checked_number(name, value, low, high, allowed))
         object.__setattr__(self, "turns", checked_whole("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS))
         for flag in ("on_top", "outside"):
             if not isinstance(getattr(self, flag), bool):

@@ -19,7 +19,7 @@ from rodwell.numerics.continuation.location import LeftTheBranchError, LocationE
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
 from rodwell.numerics.continuation.stretch import events_between
-from rodwell.numerics.equilibria.family import Outcome
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
