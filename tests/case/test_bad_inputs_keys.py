@@ -100,7 +100,6 @@ NO_SECTIONS = [
     ("temperature", "thermal strain is not treated"),
     ("string", "a rod has one section from end to end"),
     ("well", "rodwell screen SURVEY --case CASE"),
-    ("report", "`title` at the top of the file"),
     ("survey", "give it on the command line"),
     ("fluids", "fluids stand in [mud]"),
     ("casing", "its strength stands in [cylinder]"),

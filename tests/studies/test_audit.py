@@ -300,8 +300,11 @@ def test_command_names_the_loads_that_act(tmp_path: Path) -> None:
     field = Path(__file__).parents[2] / "examples" / "field-drill-pipe.toml"
     done = run("audit", str(field), "--no-chart", "--out", str(tmp_path / "here"))
     assert done.exit_code == 0, done.output
-    assert "at the first critical load (29109 lbf of compression at the bottom)" in done.output
-    assert "at the applied load, −35000 lbf at the bottom (35000 lbf of compression at the bottom)" in done.output
+    assert "at the first critical load (29\u202f109 lbf of compression at the bottom)" in done.output
+    assert (
+        "at the applied load, −35\u202f000 lbf at the bottom (35\u202f000 lbf of compression at the bottom)"
+        in done.output
+    )
     assert done.output.count("Contact force of the helix  ") == 2
     assert "low: below it, but the formula is not meant for such a rod" in done.output
 

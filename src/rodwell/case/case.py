@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from rodwell.case import schema
+from rodwell.case.about import NOBODY, About, about_of
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.case.checks.explain import SECTIONS, explain
@@ -93,6 +94,8 @@ class Case(Shown):
         What each support can bear, if given.
     gravity
         In m/s².
+    about
+        For whom the report is, by whom, and its logo.
     """
 
     title: str
@@ -112,6 +115,7 @@ class Case(Shown):
     applied: tuple[AppliedLoad, ...] = ()
     supports: schema.Supports | None = None
     gravity: float = 9.80665
+    about: About = NOBODY
 
     @property
     def yield_strength(self) -> float | None:
@@ -169,12 +173,13 @@ class Case(Shown):
         try:
             clean, moved = split(data)
             case = cls._certain(clean, source, text, Path(folder))
+            case = replace(case, about=about_of(clean.get("report"), Path(folder)))
         except CaseError:
             raise
         except InputError as error:
             raise CaseError(source, [in_users_words(data, error)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
-        return replace(case, uncertain=inputs, given=_given(data))
+        return replace(case, uncertain=inputs, given={name: data[name] for name in case.given})
 
     @classmethod
     def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:
@@ -204,11 +209,6 @@ def _uncertain(
     return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
 
 
-def _given(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The sections as they were written."""
-    return {name: values for name, values in data.items() if name in SECTIONS}
-
-
 def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
@@ -225,7 +225,7 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
         "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
-        "given": _given(data),
+        "given": {name: values for name, values in data.items() if name in SECTIONS},
         "source": source,
         "text": text,
     }

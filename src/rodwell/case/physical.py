@@ -63,7 +63,7 @@ def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalog
             f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
+    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
     problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
     facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
     facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))

@@ -19,7 +19,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import error_digit, minus, plain, raised, signed
 
 if TYPE_CHECKING:
     from rodwell.answers.comparison.beside import Comparison, FormulaRow, Other
@@ -82,13 +82,13 @@ def audit(
         report = lambda done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
         errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart else None
         tell("figure and data", 1.0)
-        files = write_audit(result, errors, folder)
+        write_audit(result, errors, folder)
     if as_json:
         print_json(result.as_dict())
     else:
         _print(result)
-        print_written(folder, files)
-    missed = [f"{load.label} ± {load.error:.0e}" for load in result.loads if not load.meets(read.rtol)]
+        print_written(folder)
+    missed = [f"{load.label} ± {error_digit(load.error)}" for load in result.loads if not load.meets(read.rtol)]
     check_missed(missed, read.rtol)
 
 
@@ -104,7 +104,8 @@ def _print(audit: Audit) -> None:
     problem = audit.problem
     console.print(f"[bold]{_safe(audit.title)}[/bold]")
     console.print(
-        f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
+        f"γ = {plain(problem.weight)}   α = {plain(problem.alpha)}° from the vertical   "
+        f"Δ/L = {plain(problem.clearance)}   "
         f"{ends_text(problem)}\n"
         "Compression positive at top (s = 1), middle and bottom (s = 0). Straight hole, no friction."
     )
@@ -175,7 +176,7 @@ def _force(audit: Audit, value: float, digits: int = 5) -> str:
     """A force in the case's units for a case with dimensions, else in B/L²."""
     if audit.scales is not None:
         return audit.scales.text(value, "force", digits)
-    return minus(f"{value:.{digits}g}")
+    return plain(value, digits)
 
 
 def _print_reasons(console: Any, audit: Audit) -> None:
@@ -227,7 +228,7 @@ def _print_values(console: Any, audit: Audit, others: Sequence[Other]) -> None:
     for other in others:
         if other.value is None:
             continue
-        error = "" if other.relative_error is None else minus(f"{100 * other.relative_error:+.2g} %")
+        error = "" if other.relative_error is None else f"{signed(100 * other.relative_error, 2)} %"
         rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
     print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
 
@@ -240,9 +241,5 @@ def _other_value(audit: Audit, other: Other) -> str:
     if audit.scales is not None:
         return audit.scales.system.text(other.value * audit.factor(dimension), NOMENCLATURE[dimension], 5)
     powers = {"B": dimension[0], "L": dimension[1] - 2 * dimension[0]}
-    unit = " ".join(f"{name}{_power(power)}" for name, power in powers.items() if power)
-    return minus(f"{other.value:.5g} {unit}".rstrip())
-
-
-def _power(power: int) -> str:
-    return "" if power == 1 else str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    unit = " ".join(f"{name}{'' if power == 1 else raised(power)}" for name, power in powers.items() if power)
+    return f"{plain(other.value, 5)} {unit}".rstrip()

@@ -9,7 +9,7 @@ import click
 
 from rodwell.cli.options import OutPath, print_json, print_written, progress_bar
 from rodwell.errors import InputError
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
@@ -127,11 +127,11 @@ def _screened(
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(case, well, **forces, signs_meant=True, progress=tell)
         tell("figure and data", 1.0)
-        files = write_screening(result, folder)
+        write_screening(result, folder)
     if as_json:
         return screening_dict(result)
     _print(result)
-    print_written(folder, files)
+    print_written(folder)
     return {}
 
 
@@ -195,8 +195,8 @@ def _stations(screening: Screening) -> object:
     columns = [screening.critical.values, screening.lift_off.values, *screening.formulas.values()]
     columns += [] if screening.compression is None else [screening.compression]
     for i in shown:
-        cells = [f"{screening.survey.md[i] / metre:.6g}", f"{screening.survey.inclination[i]:.3g}°"]
-        cells += ["–" if np.isnan(c[i]) else minus(f"{c[i] / newton:.4g}") for c in columns]
-        cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{100 * used[i]:.3g} %"]
+        cells = [plain(screening.survey.md[i] / metre, 6), f"{plain(screening.survey.inclination[i], 3)}°"]
+        cells += ["–" if np.isnan(c[i]) else plain(c[i] / newton) for c in columns]
+        cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{plain(100 * used[i], 3)} %"]
         table.add_row(*cells, style="bold red" if i == mark else None)
     return table

@@ -22,12 +22,12 @@ def run_study(file: CaseText, folder: Path, units: str | None, as_json: bool, qu
     with progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
         tell("figure, report and data", 1.0)
-        files = write_study(result, folder, with_pdf=with_pdf)
+        write_study(result, folder, with_pdf=with_pdf)
     if as_json:
         print_json(result.as_dict())
     elif not quiet:
         _summary(result)
-        print_written(folder, files)
+        print_written(folder)
     rtol = next(point.case.rtol for point in result.points if point.case is not None)
     check_missed([f"point {point.number + 1}: {what}" for point in result.points for what in point.missed], rtol)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import re
 import signal
 import sys
 import threading
@@ -28,7 +29,8 @@ def _plain(error: UnicodeError) -> tuple[str | bytes, int]:
     """Replace what cannot be encoded: by what means the same, digits above and below the line too, or by its escape."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
-    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+    plain = "".join(map(_in_ascii, error.object[error.start : error.end]))
+    return re.sub(r"(?<=\^-)\^|(?<=\d)\^(?=\d)", "", plain), error.end  # 10⁻¹² is 10^-12
 
 
 def _in_ascii(character: str) -> str:

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.plots.style import GREY, INK, MODES, RC, WARN
+from rodwell.quantities.text import plain
 from rodwell.studies.well.screening import BESIDE, Screening
 from rodwell.studies.well.verdict import units
 
@@ -66,7 +67,7 @@ def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:
     i, x, label = screening.weakest, screening.critical.values, "weakest station"
     if worst is not None and screening.compression is not None and screening.utilisation is not None:
         i, x = worst, screening.compression
-        label = f"largest utilisation, {100.0 * screening.utilisation[worst]:.3g} %"
+        label = f"largest utilisation, {plain(100.0 * float(screening.utilisation[worst]), 3)} %"
     ax.plot(x[i] / newton, md[i], "o", color=WARN, mec=INK, ms=7, zorder=6, clip_on=False, label=label)
 
 

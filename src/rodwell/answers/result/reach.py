@@ -5,9 +5,10 @@ from __future__ import annotations
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import extended
 from rodwell.analysis.branch.special import END, LIFT_OFF
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus
 from rodwell.quantities.tolerance import LARGEST_FORCE
+from rodwell.quantities.value import Value
 
 UNSOLVED = "the branch passes this load, but the state there could not be computed"
 
@@ -39,10 +40,10 @@ def out_of_reach(branch: Branch, force: float) -> bool:
 
 def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
     """How far the branch goes, in the reader's units, and why it ends."""
-    lowest, number = branch.reach[0], 1 if branch.mode is None else branch.mode.number
-    text = minus(f"{lowest:.6g} B/L²") if scales is None else scales.text(lowest, "force", 6)
+    lowest, number = Value(branch.reach[0]), 1 if branch.mode is None else branch.mode.number
+    far = Forces(scales, branch.problem.axial_weight).load(lowest)
     return (
-        f"the branch of mode {number} goes no lower than {text} and ends there or on its way back ({_ending(branch)})"
+        f"the branch of mode {number} goes no farther than {far} and ends there or on its way back ({_ending(branch)})"
     )
 
 

@@ -22,6 +22,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "mud": schema.Mud,
     "pressure": schema.PressureAtEnd,
     "catalogue": schema.CatalogueFiles,
+    "report": schema.ReportInput,
 }
 """Sections of a case file."""
 

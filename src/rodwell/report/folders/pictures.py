@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,9 @@ from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
-from rodwell.plots.style import RC
+from rodwell.plots.sketch import plot_sketch
+from rodwell.plots.style import RC, with_dark_style, with_separators
+from rodwell.report.reports.front import LOGO
 
 DPI = 140
 PNG: Any = {"pil_kwargs": {"compress_level": 2}}
@@ -33,6 +36,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
     scales = answer.case.scales
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
+            "sketch": plot_sketch(answer.case),
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
@@ -45,8 +49,10 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             if name == "rod-3d":
                 out[name] = ("png", _as_png(ax.figure, folder / name))
             else:
-                save_figure(ax.figure, folder / name)
+                save_figure(getattr(ax, "figure", ax), folder / name)
                 out[name] = ("svg", (folder / f"{name}.svg").read_bytes())
+    if answer.case.about.logo is not None:
+        out[LOGO] = answer.case.about.logo
     return out
 
 
@@ -73,7 +79,9 @@ def save_figure(figure: Any, path: Path) -> None:
     """Write a figure as PNG and SVG, ``path`` without suffix; the layout found for the first serves both."""
     _as_png(figure, path)
     svg: Any = FigureCanvasSVG(figure)
-    svg.print_svg(path.with_suffix(".svg"), metadata={"Date": None})
+    text = io.StringIO()
+    svg.print_svg(text, metadata={"Date": None})
+    path.with_suffix(".svg").write_text(with_dark_style(text.getvalue()), encoding="utf-8")
 
 
 def _as_png(figure: Any, path: Path) -> bytes:
@@ -81,6 +89,7 @@ def _as_png(figure: Any, path: Path) -> bytes:
 
     Layout is done once and the canvases draw once each: ``savefig`` draws every figure once more for nothing.
     """
+    with_separators(figure)
     figure.set_dpi(DPI)
     canvas: Any = FigureCanvasAgg(figure)
     if figure.get_layout_engine() is not None:

@@ -8,7 +8,6 @@ from rodwell._version import __version__
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
-from rodwell.report.reports.texts import error_text
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
@@ -49,8 +48,7 @@ def _front(study: Study) -> Front:
         if worst is None or load is None:
             continue
         label = f"Least compression at s = 1 at which it {what}"
-        error = study.system.text(load.error, "force", 1) if study.physical else f"{load.error:.1g} B/L²"
-        numbers.append(Number(label, load_text(study, load.value), error_text(error), study.rod_inputs(worst)))
+        numbers.append(Number(label, load_text(study, load.value), note=study.rod_inputs(worst)))
     return Front(
         verdict=text[0],
         statuses=(_status(study), *_at_loads(study), *_theory(study)),
@@ -59,7 +57,7 @@ def _front(study: Study) -> Front:
             "curves",
             "Compression at buckling and lift-off, and contact force, over the varied input",
             "Above: end compression at which the straight rod buckles (solid), and at which the first mode leaves the "
-            "wall (dashed)"
+            "wall (dash-dotted); upright strokes: another mode comes first"
             + _drawn_too(study)
             + f". Below: largest contact force per length at {'the load' if study.load_varies else 'lift-off'}. "
             "A curve is interrupted where a point has no result; points are joined by straight lines.",
