@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -157,7 +158,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
-    first, other, until = _first_branch(case, critical)
+    first, other, until = _first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))
     branches = [first]
     followed = [mode for mode in critical if mode.force > until]
     for number, mode in enumerate(followed[1:], start=1):
@@ -172,7 +173,9 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     return Computed(case, critical, tuple(branches), until, other)
 
 
-def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, Branch | None, float]:
+def _first_branch(
+    case: Case, critical: CriticalLoads, report: Callable[[float], None]
+) -> tuple[Branch, Branch | None, float]:
     """Branch of the first mode, its other arm where that differs, and the end force to follow branches to.
 
     That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes. The first branch
@@ -181,8 +184,8 @@ def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, Branch |
     first = critical[0]
     until, asked = case.until, case.until is not None and case.until < first.force
     if until is not None and asked and not arms_differ(case.problem, first.parity):
-        return follow(case.problem, first, until=until, rtol=case.rtol), None, until
-    to_lift_off, other = follow(case.problem, first, rtol=case.rtol), None
+        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
+    to_lift_off, other = follow(case.problem, first, rtol=case.rtol, progress=report), None
     if arms_differ(case.problem, first.parity):
         to_lift_off, other = with_other_arm(to_lift_off, case.rtol)
     if until is not None and asked:

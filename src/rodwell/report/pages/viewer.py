@@ -51,7 +51,14 @@ class Viewer:
     caption: str
 
 
-def view(solution: Solution, scales: Scales | None = None, rod: Geometry | None = None) -> View:
+def view(
+    solution: Solution,
+    scales: Scales | None = None,
+    rod: Geometry | None = None,
+    sides: int = SIDES,
+    *,
+    readings: bool = True,
+) -> View:
     """Return what there is to see of a solution, to be shown by as many pages as one likes.
 
     Parameters
@@ -60,11 +67,18 @@ def view(solution: Solution, scales: Scales | None = None, rod: Geometry | None 
         The state, and the units in which it is described.
     rod
         Its geometry; None: the radius of the case, a scale that can be read.
+    sides
+        How many sides around the rod.
+    readings
+        Whether the pointer reads numbers along the rod.
     """
     if rod is None:
         elements = solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    return View(_data(solution, rod, scales), _bar(rod, scales), caption(solution, rod, scales))
+    data = _data(solution, rod, scales, sides)
+    if readings:
+        data["along"] = _along(solution, rod, scales)
+    return View(data, _bar(rod, scales), caption(solution, rod, scales))
 
 
 def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
@@ -110,7 +124,7 @@ def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     )
 
 
-def _data(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str, Any]:
+def _data(solution: Solution, rod: Geometry, scales: Scales | None, sides: int) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
     middle = 0.5 * float(rod.centreline[-1, 2])
 
@@ -121,7 +135,7 @@ def _data(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str,
     reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
     ends = _view(rod.centreline[[0, -1]])[:, 0] - middle
     return {
-        "parts": [_part(part, shift(part.mesh.vertices)) for part in scene(rod, SIDES)],
+        "parts": [_part(part, shift(part.mesh.vertices)) for part in scene(rod, sides)],
         "lines": [
             *({"group": "wall", "points": _rounded(shift(circle))} for circle in _rims(rod)),
             {"group": "wall", "points": _rounded(shift(straight_contact(rod)))},
@@ -136,9 +150,9 @@ def _data(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str,
         "arrow": [float(ends[1]), reach + 0.1, 0.0],
         "weight": solution.problem.weight,
         "height": 2.0 * reach,
+        "sides": sides,
         "enlarged": rod.radial_scale,
         "says": enlarged(rod),
-        "along": _along(solution, rod, scales, middle),
     }
 
 
@@ -146,10 +160,10 @@ READINGS = 401
 """Places along the rod at which the pointer reads numbers."""
 
 
-def _along(solution: Solution, rod: Geometry, scales: Scales | None, middle: float) -> dict[str, Any]:
-    """What stands under the pointer, place by place: where it is in the picture, and in words the numbers there."""
+def _along(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str, Any]:
+    """What stands under the pointer, place by place: where it is in the picture, and the numbers there in words."""
     pick = np.unique(np.linspace(0, rod.s.size - 1, min(READINGS, rod.s.size)).round().astype(int))
-    points = _view(rod.centreline[pick]) - np.array([middle, 0.0, 0.0])
+    points = _view(rod.centreline[pick]) - np.array([0.5 * float(rod.centreline[-1, 2]), 0.0, 0.0])
     push = (1.0 if rod.outside else -1.0) * rod.fields["contact_pressure"][pick]
     says = []
     for s, p, y in zip(rod.s[pick], push, rod.fields["y"][pick], strict=True):

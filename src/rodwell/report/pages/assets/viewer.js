@@ -1,5 +1,7 @@
 // The rod in its cylinder, to be turned and zoomed. Needs THREE (three.min.js) and nothing from the network.
-// rodwellViewer(element, data): data as made by rodwell.report.viewer; returns false where the browser has no WebGL.
+// rodwellViewer(element, data): data as made by rodwell.report.viewer; returns false where the browser has no WebGL, else
+// an object whose show(data) takes another scene, mark(fraction) marks a place along the rod, and vertices() says where
+// the rod's vertices are across the axis, in wall radii.
 "use strict";
 
 function rodwellViewer(element, data) {
@@ -24,19 +26,41 @@ function rodwellViewer(element, data) {
   scene.add(all);
   const mark = readingMark();
   all.add(mark);
-  data.parts.forEach((part) => groups[groupOf(part)].add(mesh(part)));
-  data.lines.forEach((line) => groups[line.group].add(curve(line)));
+  const known = new Map(); // parts by name, kept from scene to scene
+  let rest = []; // lines and arrow, made anew
+  let labels = [];
+  function fill() {
+    const names = new Set(data.parts.map((part) => part.name));
+    known.forEach((old, name) => { if (!names.has(name)) { discard(old); known.delete(name); } });
+    data.parts.forEach((part) => {
+      const old = known.get(part.name);
+      if (old && renewed(old, part)) return;
+      if (old) discard(old);
+      known.set(part.name, mesh(part));
+      groups[groupOf(part)].add(known.get(part.name));
+    });
+    rest.forEach(discard);
+    rest = data.lines.map(curve);
+    rest.forEach((line, i) => groups[data.lines[i].group].add(line));
+    const down = new THREE.Vector3(...data.gravity);
+    if (data.weight > 0) {
+      const arrow = new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018);
+      groups.wall.add(arrow);
+      rest.push(arrow);
+    }
+    labels.forEach(({ box }) => box.remove());
+    labels = data.labels.map((label) => tag(stage, label));
+  }
+  fill();
   light(scene);
-  const down = new THREE.Vector3(...data.gravity);
-  if (data.weight > 0) groups.wall.add(new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018));
 
   const camera = new THREE.PerspectiveCamera(28, 1, 0.001, 50);
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.minDistance = 0.01;
   controls.maxDistance = 12;
-  const labels = data.labels.map((label) => tag(stage, label));
   const reading = element.querySelector(".reading"), scale = element.querySelector(".scale");
-  const places = data.along.points.map((point) => new THREE.Vector3(...point));
+  const along = data.along || { points: [], says: [] };
+  const places = along.points.map((point) => new THREE.Vector3(...point));
   let place = -1; // which place is read
 
   function home() {
@@ -96,8 +120,9 @@ function rodwellViewer(element, data) {
     draw();
   }
   function read(number) {
+    if (!places.length) return;
     place = Math.min(Math.max(number, 0), places.length - 1);
-    reading.textContent = data.along.says[place];
+    reading.textContent = along.says[place];
     mark.position.copy(places[place]);
     mark.visible = true;
     draw();
@@ -140,15 +165,43 @@ function rodwellViewer(element, data) {
     box.onchange = () => { groups[name].visible = box.checked; draw(); };
   }
   const trueScale = element.querySelector("[data-show=true-scale]");
-  if (trueScale) trueScale.onchange = () => {
-    const across = trueScale.checked ? 1 / data.enlarged : 1;
+  function scaled() {
+    const really = Boolean(trueScale) && trueScale.checked;
+    const across = really ? 1 / data.enlarged : 1;
     all.scale.set(1, across, across);
-    scale.textContent = trueScale.checked ? "true scale" : data.says;
-    draw();
-  };
+    scale.textContent = really ? "true scale" : data.says;
+  }
+  if (trueScale) trueScale.onchange = () => { scaled(); draw(); };
   fit();
   home();
-  return true;
+  return { show, mark: markAt, vertices, drawn: () => renderer.info.render.frame };
+
+  function show(other) {
+    const taller = Math.abs(other.height / data.height - 1) > 0.02;
+    data = other;
+    fill();
+    scaled();
+    if (taller) home();
+    else draw();
+  }
+  // A place along the rod, 0 to 1: the middle of the rod's vertices there.
+  function markAt(fraction) {
+    const rod = known.get("rod"), sides = data.sides;
+    if (fraction === null || !rod || !sides) { mark.visible = false; draw(); return; }
+    const at = rod.geometry.getAttribute("position"), rings = Math.floor(at.count / sides);
+    const first = Math.min(Math.max(Math.round(fraction * (rings - 1)), 0), rings - 1) * sides;
+    mark.position.set(0, 0, 0);
+    for (let i = first; i < first + sides; i++) mark.position.add(new THREE.Vector3().fromBufferAttribute(at, i));
+    mark.position.multiplyScalar(1 / sides);
+    mark.visible = true;
+    draw();
+  }
+  function vertices() {
+    const at = known.get("rod").geometry.getAttribute("position");
+    let widest = 0;
+    for (let i = 0; i < at.count; i++) widest = Math.max(widest, Math.hypot(at.getY(i), at.getZ(i)));
+    return widest / (data.height / 2);
+  }
 
   function groupOf(part) {
     return part.name === "cylinder" ? "wall" : part.name.startsWith("material") ? "lines" : "rest";
@@ -209,16 +262,46 @@ function mesh(part) {
     side: clear ? THREE.DoubleSide : THREE.FrontSide, vertexColors: typeof part.colours === "string",
   });
   if (material.vertexColors) {
-    const rgb = new Uint8Array(bytes(part.colours)), out = new Float32Array(rgb.length), c = new THREE.Color();
-    for (let i = 0; i < rgb.length; i += 3) {
-      c.setRGB(rgb[i] / 255, rgb[i + 1] / 255, rgb[i + 2] / 255, "srgb").toArray(out, i);
-    }
-    geometry.setAttribute("color", new THREE.BufferAttribute(out, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(colours(part), 3));
   } else {
     material.color.setRGB(...part.colours, "srgb");
   }
   const out = new THREE.Mesh(geometry, material);
   out.renderOrder = clear ? 1 : 0;
+  out.userData.triangles = part.triangles;
+  return out;
+}
+
+// Another shape of a part that has as many vertices: false if it has not, or its triangles are others.
+function renewed(old, part) {
+  const at = old.geometry.getAttribute("position"), moved = positions(part);
+  if (at.array.length !== moved.length || (part.triangles && part.triangles !== old.userData.triangles)) {
+    part.triangles = part.triangles || old.userData.triangles;
+    return false;
+  }
+  at.array.set(moved);
+  at.needsUpdate = true;
+  old.geometry.computeVertexNormals();
+  old.geometry.computeBoundingSphere();
+  if (typeof part.colours === "string") {
+    const colour = old.geometry.getAttribute("color");
+    colour.array.set(colours(part));
+    colour.needsUpdate = true;
+  }
+  return true;
+}
+
+function discard(item) {
+  item.removeFromParent();
+  item.traverse((each) => {
+    if (each.geometry) each.geometry.dispose();
+    if (each.material) each.material.dispose();
+  });
+}
+
+function colours(part) {
+  const rgb = new Uint8Array(bytes(part.colours)), out = new Float32Array(rgb.length), c = new THREE.Color();
+  for (let i = 0; i < rgb.length; i += 3) c.setRGB(rgb[i] / 255, rgb[i + 1] / 255, rgb[i + 2] / 255, "srgb").toArray(out, i);
   return out;
 }
 
@@ -244,5 +327,6 @@ function tag(stage, label) {
 }
 
 document.querySelectorAll(".rod-viewer").forEach((element) => {
-  rodwellViewer(element, JSON.parse(element.querySelector("script[type='application/json']").textContent));
+  const scene = element.querySelector("script[type='application/json']");
+  if (scene) rodwellViewer(element, JSON.parse(scene.textContent)); // else: shown by another script
 });

@@ -1,0 +1,60 @@
+// The state of the page in its address: everything that is shown, so that an address can be pasted and Back works.
+
+export const FREE = ["load", "branch", "which", "special", "y", "until", "scale"];
+
+export function written(state, hello) {
+  const out = new URLSearchParams();
+  for (const control of hello.controls) out.set(control.name, String(state.inputs[control.name]));
+  out.set("ends", state.inputs.ends);
+  out.set("modes", String(state.inputs.modes));
+  for (const name of FREE) if (state[name] !== null && state[name] !== "" && state[name] !== undefined) out.set(name, String(state[name]));
+  return "#" + out.toString();
+}
+
+export function begun(hello) {
+  const inputs = Object.fromEntries(hello.controls.map((control) => [control.name, control.value]));
+  return {
+    inputs: { ...inputs, ends: hello.ends, modes: hello.modes },
+    load: null, branch: "", which: 0, special: null, y: "", until: null, scale: "",
+  };
+}
+
+// Returns the state, or throws with what is wrong.
+export function read(hash, hello) {
+  const state = begun(hello);
+  const numbers = new Set(hello.controls.map((control) => control.name));
+  for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
+    if (numbers.has(name)) state.inputs[name] = number(name, text);
+    else if (name === "ends") state.inputs.ends = oneOf(name, text, hello.all_ends);
+    else if (name === "modes") state.inputs.modes = whole(name, text, 1, hello.most_modes);
+    else if (name === "load" || name === "until") state[name] = number(name, text);
+    else if (name === "which" || name === "special") state[name] = whole(name, text, 0, 999);
+    else if (name === "scale") state.scale = oneOf(name, text, ["true"]);
+    else if (name === "branch" || name === "y") state[name] = text.slice(0, 80);
+    else throw new Error(`${name} is not known`);
+  }
+  return state;
+}
+
+// What differs from the case to begin with: that alone is asked for.
+export function moved(inputs, hello) {
+  const first = begun(hello).inputs;
+  return Object.fromEntries(Object.keys(first).filter((name) => inputs[name] !== first[name]).sort().map((name) => [name, inputs[name]]));
+}
+
+function number(name, text) {
+  const value = Number(text);
+  if (text.trim() === "" || !Number.isFinite(value)) throw new Error(`${name} = ${text.slice(0, 40)} is no number`);
+  return value;
+}
+
+function whole(name, text, low, high) {
+  const value = number(name, text);
+  if (!Number.isInteger(value) || value < low || value > high) throw new Error(`${name} must be a whole number from ${low} to ${high}`);
+  return value;
+}
+
+function oneOf(name, text, allowed) {
+  if (!allowed.includes(text)) throw new Error(`${name} = ${text.slice(0, 40)} is not one of ${allowed.join(", ")}`);
+  return text;
+}

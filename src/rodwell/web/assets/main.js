@@ -1,0 +1,319 @@
+// The page: what is shown follows from one state, which stands in the address; numbers come from the server only.
+import * as address from "./address.js";
+import { Control } from "./controls.js";
+import { Curves } from "./curves.js";
+import { Diagram } from "./diagram.js";
+import { keys } from "./keys.js";
+import { Link } from "./link.js";
+import { copy, save, saveBlob, showDetails, showNumbers, snapshot } from "./panel.js";
+
+const $ = (id) => document.getElementById(id);
+const hooks = (window.__rodwell = { ready: false, state: null, updates: 0, values: null, times: [], drawn: () => 0, widest: () => 0 });
+
+let hello = null; // what the server says of the case
+let state = null; // inputs, load, branch …: what is asked for
+let diagram = null, diagramOf = ""; // the diagram shown, and for which inputs it holds
+let shown = null; // the state shown
+let rod = null; // the viewer, false without WebGL
+let known = false; // whether the viewer has the triangles of the scene
+let asked = 0; // when the newest load was asked for
+const controls = new Map();
+let load = null; // its control
+let settle = 0, stills = 0;
+
+const figure = new Diagram($("diagram"), (to) => go(chosen(to), true));
+const curves = new Curves({ push: $("push"), side: $("side") }, (fraction, text) => {
+  $("cursor").textContent = text || "Point at a curve to read it.";
+  if (rod) rod.mark(fraction);
+});
+const link = new Link(heard, (isLost) => {
+  $("banner").hidden = !isLost;
+  $("banner").textContent = isLost ? "The server is gone: nothing can be computed until it is back. Trying again …" : "";
+  if (isLost) hooks.ready = false;
+});
+
+function heard(message) {
+  if (message.kind === "hello") begin(message);
+  else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
+  else if (message.kind === "diagram") haveDiagram(message);
+  else if (message.kind === "state") haveState(message);
+  else if (message.kind === "verdict") haveVerdict(message);
+  else if (message.kind === "details") showDetails(message.details);
+  else if (message.kind === "copy") copy(message.texts[copying], copying === "python" ? "script" : "command");
+  else if (message.kind === "file") haveFile(message);
+  else if (message.kind === "failed") failed(message);
+}
+
+function begin(message) {
+  const again = hello !== null && hello.title === message.title;
+  hello = message;
+  $("title").textContent = hello.title;
+  document.title = `${hello.title} · rodwell explore`;
+  if (!again) {
+    $("controls").replaceChildren();
+    controls.clear();
+    for (const each of hello.controls) controls.set(each.name, new Control($("controls"), each, (value, done) => go({ inputs: { ...state.inputs, [each.name]: value }, special: null, until: null }, done)));
+    $("ends").replaceChildren(...hello.all_ends.map((each) => new Option(each.replace("-", ", "), each)));
+    $("modes").max = hello.most_modes;
+    load = load || new Control($("load-control"), { name: "load", label: "load", hint: "", unit: "", low: 0, high: 1 }, (value, done) => go({ load: value, special: null }, done));
+  }
+  fromAddress();
+}
+
+function fromAddress() {
+  try {
+    state = address.read(location.hash, hello);
+    if (diagram && !diagram.ordinates.some((each) => each.name === state.y)) state.y = "";
+    say("");
+  } catch (error) {
+    state = address.begun(hello);
+    history.replaceState(null, "", location.pathname);
+    say(`The address could not be read: ${error.message}. The page begins with what it begins with.`);
+  }
+  show();
+}
+
+// Go to another state: done says that it is one to come back to.
+function go(changes, done) {
+  state = { ...state, ...changes };
+  if ("load" in changes && load) load.set(state.load, { field: done });
+  show();
+  if (!done) return;
+  clearTimeout(settle);
+  const hash = address.written(state, hello);
+  if (hash !== location.hash) history.pushState(null, "", hash);
+}
+
+function chosen({ branch, load: at, which, special }) {
+  const to = at === null ? within(branch, state.load) : at;
+  return { branch, which: which || 0, special: special ?? null, load: to };
+}
+
+// A load at which a branch has states: the one given if it does, else in its middle.
+function within(name, at) {
+  const b = diagram?.branches.find((each) => each.name === name);
+  if (!b) return at;
+  const low = Math.min(...b.load), high = Math.max(...b.load);
+  return at >= low && at <= high ? at : Number((0.5 * (low + high)).toPrecision(5));
+}
+
+function wanted() {
+  return { inputs: address.moved(state.inputs, hello), until: state.until };
+}
+
+function show() {
+  for (const [name, control] of controls) if (control.value !== state.inputs[name]) control.set(state.inputs[name]);
+  $("ends").value = state.inputs.ends;
+  $("modes").value = state.inputs.modes;
+  hooks.state = state;
+  const of = JSON.stringify(wanted());
+  if (of !== diagramOf) {
+    stale();
+    link.drop("state", "verdict", "details");
+    link.ask("diagram", wanted());
+    pending = of;
+  } else {
+    askState();
+  }
+}
+let pending = "";
+
+// Nothing may be read that belongs to other inputs: numbers go, pictures turn pale.
+function stale() {
+  document.body.classList.add("updating");
+  $("busy").textContent = "updating …";
+  hooks.ready = false;
+  hooks.values = null;
+  shown = null;
+  diagramOf = "";
+  for (const id of ["buckles", "lifts-off", "now", "headline", "verdict"]) $(id).textContent = "…";
+  showNumbers(null);
+  document.querySelectorAll("#diagram text, #push text, #side text").forEach((text) => text.remove());
+  document.querySelectorAll("#diagram .special, #diagram .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); each.querySelector("title")?.remove(); });
+  for (const id of ["bar-first", "bar-last"]) $(id).textContent = "";
+  $("cursor").textContent = "";
+  $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
+  figure.point(null);
+  curves.data = null;
+}
+
+function haveDiagram({ diagram: data, whole }) {
+  diagram = data;
+  diagramOf = pending;
+  document.body.classList.remove("updating");
+  $("busy").textContent = whole ? "" : "secondary branches …";
+  if (!state.y || !data.ordinates.some((each) => each.name === state.y)) state.y = data.ordinate;
+  if (state.load === null) {
+    state.load = data.suggested;
+    history.replaceState(null, "", address.written(state, hello));
+  }
+  $("ordinate").replaceChildren(...data.ordinates.map((each) => new Option(each.label, each.name)));
+  $("ordinate").value = state.y;
+  $("branch").replaceChildren(new Option("first, else straight", ""), new Option("straight", "straight"), ...data.branches.map((each) => new Option(each.name, each.name)));
+  $("branch").value = state.branch;
+  load.range(data.range[0], data.range[1]);
+  load.unit.textContent = data.axis.unit;
+  document.querySelector("#load-control label").textContent = data.axis.label;
+  $("buckles").textContent = data.buckles.text;
+  $("lifts-off").textContent = data.lifts_off ? data.lifts_off.text : "not reached";
+  $("to-lift-off").disabled = !data.lifts_off;
+  $("convention").textContent = `${data.convention}.${data.unexplored.length ? ` Not explored: ${data.unexplored.join("; ")}.` : ""}`;
+  figure.show(data, state.y, shown);
+  if (whole || shown === null) askState();
+}
+
+function askState() {
+  if (state.load === null) return;
+  const last = diagram.range[1];
+  if (state.load > last * (1 + 1e-12) + 1e-300 && state.until === null && !state.branch) { // beyond what was followed: once, farther
+    state.until = Number((1.05 * state.load).toPrecision(4));
+    show();
+    return;
+  }
+  asked = performance.now();
+  link.ask("state", { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special, known });
+}
+
+function haveState({ state: found }) {
+  shown = found;
+  if (!load.slider.matches(":active")) load.set(state.load);
+  load.field.value = String(Number(state.load.toPrecision(12)));
+  figure.point(found);
+  curves.show(found.curves);
+  scene(found);
+  showNumbers(found);
+  $("now").textContent = `${found.values.force.text}: ${found.branch}, ${found.stable ? "stable" : `unstable (index ${found.index})`}`;
+  $("headline").textContent = `${found.headline[0].toUpperCase()}${found.headline.slice(1)}. ${found.note}${found.accurate ? "" : " Not every number meets the tolerance."}`;
+  $("verdict").textContent = $("headline").textContent;
+  const text = found.note && state.branch && found.branch !== state.branch ? found.note : "";
+  say(text);
+  hooks.values = Object.fromEntries(Object.entries(found.values).map(([name, each]) => [name, each.value]));
+  hooks.values.load = found.load;
+  hooks.values.index = found.index;
+  hooks.updates += 1;
+  hooks.ready = $("busy").textContent === "";
+  const began = asked;
+  requestAnimationFrame(() => { hooks.times.push(performance.now() - began); if (hooks.times.length > 500) hooks.times.shift(); });
+  clearTimeout(settle);
+  settle = setTimeout(settled, 120);
+}
+
+// The load stands still: what takes longer is asked for, and the address follows.
+function settled() {
+  if (shown === null) return;
+  const request = { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special };
+  link.ask("verdict", request);
+  link.ask("details", request);
+  if (!rod) link.ask("file", { ...request, suffix: "png" });
+  stills = rod ? 0 : 1;
+  if (!load.slider.matches(":active") && !playing) history.replaceState(null, "", address.written(state, hello));
+}
+
+function haveVerdict({ text }) {
+  if (shown !== null && shown.load !== null) $("verdict").textContent = text;
+}
+
+function scene(found) {
+  const element = $("rod");
+  element.querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = ""; });
+  if (rod === null) {
+    $("true-scale").checked = state.scale === "true";
+    rod = rodwellViewer(element, { ...found.scene, embedded: true });
+    if (rod) { hooks.drawn = rod.drawn; hooks.widest = rod.vertices; $("true-scale").onchange?.(); }
+  } else if (rod) {
+    rod.show({ ...found.scene, embedded: true });
+  }
+  known = Boolean(rod);
+  $("bar-first").textContent = found.bar.first;
+  $("bar-last").textContent = `${found.bar.last} ${found.bar.unit}`;
+  const stops = [...found.bar.gradient.matchAll(/(#[0-9a-f]{6}) ([\d.]+)%/g)];
+  $("bar-gradient").innerHTML = stops.map(([, colour, where]) => `<stop offset="${where}%" stop-color="${colour}"></stop>`).join("");
+}
+
+let copying = "python", saving = "";
+function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
+document.querySelectorAll("[data-copy]").forEach((button) => { button.onclick = () => { copying = button.dataset.copy; if (shown) link.ask("copy", request()); }; });
+document.querySelectorAll("[data-save]").forEach((button) => {
+  button.onclick = async () => {
+    if (!shown) return;
+    if (button.dataset.save === "page") saveBlob("rodwell.html", await snapshot({ ...state, values: hooks.values }, hello));
+    else { saving = button.dataset.save; link.ask("file", { ...request(), suffix: saving }); }
+  };
+});
+
+function haveFile({ suffix, type, content }) {
+  if (stills && suffix === "png" && saving !== "png") {
+    const still = document.querySelector("#rod .still");
+    still.src = `data:${type};base64,${content}`;
+    still.hidden = false;
+    return;
+  }
+  saving = "";
+  save(suffix === "toml" ? "case.toml" : `state.${suffix}`, type, content);
+}
+
+function failed(message) {
+  $("busy").textContent = "";
+  say(message.message);
+  if (message.of === "state" || message.of === "diagram") {
+    shown = null;
+    hooks.values = null;
+    showNumbers(null);
+    figure.point(null);
+    for (const id of ["now", "headline", "verdict"]) $(id).textContent = "…";
+    if (message.of === "state") document.querySelectorAll("#push text, #side text").forEach((text) => text.remove());
+  }
+  hooks.ready = true;
+  hooks.updates += 1;
+}
+
+function say(text) {
+  $("message").textContent = text;
+  $("message").hidden = !text;
+}
+
+// The load from one end of its range to the other, in nine seconds.
+let playing = 0;
+function play(on) {
+  playing = on ? performance.now() : 0;
+  $("play").textContent = on ? "■ Stop" : "▶ Play";
+  $("play").setAttribute("aria-pressed", String(on));
+  if (!on || !diagram) return;
+  const [low, high] = diagram.range;
+  let at = state.load < high - 0.01 * (high - low) ? state.load : low;
+  let before = performance.now();
+  const step = (now) => {
+    if (!playing) return;
+    at += ((high - low) * Math.min(now - before, 200)) / 9000;
+    before = now;
+    go({ load: Number(Math.min(at, high).toPrecision(6)), special: null, branch: state.branch === "straight" ? "" : state.branch }, at >= high);
+    if (at >= high) play(false);
+    else requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+$("play").onclick = () => play(!playing);
+$("to-lift-off").onclick = () => {
+  const b = diagram?.branches[0], k = b ? b.special.findIndex((p) => p.kind === "lift_off") : -1;
+  if (k >= 0) go({ branch: b.name, which: 0, special: k, load: b.special[k].load }, true);
+  else if (diagram?.lifts_off) go({ branch: "", which: 0, special: null, load: diagram.lifts_off.load }, true);
+};
+$("ends").onchange = () => go({ inputs: { ...state.inputs, ends: $("ends").value }, special: null, until: null, branch: "", which: 0 }, true);
+$("modes").onchange = () => {
+  const value = $("modes").valueAsNumber;
+  if (Number.isInteger(value) && value >= 1 && value <= hello.most_modes) go({ inputs: { ...state.inputs, modes: value }, special: null, branch: "", which: 0 }, true);
+  else $("modes").value = state.inputs.modes;
+};
+$("branch").onchange = () => go(chosen({ branch: $("branch").value, load: null }), true);
+$("ordinate").onchange = () => { go({ y: $("ordinate").value }, true); figure.show(diagram, state.y, shown); };
+$("true-scale").addEventListener("change", () => go({ scale: $("true-scale").checked ? "true" : "" }, true));
+$("reset").onclick = () => go({ ...address.begun(hello), y: state.y }, true);
+addEventListener("popstate", () => {
+  if (!hello) return;
+  play(false);
+  fromAddress();
+  if (rod && $("true-scale").checked !== (state.scale === "true")) { $("true-scale").checked = state.scale === "true"; $("true-scale").onchange?.(); }
+  if (diagram && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
+});
+keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!playing), step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });

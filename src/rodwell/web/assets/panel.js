@@ -1,0 +1,84 @@
+// The state shown in numbers, what can be copied and saved.
+
+const $ = (id) => document.getElementById(id);
+
+export function showNumbers(state) {
+  const rows = state === null ? [] : Object.entries(state.values).map(([name, each]) => [name, each.label + (each.s === null || each.s === undefined ? "" : ` (s/L = ${each.s.toFixed(4)})`), each.text, each.error_text || "given"]);
+  if (state === null) {
+    document.querySelectorAll("#values tbody td").forEach((cell) => { cell.textContent = "…"; });
+    $("certificate").textContent = "";
+    return;
+  }
+  const body = $("values").tBodies[0];
+  if (body.rows.length !== rows.length) {
+    body.replaceChildren(...rows.map(() => {
+      const row = document.createElement("tr");
+      row.innerHTML = '<th scope="row"></th><td></td><td></td>';
+      return row;
+    }));
+  }
+  rows.forEach(([name, label, text, error], i) => {
+    body.rows[i].dataset.name = name;
+    body.rows[i].cells[0].textContent = label;
+    body.rows[i].cells[1].textContent = text;
+    body.rows[i].cells[2].textContent = error === "given" ? error : `± ${error}`;
+  });
+}
+
+export function showDetails(details) {
+  const c = details.certificate;
+  const power = (value) => value.toExponential(1).replace(/e([+-]?)(\d+)/, (_, sign, n) => ` × 10${(sign === "-" ? "⁻" : "") + [...n].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`);
+  $("certificate").textContent = `Certificate: of the paper's equations ${power(c.worst)} is left, most in ${c.equation}; limit ${power(c.limit)}: ${c.passed ? "passed" : "not passed"}. `
+    + `${details.converged ? "Every number meets" : "Not every number meets"} the tolerance ${power(details.rtol)}. Contact force in all: ${details.wall.total.text}; ${details.wall.torque}.`;
+}
+
+export function save(name, type, content) {
+  const raw = atob(content), bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
+  saveBlob(name, new Blob([bytes], { type }));
+}
+
+export function saveBlob(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+export async function copy(text, what) {
+  try {
+    await navigator.clipboard.writeText(text);
+    $("copied").textContent = `${what} copied`;
+  } catch {
+    const area = document.createElement("textarea");
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    $("copied").textContent = done ? `${what} copied` : "the browser does not let it be copied";
+  }
+  setTimeout(() => { $("copied").textContent = ""; }, 4000);
+}
+
+// The page as it is, in one file that needs neither server nor script.
+export async function snapshot(state, hello) {
+  const css = await Promise.all(["viewer.css", "explore.css"].map(async (name) => (await fetch(name)).text()));
+  const body = document.body.cloneNode(true);
+  body.querySelectorAll("script, noscript, dialog, button, #banner, #message, input[type=range], .tools label, .hit").forEach((each) => each.remove());
+  const canvas = document.querySelector("#rod canvas"), still = body.querySelector("#rod img.still");
+  body.querySelectorAll("#rod canvas").forEach((each) => each.remove());
+  const picture = canvas ? canvas.toDataURL("image/png") : document.querySelector("#rod img.still").src;
+  if (picture) { still.src = picture; still.hidden = false; }
+  body.querySelector("#rod").classList.remove("live");
+  const live = document.body.querySelectorAll("input[type=number], select");
+  body.querySelectorAll("input[type=number], select").forEach((each, i) => {
+    const text = document.createElement("b");
+    text.textContent = live[i].tagName === "SELECT" ? live[i].selectedOptions[0]?.textContent ?? "" : live[i].value;
+    each.replaceWith(text);
+  });
+  const head = `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><meta name="color-scheme" content="light dark"><title>${hello.title.replace(/[<&]/g, "")}</title><style>${css.join("\n")}</style></head>`;
+  const data = JSON.stringify({ rodwell: hello.version, state }).replace(/</g, "\\u003c");
+  return new Blob([head, body.outerHTML.replace("</body>", `<script type="application/json">${data}</script></body>`), "</html>"], { type: "text/html" });
+}

@@ -1,0 +1,203 @@
+"""What can be moved in a case: each number of it, in its own words and units, and the case with other numbers."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+
+from rodwell.case import schema
+from rodwell.case.case import Case
+from rodwell.errors import InputError
+from rodwell.quantities.written import number_and_rest
+
+DEFAULT: dict[str, Any] = {
+    "title": "Rod in a horizontal cylinder",
+    "dimensionless": {"weight": 15.0, "alpha": 90.0, "clearance": 0.01, "ends": "clamped-clamped"},
+    "load": {"twist": 0.0},
+    "analysis": {"modes": 3, "rtol": 1e-8},
+}
+"""What is explored where no case file is given: the rod of the paper's Fig. 3(c)."""
+
+SECTIONS: dict[str, type[BaseModel]] = {
+    "dimensionless": schema.Dimensionless, "rod": schema.RodInput, "hole": schema.Hole, "mud": schema.Mud,
+    "pressure": schema.PressureAtEnd, "load": schema.LoadInput,
+}  # fmt: skip
+"""Sections whose numbers can be moved; the load itself has a slider of its own."""
+
+NO_NUMBERS = ("pipe", "material", "grade", "ends", "at", "kind", "applied", "until", "yield_strength", "gravity")
+"""Keys that are names, that belong to the load, or that move nothing which is shown."""
+
+ENDS = tuple(f"{a}-{b}" for a in ("clamped", "pinned", "guided", "free") for b in ("clamped", "pinned", "guided", "free"))
+"""Ends with which branches can be followed."""
+
+MOST_MODES = 6
+"""Branches that a page shows at most: more can hardly be told apart."""
+
+TWIST_UNIT = {"si": "N m", "field": "ft lbf", "mm": "N mm"}
+WEIGHT_UNIT = {"si": (1.0, "N/m"), "field": (4.4482216152605 / 0.3048, "lbf/ft"), "mm": (1e3, "N/mm")}
+LABELS = {"dimensionless.weight": "weight γ", "dimensionless.alpha": "inclination α", "load.twist": "end twist T₁",
+          "dimensionless.clearance": "clearance Δ/L", "dimensionless.poisson": "Poisson's ratio ν"}  # fmt: skip
+UNITS = {"dimensionless.weight": "B/L³", "dimensionless.alpha": "deg", "dimensionless.clearance": "", "load.twist": "B/L"}
+
+
+@dataclass(frozen=True)
+class Control:
+    """A number that can be moved.
+
+    Attributes
+    ----------
+    name
+        Section and key, as in the case file.
+    label, hint
+        What stands beside the slider, and what the key means.
+    unit
+        As the user wrote it; empty for a plain number.
+    value, low, high
+        The number given, and the ends of the slider; a number beyond them can be typed.
+    given
+        Whether the case has it: what it lacks is added only once it is moved.
+    """
+
+    name: str
+    label: str
+    hint: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    given: bool = True
+
+
+def controls(data: Mapping[str, Any], case: Case) -> list[Control]:
+    """Return the numbers of a case that can be moved, in the order of its sections.
+
+    Parameters
+    ----------
+    data
+        Content of the case file.
+    case
+        The same as a case.
+    """
+    out = []
+    for section, model in SECTIONS.items():
+        for key, field in model.model_fields.items():
+            given = data.get(section, {}).get(key)
+            read = None if key in NO_NUMBERS or given is None else _read(given)
+            if read is not None:
+                out.append(_control(f"{section}.{key}", field.description or "", *read))
+    names = {control.name for control in out}
+    if case.rod is not None and "pipe" in data.get("rod", {}) and not names & {"rod.density", "rod.weight_per_length"}:
+        scale, unit = WEIGHT_UNIT[case.scales.system.name] if case.scales else (1.0, "N/m")
+        meaning = schema.RodInput.model_fields["weight_per_length"].description or ""
+        weight = _control("rod.weight_per_length", meaning, float(f"{case.rod.weight_in_air / scale:.6g}"), unit)
+        out.insert(1, _replaced(weight, given=False))
+    if "load.twist" not in names:
+        unit = "" if case.scales is None else TWIST_UNIT[case.scales.system.name]
+        twist = _control("load.twist", schema.TWIST, 0.0, unit)
+        out.append(_replaced(twist, given=False))
+    return [_with_range(control, case) for control in out]
+
+
+def _read(given: object) -> tuple[float, str] | None:
+    """Number and unit of what stands in a case file; None for a text without, or one with an uncertainty."""
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        return None
+    if not isinstance(given, str):
+        return float(given), ""
+    read = number_and_rest(given)
+    if read is None or not read[1].strip() or "±" in given or "+" in read[1]:
+        return None
+    return float(read[0]), read[1].strip()
+
+
+def _control(name: str, meaning: str, value: float, unit: str) -> Control:
+    section, key = name.split(".")
+    label = LABELS.get(name) or f"{section} {key.replace('_', ' ')}"
+    return Control(name, label, meaning, unit or UNITS.get(name, ""), value, 0.0, 0.0)
+
+
+def _replaced(control: Control, **changes: Any) -> Control:
+    return Control(**{**vars(control), **changes})
+
+
+def _with_range(control: Control, case: Case) -> Control:
+    """The control with the ends of its slider: what may sensibly be tried from where it stands."""
+    key, value = control.name.split(".")[1], control.value
+    low, high = value / 2.0, 2.0 * value
+    if "angle" in key or key == "alpha":
+        low, high = 0.0, 90.0
+    elif key == "poisson":
+        low, high = 0.0, 0.5
+    elif key == "twist":
+        reach = 10.0 if case.scales is None else 10.0 * case.scales.factor("moment") / _moment(control.unit)
+        reach = float(f"{max(reach, 3.0 * abs(value)):.1g}")
+        low, high = -reach, reach
+    elif control.name == "dimensionless.weight":
+        low, high = 0.0, max(60.0, 4.0 * value)
+    elif value == 0.0:
+        low, high = 0.0, 1.0
+    return _replaced(control, low=float(f"{low:.3g}"), high=float(f"{high:.3g}"))
+
+
+def _moment(unit: str) -> float:
+    from rodwell.quantities.units import to_si  # noqa: PLC0415 - reads the definitions of units
+
+    return to_si(f"1 {unit}", "moment")
+
+
+def moved(data: Mapping[str, Any], known: list[Control], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the content of a case file with other numbers, ends and modes; what was not moved stays as it was written.
+
+    Raises
+    ------
+    InputError
+        For a name that is not known, or what is no number.
+    """
+    out = copy.deepcopy(dict(data))
+    by_name = {control.name: control for control in known}
+    for name, value in values.items():
+        if name == "ends":
+            if value not in ENDS:
+                raise InputError("ends", value, f"must be one of {', '.join(ENDS)}")
+            out["dimensionless" if "dimensionless" in out else "rod"]["ends"] = value
+        elif name == "modes":
+            if value not in range(1, MOST_MODES + 1) or isinstance(value, bool):
+                raise InputError("modes", value, f"must be a whole number from 1 to {MOST_MODES}")
+            out.setdefault("analysis", {})["modes"] = value
+        elif name in by_name:
+            _put(out, by_name[name], value)
+        else:
+            raise InputError(name, value, f"cannot be moved here; there are ends, modes, {', '.join(by_name)}")
+    return out
+
+
+def _put(data: dict[str, Any], control: Control, value: object) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(control.name, value, "must be a number")
+    if value == control.value:
+        return  # as it was written
+    section, key = control.name.split(".")
+    plain = "dimensionless" in data or not control.unit
+    data.setdefault(section, {})[key] = float(value) if plain else f"{float(value)!r} {control.unit}"
+
+
+def as_toml(data: Mapping[str, Any]) -> str:
+    """Return the content of a case file as text."""
+    lines = [f"{key} = {_toml(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
+    for section, keys in data.items():
+        if isinstance(keys, Mapping):
+            lines += ["", f"[{section}]", *(f"{key} = {_toml(value)}" for key, value in keys.items())]
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str | bool) else repr(value)

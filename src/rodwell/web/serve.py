@@ -1,0 +1,76 @@
+"""The server on this machine: a port, a token, and its end."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+from collections.abc import Callable
+
+from rodwell.errors import InputError
+from rodwell.web.worker import Start
+
+ADDRESS = "127.0.0.1"
+"""This machine only."""
+
+
+def serve(start: Start, port: int, opened: Callable[[str], None]) -> None:
+    """Serve the explorer until Ctrl-C.
+
+    Parameters
+    ----------
+    start
+        The case.
+    port
+        Port to listen on; 0: any that is free.
+    opened
+        Called with the address of the page once it can be opened.
+
+    Raises
+    ------
+    InputError
+        If the case cannot be used, the port is taken, or the extra ``rodwell[explore]`` is not installed.
+    """
+    from rodwell.web.desk import Desk  # noqa: PLC0415 - after the extra was asked for
+
+    listening = _listening(port)
+    desk = Desk(start)  # its process begins while this one imports
+    try:
+        import uvicorn  # noqa: PLC0415
+
+        from rodwell.web.app import app  # noqa: PLC0415
+
+        number = int(listening.getsockname()[1])
+        token = secrets.token_urlsafe(18)
+        config = uvicorn.Config(
+            app(desk, token, lambda: number), log_level="error", access_log=False, server_header=False,
+            ws="websockets-sansio", ws_max_size=100_000, lifespan="on", timeout_graceful_shutdown=1,
+        )  # fmt: skip
+        desk.ready()
+        opened(f"http://{ADDRESS}:{number}/{token}/")
+        uvicorn.Server(config).run(sockets=[listening])
+    finally:
+        desk.stop()
+        listening.close()
+
+
+def check_installed() -> None:
+    """Raise if the extra is not installed."""
+    try:
+        import starlette  # noqa: F401, PLC0415
+        import uvicorn  # noqa: F401, PLC0415
+        import websockets  # noqa: F401, PLC0415
+    except ImportError as error:
+        what = f"needs {error.name}, which is not installed: pip install 'rodwell[explore]'"
+        raise InputError("rodwell explore", None, what) from None
+
+
+def _listening(port: int) -> socket.socket:
+    out = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        out.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        out.bind((ADDRESS, port))
+        out.listen(64)
+    except OSError as error:
+        out.close()
+        raise InputError("--port", port, f"cannot be used ({error.strerror}): leave it out to take a free one") from None
+    return out

@@ -1,0 +1,188 @@
+"""One state of what was computed: found, and put into numbers, curves and a scene for the page.
+
+Every state that the page shows comes from :func:`states_of`: states that come from elsewhere, as those of a rod off the
+wall, have their place there.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.space.scene import drawn
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.plots.units import axis
+from rodwell.quantities.names import QUANTITIES
+from rodwell.quantities.text import minus, number_text, plain
+from rodwell.quantities.value import Peak, Value
+from rodwell.report.pages.viewer import view
+from rodwell.report.reports.texts import PLAIN_UNITS
+from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
+
+PLACES, SIDES = 241, 12
+"""Places along the rod and sides around it in the scene: what is drawn twenty times a second."""
+
+ALONG = 201
+"""Places along the rod of the curves."""
+
+DIGITS = 6
+
+
+def states_of(explored: Explored, branch: str, force: float) -> tuple[Solution, ...]:
+    """Return the states of a branch at an end force F in B/L², in order of travel; none if it does not pass there.
+
+    Raises
+    ------
+    InputError
+        For a branch that is not there.
+    NotConvergedError
+        If a state could not be computed.
+    """
+    if branch == STRAIGHT:
+        start = explored.computed.first[0]  # where the branch leaves the straight rod: a rod without deflection
+        point = start.meshes.at(start.point, force)
+        if point is None:
+            raise NotConvergedError(f"the straight rod could not be computed at F = {force:g} B/L²")
+        return (Solution(start.problem, point, start.meshes),)
+    if branch not in {known.name for known in explored.branches}:
+        names = ", ".join([STRAIGHT, *(known.name for known in explored.branches)])
+        raise InputError("branch", branch, f"must be one of {names}")
+    return explored[branch].states_at(force)
+
+
+KNOWN = ("rod", "material line", "cylinder")
+"""Parts of the scene whose triangles are the same in every state."""
+
+
+def plain_state(
+    explored: Explored, solution: Solution, branch: str, which: int, count: int, *, known: bool = False
+) -> dict[str, Any]:
+    """Return a state as plain data: numbers with errors, curves along the rod, the scene.
+
+    Parameters
+    ----------
+    explored, solution
+        What was computed, and one state of it.
+    branch, which, count
+        Its branch, its place among the states there at this load, and how many these are.
+    known
+        Whether the page knows the triangles of the scene from a state before: they are left out then.
+    """
+    push, scales = solution.largest("contact_pressure"), explored.case.scales
+    off = is_off(solution, push.value)
+    seen = view(solution, scales, drawn(solution, scales, PLACES), SIDES, readings=False)
+    for part in seen.data["parts"] if known else ():
+        if part["name"].startswith(KNOWN):
+            del part["triangles"]
+    return {
+        "branch": branch,
+        "which": which,
+        "count": count,
+        "force": solution.force,
+        "load": explored.shown(solution.force),
+        "index": solution.stability_index,
+        "stable": solution.stable,
+        "off": off,
+        "accurate": solution.accurate,
+        "headline": headline(explored, solution, branch, off),
+        "values": numbers(explored, solution, push),
+        "y": explored.ordinates({which: solution.number(which).value for which in Measured}),
+        "curves": curves(explored, solution),
+        "scene": seen.data,
+        "bar": seen.bar,
+    }
+
+
+def is_off(solution: Solution, largest: float) -> bool:
+    """Whether the wall would have to pull somewhere: the rod has left it before. ``largest``: size of the pressure."""
+    top, error = solution.number(Measured.P_MAX)
+    return bool(top > max(error, NO_PULL * largest))
+
+
+def headline(explored: Explored, solution: Solution, branch: str, off: bool) -> str:
+    """What is shown, in one line."""
+    load = explored.forces.load(Value(solution.force))
+    what = "the straight rod" if branch == STRAIGHT else branch
+    index = solution.stability_index
+    stable = "stable" if index == 0 else f"unstable (index {index})"
+    if branch != STRAIGHT and off:
+        stable += "; the wall would have to pull: the rod has left it before this load"
+    return f"{what} at {load}: {stable}"
+
+
+def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any]:
+    """The numbers of a state by name: in B = L = 1 with their errors, and as they are shown.
+
+    ``push``: the largest size of the contact pressure.
+    """
+    angle = solution.largest("xi2")
+    pulled = float(solution.fields(np.array([push.s]))["contact_pressure"][0]) > 0.0
+    contact = "largest pull that the wall would have to give" if pulled else "largest push on the wall"
+    forces = explored.forces
+    factor, unit = explored.load_unit
+    compression = forces.compression(Value(solution.force))
+    out = {
+        "force": {
+            "label": forces.axis, "value": solution.force, "error": 0.0, "shown": compression.value * factor,
+            "unit": unit, "text": f"{minus(f'{compression.value * factor:.10g}')} {unit}",
+        },
+        "largest_push": _number(explored, contact, "contact_pressure", push, push.s),
+        "largest_angle": _angle("largest angle around the hole", angle, angle.s),
+        "T2": _number(explored, "torque on the hole T₂ at s = 0", "support_torque", solution.number("support_torque")),
+    }  # fmt: skip
+    for name in ("end_shortening", "energy", "omega2_at_0", "omega2_at_1"):
+        label = QUANTITIES[name].meaning.split(",")[0]
+        out[name] = _number(explored, f"{label} {QUANTITIES[name].symbol}", name, solution.number(name))
+    return out
+
+
+def _number(explored: Explored, label: str, name: str, number: Any, s: float | None = None) -> dict[str, Any]:
+    scales, dimension = explored.case.scales, QUANTITIES[name].dimension
+    factor, unit = axis(name, scales, abs(number.value))
+    known = Value(number.value, number.error)
+    if scales is None:
+        text, error = number_text(known, DIGITS), plain(number.error, 1)
+        text, error = f"{text} {PLAIN_UNITS[dimension]}".rstrip(), f"{error} {PLAIN_UNITS[dimension]}".rstrip()
+    else:
+        text, error = scales.beside_error(known, dimension, DIGITS), scales.text(number.error, dimension, 1)
+    return {"label": label, "value": number.value, "error": number.error, "shown": number.value * factor, "unit": unit,
+            "text": text, "error_text": error, "s": s}  # fmt: skip
+
+
+def _angle(label: str, number: Any, s: float) -> dict[str, Any]:
+    degrees = Value(float(np.degrees(number.value)), float(np.degrees(number.error)))
+    return {"label": label, "value": number.value, "error": number.error, "shown": degrees.value, "unit": "°",
+            "text": f"{number_text(degrees, DIGITS)}°", "error_text": f"{plain(degrees.error, 1)}°", "s": s}  # fmt: skip
+
+
+def curves(explored: Explored, solution: Solution) -> dict[str, Any]:
+    """Push on the wall and place around it along the rod, in the units shown."""
+    s = np.linspace(0.0, 1.0, ALONG)
+    fields, scales = solution.fields(s), explored.case.scales
+    along, along_unit = (1.0, "L") if scales is None else axis("y", scales, 1.0)
+    push = -fields["contact_pressure"]
+    factor, unit = axis("contact_pressure", scales, float(np.abs(push).max()))
+    return {
+        "s": {"label": "s from the end s = 0", "unit": along_unit, "values": (s * along).tolist()},
+        "push": {"label": "push on the wall", "unit": unit, "values": (push * factor).tolist()},
+        "side": {"label": "angle around the hole", "unit": "°", "values": np.degrees(fields["xi2"]).tolist()},
+    }
+
+
+def details(explored: Explored, solution: Solution) -> dict[str, Any]:
+    """What a click asks for: index, certificate, whether the tolerance is met, the supports' loads."""
+    certificate, wall = solution.certificate, solution.wall
+    return {
+        "index": solution.stability_index,
+        "converged": solution.converged,
+        "rtol": explored.case.rtol,
+        "certificate": {"worst": certificate.worst, "equation": certificate.worst_equation, "limit": certificate.limit,
+                        "passed": certificate.passed},
+        "wall": {
+            "total": _number(explored, "contact force, all directions added", "force", wall.total),
+            "torque": wall.meaning,
+        },
+    }  # fmt: skip

@@ -1,0 +1,96 @@
+"""The process in which the engine runs: it takes one request after the other, and ends when its parent does."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import math
+import multiprocessing
+import os
+import signal
+import threading
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+from rodwell.errors import RodwellError
+
+Start = tuple[dict[str, Any] | None, str, str]
+"""Content of the case file or None, the folder of its files, its name for messages."""
+
+
+def work(pipe: Connection, cancelled: Any, start: Start) -> None:
+    """Answer requests from a pipe until it closes.
+
+    A request is a pair (number, dictionary). An answer is (number, last, text), text being JSON; the first, with number
+    0, says that the engine is ready, or why it cannot be.
+
+    Parameters
+    ----------
+    pipe
+        To the server.
+    cancelled
+        Shared whole number: the request of that number is no longer wanted.
+    start
+        The case.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the server ends this process
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow; the watch above comes first
+
+    try:
+        engine = Engine(*start)
+    except RodwellError as error:
+        pipe.send((0, True, json.dumps({"kind": "failed", "message": str(error)})))
+        return
+    pipe.send((0, True, as_json(engine.hello())))
+    with contextlib.suppress(RodwellError, Cancelled):  # what the page asks for first; what fails is told then
+        engine.explored({}, lambda: None)
+    while True:
+        try:
+            number, request = pipe.recv()
+        except (EOFError, OSError):
+            return
+
+        def send(message: dict[str, Any], number: int = number, request: dict[str, Any] = request) -> None:
+            text = as_json({"id": request.get("id"), **message})
+            pipe.send((number, bool(message.get("last")), text))
+
+        def check(number: int = number) -> None:
+            if cancelled.value >= number:
+                raise Cancelled
+
+        try:
+            check()
+            engine.answer(request, send, check)
+        except Cancelled:
+            send({"kind": "cancelled", "last": True})
+        except RodwellError as error:
+            send({"kind": "failed", "of": request.get("kind"), "message": str(error), "last": True})
+        except (ArithmeticError, AssertionError, KeyError, LookupError, TypeError, ValueError) as error:
+            cause = error.__cause__ or error
+            what = f"{type(cause).__name__}: {cause}"
+            send({"kind": "failed", "of": request.get("kind"), "message": f"not computed: {what}", "last": True})
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+
+def as_json(message: dict[str, Any]) -> str:
+    """JSON that every browser reads: what is not finite is null."""
+    try:
+        return json.dumps(message, allow_nan=False, separators=(",", ":"))
+    except ValueError:
+        return json.dumps(_finite(message), separators=(",", ":"))
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
