@@ -53,6 +53,12 @@ def states_of(explored: Explored, branch: str, force: float) -> tuple[Solution, 
     return explored[branch].states_at(force)
 
 
+OTHERS = {
+    "end_shortening": "approach of the ends", "energy": "energy", "omega2_at_0": "end curvature",
+    "omega2_at_1": "end curvature",
+}  # fmt: skip
+"""Further numbers of a state, and what they are called beside their symbol."""
+
 KNOWN = ("rod", "material line", "cylinder")
 """Parts of the scene whose triangles are the same in every state."""
 
@@ -131,10 +137,9 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
         },
         "largest_push": _number(explored, contact, "contact_pressure", push, push.s),
         "largest_angle": _angle("largest angle around the hole", angle, angle.s),
-        "T2": _number(explored, "torque on the hole T₂ at s = 0", "support_torque", solution.number("support_torque")),
+        "T2": _number(explored, "torque on the hole at s = 0, T₂(0)", "support_torque", solution.number("support_torque")),
     }  # fmt: skip
-    for name in ("end_shortening", "energy", "omega2_at_0", "omega2_at_1"):
-        label = QUANTITIES[name].meaning.split(",")[0]
+    for name, label in OTHERS.items():
         out[name] = _number(explored, f"{label} {QUANTITIES[name].symbol}", name, solution.number(name))
     return out
 
