@@ -73,6 +73,7 @@ _HOME = {
     "study": "rodwell.studies.sweep.study",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
+    "turns_of_least_energy": "rodwell.analysis.branch.turns",
     "verify": "rodwell.analysis.branch.verify",
 }
 
@@ -86,6 +87,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.minimum import equilibrium
     from rodwell.analysis.branch.solution import Solution
     from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.analysis.branch.turns import turns_of_least_energy
     from rodwell.analysis.branch.verify import verify
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve

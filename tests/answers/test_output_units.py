@@ -176,7 +176,7 @@ def test_commands_show_the_units_asked_for(
     assert {fact["label"] for fact in data["conversions"]} >= {"pipe", "buoyed weight per length mg"}
     text = command(monkeypatch, capsys, "export", str(file), "--to", str(tmp_path / "rod.csv"))
     assert "lbf), tension positive" in text
-    text = command(monkeypatch, capsys, "audit", str(file), "--no-chart", "--out", str(tmp_path / "c"))
+    text = command(monkeypatch, capsys, "audit", str(file), "--no-chart", "--details", "--out", str(tmp_path / "c"))
     assert "lbf" in text
     assert "psi" in text
     assert not re.search(r"\d k?N\b", text)

@@ -59,7 +59,7 @@ def run(
         from rodwell.cli.study import run_study  # noqa: PLC0415
 
         check_writable(folder)
-        run_study(text, folder, units, as_json, quiet, with_pdf)
+        run_study(text, folder, units, as_json, quiet, with_pdf, details)
         return
     read = Case.read(text).in_units(units)
     check_writable(folder)

@@ -13,7 +13,7 @@ from rodwell.case.cylinder import Cylinder
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import percent
+from rodwell.quantities.text import percent, plain
 from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
 
@@ -65,7 +65,7 @@ def critical_length(problem: Problem) -> list[KeyNumber]:
         return []
     length = (number / problem.weight) ** (1.0 / 3.0)
     value = Value(length, length * ROUNDED / number / 3.0)
-    note = f"L_cr = ({number:g} B/mg)^⅓: a longer rod buckles under its own weight, F = 0 at s = 1"
+    note = f"L_cr = ∛({plain(number, 8)} B/mg): a longer rod buckles under its own weight, F = 0 at s = 1"
     label = "Critical length under self-weight, vertical"
     return [KeyNumber("critical_length", label, value, "length", length, note)]
 

@@ -16,6 +16,7 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
+from rodwell.case.about import About
 from rodwell.plots.along import plot_along
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
@@ -51,9 +52,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             else:
                 save_figure(getattr(ax, "figure", ax), folder / name)
                 out[name] = ("svg", (folder / f"{name}.svg").read_bytes())
-    if answer.case.about.logo is not None:
-        out[LOGO] = answer.case.about.logo
-    return out
+    return out if answer.case.about.logo is None else out | {LOGO: answer.case.about.logo}
 
 
 def _along(a: Assessment) -> Any:
@@ -82,6 +81,13 @@ def save_figure(figure: Any, path: Path) -> None:
     text = io.StringIO()
     svg.print_svg(text, metadata={"Date": None})
     path.with_suffix(".svg").write_text(with_dark_style(text.getvalue()), encoding="utf-8")
+
+
+def kept(folder: Path, names: Sequence[str], about: About) -> dict[str, tuple[str, bytes]]:
+    """The pictures of these names that were written to ``folder``, and the logo, as a report takes them."""
+    files = {name: folder / f"{name}.svg" for name in names}
+    out = {name: ("svg", file.read_bytes()) for name, file in files.items() if file.exists()}
+    return out if about.logo is None else out | {LOGO: about.logo}
 
 
 def _as_png(figure: Any, path: Path) -> bytes:

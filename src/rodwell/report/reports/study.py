@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Iterable
 
 from rodwell._version import __version__
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
+from rodwell.case.about import NOBODY, About
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
+from rodwell.report.reports.files import linked
+from rodwell.report.reports.front import LOGO
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
@@ -23,9 +27,16 @@ from rodwell.studies.sweep.tables import (
     worst_points,
 )
 
+FILES = {
+    "points.csv": "every point with all digits and the error of each number",
+    "points.xlsx": "the same as a workbook",
+    "study.json": "the same as data",
+    "case.toml": "the study as it was read",
+}
 
-def study_report(study: Study) -> Report:
-    """Return the content of a study's report."""
+
+def study_report(study: Study, files: Iterable[str] = (), *, about: About = NOBODY) -> Report:
+    """Return the content of a study's report; ``files`` are the names of those beside it."""
     today = datetime.date.today().isoformat()
     return Report(
         title=study.title,
@@ -36,6 +47,9 @@ def study_report(study: Study) -> Report:
         footer=f"Computed by rodwell {__version__} from {study.source}. The theory is geometrically exact for a rod "
         "that stays on the wall. Not included: friction, joints, curvature of the hole, dynamics.",
         paper="us-letter" if study.physical and study.system.name == "field" else "a4",
+        about=about.lines,
+        logo="" if about.logo is None else LOGO,
+        files=linked(files, FILES),
     )
 
 
@@ -166,4 +180,4 @@ def _inputs(study: Study) -> ReportSection:
         for section, values in study.given.items()
         for key, value in (values.items() if hasattr(values, "items") else [])
     )
-    return ReportSection("Inputs", (Grid(("As given", ""), given),))
+    return ReportSection("Inputs", (Grid(("Key of the case file", "As given"), given),))
