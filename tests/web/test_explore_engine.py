@@ -1,0 +1,282 @@
+"""What the explorer's engine answers, against the library: states, verdicts, files, and what can be moved."""
+
+from __future__ import annotations
+
+import base64
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import rodwell
+from rodwell.web.engine import Cancelled, Engine
+from rodwell.web.inputs import DEFAULT, as_toml, moved
+from rodwell.web.worker import as_json
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+FIELD = EXAMPLES / "field-drill-pipe.toml"
+
+
+def never() -> None:
+    """No request is cancelled."""
+
+
+def ask(engine: Engine, kind: str, **what: Any) -> dict[str, Any]:
+    out: list[dict[str, Any]] = []
+    engine.answer({"kind": kind, "id": 1, "inputs": {}, **what}, out.append, never)
+    assert [message.get("last", False) for message in out] == [False] * (len(out) - 1) + [True]
+    assert json.loads(as_json(out[-1])) == json.loads(json.dumps(out[-1]))  # plain data, nothing that is not finite
+    return out[-1]
+
+
+@pytest.fixture(scope="module")
+def plain() -> Engine:
+    return Engine(None)
+
+
+@pytest.fixture(scope="module")
+def field() -> Engine:
+    return Engine(tomllib.loads(FIELD.read_text(encoding="utf-8")))
+
+
+def test_states_are_those_of_the_library(plain: Engine) -> None:
+    """30 seeded states: force, largest push, largest angle and T₂ as the library has them for the same inputs."""
+    rng = np.random.default_rng(24)
+    for weight in (5.0, 15.0, 40.0):
+        inputs = {"dimensionless.weight": weight, "dimensionless.alpha": 60.0}
+        data = ask(plain, "diagram", inputs=inputs)["diagram"]
+        problem = rodwell.Problem(weight=weight, alpha=60.0)
+        until = -data["range"][1]
+        branch = rodwell.follow(problem, mode=1, until=until)
+        low = data["buckles"]["load"]
+        for load in low + (data["range"][1] - low) * rng.uniform(0.02, 0.98, 10):
+            found = ask(plain, "state", inputs=inputs, load=load)["state"]
+            state = branch.at(-load)
+            expected = {
+                "force": -load, "largest_push": state.largest("contact_pressure").value,
+                "largest_angle": state.largest("xi2").value, "T2": state.number("support_torque").value,
+            }  # fmt: skip
+            for name, value in expected.items():
+                assert found["values"][name]["value"] == pytest.approx(value, rel=1e-9, abs=1e-12)
+            assert found["index"] == state.stability_index
+            assert found["branch"] == "mode 1"
+
+
+def test_loads_of_the_diagram_are_those_of_the_answer(field: Engine) -> None:
+    answer = rodwell.answer(rodwell.Case.read(FIELD))
+    data = ask(field, "diagram")["diagram"]
+    keys = answer.key_numbers
+    factor = answer.case.scales.factor("force") / 4.4482216152605
+    weight = answer.case.problem.axial_weight  # shown at the bottom, compression positive
+    assert data["buckles"]["load"] == pytest.approx(factor * (weight - answer.buckling.value), rel=1e-12)
+    assert data["lifts_off"]["load"] == pytest.approx(factor * (weight - keys["lift_off_load"].value), rel=1e-12)
+    assert data["axis"] == {"label": "compression at the bottom", "unit": "lbf", "end": " at the bottom"}
+    assert data["suggested"] == pytest.approx(35000.0, rel=1e-12)  # load.applied of the file
+    assert [b["name"] for b in data["branches"]][:3] == ["mode 1", "mode 2", "mode 3"]
+    text = ask(field, "verdict", load=35000.0)["text"]
+    from rodwell.answers.words.verdict import verdict
+
+    assert text == verdict(answer.assessment)
+
+
+def test_the_primary_branches_come_before_the_secondary_ones() -> None:
+    out: list[dict[str, Any]] = []
+    Engine(None).answer({"kind": "diagram", "inputs": {}}, out.append, never)
+    drawn = [message for message in out if message["kind"] == "diagram"]
+    assert [message["whole"] for message in drawn] == [False, True]
+    first, last = ({b["name"] for b in message["diagram"]["branches"]} for message in drawn)
+    assert first == {"mode 1", "mode 2", "mode 3"}
+    assert last == first | {"secondary 1"}
+
+
+def test_stable_unstable_and_off_the_wall_change_at_special_points(plain: Engine) -> None:
+    data = ask(plain, "diagram")["diagram"]
+    first, second = data["branches"][:2]
+    lift = next(p for p in first["special"] if p["kind"] == "lift_off")
+    assert lift["force"] == pytest.approx(-123.173074384872, rel=1e-12)  # AUTO-07p, see tests/validation
+    for load, off in zip(first["load"], first["off"], strict=True):
+        assert off == (load >= lift["load"] * (1.0 - 1e-12))
+    turn = next(p for p in second["special"] if p["kind"] == "branch_point")
+    for load, index in zip(second["load"], second["index"], strict=True):
+        assert index == (1 if load < turn["load"] * (1.0 - 1e-12) else 0)
+
+
+def test_the_straight_rod_is_shown_where_no_branch_passes(plain: Engine) -> None:
+    below = ask(plain, "state", load=50.0)["state"]
+    assert (below["branch"], below["index"], below["stable"]) == ("straight", 0, True)
+    assert below["values"]["largest_push"]["value"] == pytest.approx(15.0, rel=1e-12)  # its weight
+    assert max(map(abs, below["curves"]["side"]["values"])) == 0.0
+    above = ask(plain, "state", load=220.0, branch="straight")["state"]
+    assert above["index"] == 3  # critical loads −111.2, −127.3, −206.5
+    other = ask(plain, "state", load=115.0, branch="mode 2")["state"]
+    assert other["branch"] == "straight"
+    assert "mode 2 does not pass" in other["note"]
+
+
+def test_a_special_point_is_shown_as_it_was_located(plain: Engine) -> None:
+    data = ask(plain, "diagram")["diagram"]
+    k = next(k for k, p in enumerate(data["branches"][0]["special"]) if p["kind"] == "lift_off")
+    found = ask(plain, "state", load=data["branches"][0]["special"][k]["load"], branch="mode 1", special=k)["state"]
+    branch = rodwell.follow(rodwell.Problem(15.0), mode=1)
+    assert found["force"] == pytest.approx(branch.lift_off.force, rel=1e-12)
+    assert abs(min(found["curves"]["push"]["values"])) < 1e-2
+    assert "index 0 → 0" in found["note"]
+    details = ask(plain, "details", load=123.0, branch="mode 1", special=k)["details"]
+    assert details["converged"]
+    assert details["certificate"]["passed"]
+
+
+def test_every_vertex_lies_within_the_wall(plain: Engine, field: Engine) -> None:
+    for engine, load in ((plain, 118.0), (plain, 180.0), (field, 35000.0)):
+        scene = ask(engine, "state", load=load)["state"]["scene"]
+        part = next(part for part in scene["parts"] if part["name"] == "rod")
+        q = np.frombuffer(base64.b64decode(part["positions"]), dtype="<u2").reshape(-1, 3)
+        low, high = np.array(part["low"]), np.array(part["high"])
+        points = low + q / 65535.0 * (high - low)
+        wall = 0.5 * scene["height"]  # radius of the wall as drawn
+        assert np.hypot(points[:, 1], points[:, 2]).max() <= 1.001 * wall
+        assert np.hypot(points[:, 1], points[:, 2]).max() >= 0.99 * wall  # it touches it
+
+
+def test_triangles_are_left_out_where_the_page_knows_them(plain: Engine) -> None:
+    first, second = (ask(plain, "state", load=118.0, known=known)["state"]["scene"]["parts"] for known in (False, True))
+    assert all("triangles" in part for part in first)
+    assert not any("triangles" in part for part in second)
+    assert [part["positions"] for part in first] == [part["positions"] for part in second]
+
+
+@pytest.mark.parametrize("name", ["plain", "field"])
+def test_the_case_that_is_saved_gives_the_same_numbers(name: str, request: pytest.FixtureRequest) -> None:
+    engine: Engine = request.getfixturevalue(name)
+    inputs = {"plain": {"dimensionless.alpha": 75.0, "modes": 2}, "field": {"rod.length": 250.0, "mud.density": 11.0}}
+    data = ask(engine, "diagram", inputs=inputs[name])["diagram"]
+    load = 0.4 * data["buckles"]["load"] + 0.6 * data["lifts_off"]["load"]
+    state = ask(engine, "state", inputs=inputs[name], load=load)["state"]
+    text = base64.b64decode(ask(engine, "file", inputs=inputs[name], load=load, suffix="toml")["content"]).decode()
+    case = rodwell.Case.from_dict(tomllib.loads(text))
+    answer = rodwell.answer(case)
+    assert case.applied[0].force == pytest.approx(state["force"], rel=1e-12)
+    assert answer.buckling.value == pytest.approx(data["buckles"]["force"], rel=1e-9)
+    assert answer.lift_off_load.value == pytest.approx(data["lifts_off"]["force"], rel=1e-9)
+    same = answer.first.at(case.applied[0].force)
+    assert same.largest("contact_pressure").value == pytest.approx(state["values"]["largest_push"]["value"], rel=1e-9)
+
+
+def test_what_is_copied_runs_and_gives_the_state(plain: Engine, capsys: pytest.CaptureFixture[str]) -> None:
+    data = ask(plain, "diagram")["diagram"]
+    for branch, load in (("", 118.0), ("secondary 1", 200.0), ("straight", 90.0)):
+        state = ask(plain, "state", load=load, branch=branch)["state"]
+        texts = ask(plain, "copy", load=load, branch=branch)["texts"]
+        names: dict[str, Any] = {}
+        exec(texts["python"], names)
+        if branch != "straight":
+            assert names["state"].largest("xi2").value == pytest.approx(state["values"]["largest_angle"]["value"], rel=1e-9)
+        assert capsys.readouterr().out
+    assert texts["command"].startswith("rodwell diagram --weight 15.0 --alpha 90.0")
+    from rodwell.cli.main import cli
+
+    command = cli.commands["diagram"].make_context("diagram", texts["command"].split()[2:])
+    assert command.params["until"] == pytest.approx(-data["range"][1])
+
+
+def test_files_are_what_they_are_called(plain: Engine, field: Engine) -> None:
+    starts = {"glb": b"glTF", "png": b"\x89PNG", "svg": b"<?xml", "nc": b"\x89HDF", "html": b"<!doctype html>"}
+    for suffix, start in starts.items():
+        content = base64.b64decode(ask(plain, "file", load=118.0, suffix=suffix)["content"])
+        assert content[:40].lower().startswith(start.lower())
+    lines = base64.b64decode(ask(field, "file", load=35000.0, suffix="csv")["content"]).decode().splitlines()
+    head = lines[0].split(",")
+    assert head[0] == "s [m]"
+    assert "contact_pressure [N/m]" in head
+    row = [float(x) for x in lines[-1].split(",")]
+    assert row[0] == pytest.approx(300.0 * 0.3048)
+    assert len(row) == len(head)
+
+
+def test_farther_than_was_followed(plain: Engine) -> None:
+    last = ask(plain, "diagram")["diagram"]["range"][1]
+    data = ask(plain, "diagram", until=1.3 * last)["diagram"]
+    assert data["range"][1] == pytest.approx(1.3 * last, rel=1e-12)
+    assert ask(plain, "state", until=1.3 * last, load=1.25 * last)["state"]["branch"] == "mode 1"
+
+
+def test_loads_keep_their_unit_while_inputs_move() -> None:
+    engine = Engine(tomllib.loads((EXAMPLES / "drill-string.toml").read_text(encoding="utf-8")))
+    units = [ask(engine, "diagram", inputs=i)["diagram"]["axis"]["unit"] for i in ({"rod.length": 55.0}, {})]
+    assert units[0] == units[1] == "kN"
+
+
+def test_what_can_be_moved_stands_in_the_words_of_the_case(field: Engine) -> None:
+    found = {control.name: control for control in field.controls}
+    assert [*found] == ["rod.length", "rod.weight_per_length", "hole.diameter", "hole.angle_from_vertical", "mud.density", "load.twist"]
+    assert (found["rod.length"].value, found["rod.length"].unit) == (300.0, "ft")
+    assert (found["rod.weight_per_length"].value, found["rod.weight_per_length"].unit) == (19.5, "lbf/ft")
+    assert not found["rod.weight_per_length"].given
+    other = moved(field.data, field.controls, {"hole.diameter": 9.0, "ends": "pinned-clamped", "modes": 2})
+    assert (other["hole"]["diameter"], other["rod"]["ends"], other["analysis"]["modes"]) == ("9.0 in", "pinned-clamped", 2)
+    assert field.data["hole"]["diameter"] == "8.5 in"  # the case to begin with stays
+    same = moved(field.data, field.controls, {"hole.diameter": 8.5, "rod.weight_per_length": 19.5})
+    assert same == field.data  # what was not moved stays as it was written
+
+
+@pytest.mark.parametrize(
+    ("inputs", "what"),
+    [({"ends": "glued"}, "ends = 'glued'"), ({"modes": 99}, "modes = 99"), ({"modes": True}, "modes"),
+     ({"nothing": 1.0}, "cannot be moved"), ({"dimensionless.weight": "15"}, "must be a number"),
+     ({"dimensionless.clearance": 2.0}, "clearance = 2"), ({"dimensionless.weight": float("nan")}, "weight")],
+)  # fmt: skip
+def test_wrong_inputs_are_told(plain: Engine, inputs: dict[str, Any], what: str) -> None:
+    with pytest.raises(rodwell.InputError) as error:
+        ask(plain, "diagram", inputs=inputs)
+    assert what in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("request_", "what"),
+    [({"kind": "dance"}, "kind = 'dance'"), ({"kind": "state", "load": None}, "load"),
+     ({"kind": "state", "load": 1e99}, "load"), ({"kind": "state", "load": 118.0, "branch": "mode 9"}, "branch = 'mode 9'"),
+     ({"kind": "state", "load": 118.0, "which": "x"}, "which"),
+     ({"kind": "state", "load": 118.0, "branch": "mode 1", "special": 50}, "special = 50"),
+     ({"kind": "file", "load": 118.0, "suffix": "exe"}, "file = 'exe'"), ({"kind": "diagram", "until": 1e40}, "until")],
+)  # fmt: skip
+def test_wrong_requests_are_told(plain: Engine, request_: dict[str, Any], what: str) -> None:
+    kind = request_["kind"]
+    with pytest.raises(rodwell.InputError) as error:
+        ask(plain, kind, **{k: v for k, v in request_.items() if k != "kind"})
+    assert what in str(error.value)
+
+
+def test_what_is_cancelled_ends_and_leaves_nothing_behind(plain: Engine) -> None:
+    calls = []
+
+    def check() -> None:
+        calls.append(1)
+        if len(calls) > 5:
+            raise Cancelled
+
+    inputs = {"dimensionless.weight": 33.0}
+    with pytest.raises(Cancelled):
+        plain.answer({"kind": "diagram", "inputs": inputs}, lambda _message: None, check)
+    assert len(calls) == 6
+    assert ask(plain, "diagram", inputs=inputs)["diagram"]["branches"]
+
+
+@given(
+    st.dictionaries(
+        st.from_regex(r"[a-z_]{1,8}", fullmatch=True),
+        st.one_of(st.text(max_size=20).filter(lambda t: "\x7f" not in t and t.isprintable()), st.booleans(), st.integers(-10**6, 10**6), st.floats(allow_nan=False, allow_infinity=False), st.lists(st.integers(0, 9), max_size=3)),
+        max_size=4,
+    )
+)  # fmt: skip
+def test_cases_come_back_from_their_text(section: dict[str, Any]) -> None:
+    data = {"title": "x", "rod": section}
+    assert tomllib.loads(as_toml(data)) == data
+
+
+def test_the_default_is_a_case() -> None:
+    assert rodwell.Case.from_dict(DEFAULT).problem == rodwell.Problem(15.0)
