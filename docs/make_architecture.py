@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 PURPOSE = {
     "cli": "commands; the only one that prints",
+    "web": "the live page: server, engine's process, scripts",
     "report": "",
     "report/folders": "what is written: folders of results, export",
     "report/pages": "how it looks: page, PDF, viewer, notebook",

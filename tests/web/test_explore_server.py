@@ -76,9 +76,12 @@ def client() -> Iterator[Any]:
 )  # fmt: skip
 def test_others_are_refused(client: Any, path: str, headers: dict[str, str]) -> None:
     assert client.get(path, headers=headers).status_code == 403
-    with pytest.raises(WebSocketDisconnect), client.websocket_connect(
-        path.replace(TOKEN + "/", TOKEN + "/talk", 1).replace("talkmain.js", "talk"),
-        headers={"host": HOST, "origin": HERE, **headers},
+    with (
+        pytest.raises(WebSocketDisconnect),
+        client.websocket_connect(
+            path.replace(TOKEN + "/", TOKEN + "/talk", 1).replace("talkmain.js", "talk"),
+            headers={"host": HOST, "origin": HERE, **headers},
+        ),
     ):
         raise AssertionError("a connection was accepted")
 
@@ -147,7 +150,7 @@ def test_a_port_that_is_taken_is_told() -> None:
 
 
 def test_the_newest_request_wins_and_a_process_that_ends_is_replaced() -> None:
-    """With the real engine: of many diagrams the last one is answered, others are cancelled; a killed process is replaced."""
+    """With the real engine: of many diagrams the last one is answered, each once; a killed process is replaced."""
 
     async def trial() -> tuple[list[dict[str, Any]], dict[str, Any]]:
         desk = Desk((None, ".", "case"))
@@ -248,9 +251,8 @@ def test_the_command_prints_one_line_and_leaves_no_process(number: signal.Signal
 def test_a_case_that_cannot_be_used_is_told_before_anything_is_served(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text('[rod]\nlength = "30"\n', encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-m", "rodwell", "explore", str(case), "--no-browser"], capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    command = [sys.executable, "-m", "rodwell", "explore", str(case), "--no-browser"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stdout == ""
     assert "case.toml" in done.stderr

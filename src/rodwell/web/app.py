@@ -157,7 +157,8 @@ class Guard:
     def _headers(self) -> list[tuple[bytes, bytes]]:
         talk = " ".join(f"ws://{name}:{self._port()}" for name in ("127.0.0.1", "localhost"))
         policy = (
-            f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' {talk}; "
+            f"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+            f"connect-src 'self' {talk}; "
             "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
         )
         headers = {

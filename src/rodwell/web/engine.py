@@ -13,6 +13,7 @@ from rodwell._version import __version__
 from rodwell.analysis.branch.solution import Solution
 from rodwell.case.case import Case
 from rodwell.errors import InputError
+from rodwell.quantities.text import error_digit
 from rodwell.report.reports.texts import KINDS as LABELS
 from rodwell.web import files, state, words
 from rodwell.web.explored import STRAIGHT, Explored, explore
@@ -179,7 +180,9 @@ class Engine:
             raise InputError("special", number, f"must be from 0 to {len(points) - 1}: {name} has no more")
         point = points[number]
         index = f"index {point.index_before} → {point.index_after}"
-        note = f"{LABELS[point.kind]} of {name}, known to ± {found.load_unit[0] * point.error:.1g} {found.load_unit[1]}"
+        what = LABELS[point.kind]
+        error = error_digit(found.load_unit[0] * point.error)
+        note = f"{what[:1].upper()}{what[1:]} of {name}, known to ± {error} {found.load_unit[1]}"
         return found, point.solution, name, 0, 1, f"{note}; {index}."
 
     def _state(self, request: Request, send: Send, check: Callable[[], None]) -> None:

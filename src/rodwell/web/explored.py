@@ -158,9 +158,7 @@ class Explored:
         images = []
         for image in branch.images[1:]:
             turned = image.numbers(columns)
-            images.append(
-                _columns([self.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))])
-            )
+            images.append(_columns([self.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
         return {
             "name": branch.name,
             "mode": branch.mode.number if branch.mode else None,

@@ -7,6 +7,7 @@ import csv
 import io
 import tempfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -39,14 +40,13 @@ def file_of(explored: Explored, solution: Solution, suffix: str) -> Written:
         For a suffix that is not known.
     """
     writers: dict[str, Callable[[], bytes]] = {
-        "csv": lambda: _table(explored, solution).encode(),
-        "nc": lambda: _through_file("state.nc", lambda path: _netcdf(explored, solution, path)),
+        "csv": partial(_table, explored, solution),
+        "nc": partial(_through_file, "state.nc", partial(_netcdf, explored, solution)),
         "toml": lambda: case_data(explored, solution.force)[1].encode(),
     }
     for picture in ("glb", "png", "svg", "html"):
-        writers[picture] = lambda name=f"rod.{picture}": _through_file(  # type: ignore[misc]
-            name, lambda path: export(solution, path, scales=explored.case.scales)
-        )
+        write = partial(export, solution, scales=explored.case.scales)
+        writers[picture] = partial(_through_file, f"rod.{picture}", write)
     if suffix not in writers:
         raise InputError("file", suffix, f"must be one of {', '.join(writers)}")
     return writers[suffix](), KINDS[suffix]
@@ -70,7 +70,7 @@ def _netcdf(explored: Explored, solution: Solution, path: Path) -> None:
     _dataset(explored, solution).to_netcdf(path, engine="h5netcdf")
 
 
-def _table(explored: Explored, solution: Solution) -> str:
+def _table(explored: Explored, solution: Solution) -> bytes:
     """Fields along the rod, a line a place, as the dataset has them."""
     data = _dataset(explored, solution)
     names = [name for name in data.variables if data[name].dims == ("s",)]
@@ -79,7 +79,7 @@ def _table(explored: Explored, solution: Solution) -> str:
     out = csv.writer(text, lineterminator="\n")
     out.writerow([f"{name} [{data[name].attrs.get('units', '1')}]" for name in names])
     out.writerows(zip(*([repr(float(x)) for x in data[name].values] for name in names), strict=True))
-    return text.getvalue()
+    return text.getvalue().encode()
 
 
 def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:

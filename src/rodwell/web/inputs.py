@@ -32,7 +32,9 @@ SECTIONS: dict[str, type[BaseModel]] = {
 NO_NUMBERS = ("pipe", "material", "grade", "ends", "at", "kind", "applied", "until", "yield_strength", "gravity")
 """Keys that are names, that belong to the load, or that move nothing which is shown."""
 
-ENDS = tuple(f"{a}-{b}" for a in ("clamped", "pinned", "guided", "free") for b in ("clamped", "pinned", "guided", "free"))
+ENDS = tuple(
+    f"{a}-{b}" for a in ("clamped", "pinned", "guided", "free") for b in ("clamped", "pinned", "guided", "free")
+)
 """Ends with which branches can be followed."""
 
 MOST_MODES = 6
@@ -42,7 +44,12 @@ TWIST_UNIT = {"si": "N m", "field": "ft lbf", "mm": "N mm"}
 WEIGHT_UNIT = {"si": (1.0, "N/m"), "field": (4.4482216152605 / 0.3048, "lbf/ft"), "mm": (1e3, "N/mm")}
 LABELS = {"dimensionless.weight": "weight γ", "dimensionless.alpha": "inclination α", "load.twist": "end twist T₁",
           "dimensionless.clearance": "clearance Δ/L", "dimensionless.poisson": "Poisson's ratio ν"}  # fmt: skip
-UNITS = {"dimensionless.weight": "B/L³", "dimensionless.alpha": "deg", "dimensionless.clearance": "", "load.twist": "B/L"}
+UNITS = {
+    "dimensionless.weight": "B/L³",
+    "dimensionless.alpha": "deg",
+    "dimensionless.clearance": "",
+    "load.twist": "B/L",
+}
 
 
 @dataclass(frozen=True)

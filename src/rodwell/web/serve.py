@@ -72,5 +72,7 @@ def _listening(port: int) -> socket.socket:
         out.listen(64)
     except OSError as error:
         out.close()
-        raise InputError("--port", port, f"cannot be used ({error.strerror}): leave it out to take a free one") from None
+        raise InputError(
+            "--port", port, f"cannot be used ({error.strerror}): leave it out to take a free one"
+        ) from None
     return out

@@ -16,7 +16,7 @@ from rodwell.analysis.space.scene import drawn
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.plots.units import axis
 from rodwell.quantities.names import QUANTITIES
-from rodwell.quantities.text import minus, number_text, plain
+from rodwell.quantities.text import number_text, plain
 from rodwell.quantities.value import Peak, Value
 from rodwell.report.pages.viewer import view
 from rodwell.report.reports.texts import PLAIN_UNITS
@@ -124,7 +124,7 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
 
     ``push``: the largest size of the contact pressure.
     """
-    angle = solution.largest("xi2")
+    angle, torque = solution.largest("xi2"), solution.number("support_torque")
     pulled = float(solution.fields(np.array([push.s]))["contact_pressure"][0]) > 0.0
     contact = "largest pull that the wall would have to give" if pulled else "largest push on the wall"
     forces = explored.forces
@@ -133,11 +133,11 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
     out = {
         "force": {
             "label": forces.axis, "value": solution.force, "error": 0.0, "shown": compression.value * factor,
-            "unit": unit, "text": f"{minus(f'{compression.value * factor:.10g}')} {unit}",
+            "unit": unit, "text": f"{plain(compression.value * factor, 10)} {unit}",
         },
         "largest_push": _number(explored, contact, "contact_pressure", push, push.s),
         "largest_angle": _angle("largest angle around the hole", angle, angle.s),
-        "T2": _number(explored, "torque on the hole at s = 0, T₂(0)", "support_torque", solution.number("support_torque")),
+        "T2": _number(explored, "torque on the hole at s = 0, T₂(0)", "support_torque", torque),
     }  # fmt: skip
     for name, label in OTHERS.items():
         out[name] = _number(explored, f"{label} {QUANTITIES[name].symbol}", name, solution.number(name))
@@ -159,8 +159,10 @@ def _number(explored: Explored, label: str, name: str, number: Any, s: float | N
 
 def _angle(label: str, number: Any, s: float) -> dict[str, Any]:
     degrees = Value(float(np.degrees(number.value)), float(np.degrees(number.error)))
-    return {"label": label, "value": number.value, "error": number.error, "shown": degrees.value, "unit": "°",
-            "text": f"{number_text(degrees, DIGITS)}°", "error_text": f"{plain(degrees.error, 1)}°", "s": s}  # fmt: skip
+    return {
+        "label": label, "value": number.value, "error": number.error, "shown": degrees.value, "unit": "°",
+        "text": f"{number_text(degrees, DIGITS)}°", "error_text": f"{plain(degrees.error, 1)}°", "s": s,
+    }  # fmt: skip
 
 
 def curves(explored: Explored, solution: Solution) -> dict[str, Any]:
@@ -184,8 +186,10 @@ def details(explored: Explored, solution: Solution) -> dict[str, Any]:
         "index": solution.stability_index,
         "converged": solution.converged,
         "rtol": explored.case.rtol,
-        "certificate": {"worst": certificate.worst, "equation": certificate.worst_equation, "limit": certificate.limit,
-                        "passed": certificate.passed},
+        "certificate": {
+            "worst": certificate.worst, "equation": certificate.worst_equation, "limit": certificate.limit,
+            "passed": certificate.passed,
+        },
         "wall": {
             "total": _number(explored, "contact force, all directions added", "force", wall.total),
             "torque": wall.meaning,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from rodwell.analysis.branch.solution import Solution
@@ -15,8 +16,6 @@ from rodwell.web.files import case_data
 
 def sentence(explored: Explored, force: float) -> str:
     """Return the verdict on the rod at an end force F in B/L², as reports have it."""
-    from dataclasses import replace  # noqa: PLC0415
-
     found, bottom = explored.computed, explored.forces.bottom
     scale = 1.0 if explored.case.scales is None else explored.case.scales.factor("force")
     given = scale * (force - (explored.forces.weight if bottom else 0.0))
@@ -41,9 +40,11 @@ def as_python(explored: Explored, solution: Solution, branch: str, which: int) -
     else:
         call = f"problem, modes={len(found.critical)}, until={found.until!r}, rtol={explored.case.rtol!r}"
         lines += [f"diagram = rodwell.diagram({call})", f"branch = diagram[{branch!r}]"]
-    lines += [f"state = branch.states_at({solution.force!r})[{which}]  # F at s = 1 in B/L², tension positive",
-              "print(state, state.stability_index, state.certificate)",
-              'print(state.largest("contact_pressure"), state.largest("xi2"), state.number("support_torque"))']  # fmt: skip
+    lines += [
+        f"state = branch.states_at({solution.force!r})[{which}]  # F at s = 1 in B/L², tension positive",
+        "print(state, state.stability_index, state.certificate)",
+        'print(state.largest("contact_pressure"), state.largest("xi2"), state.number("support_torque"))',
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -52,7 +53,9 @@ def _call(problem: Problem) -> str:
     names = ("alpha", "clearance", "poisson", "twist", "torsion")
     default = Problem(problem.weight)
     given = [f"weight={problem.weight!r}"]
-    given += [f"{name}={getattr(problem, name)!r}" for name in names if getattr(problem, name) != getattr(default, name)]
+    given += [
+        f"{name}={getattr(problem, name)!r}" for name in names if getattr(problem, name) != getattr(default, name)
+    ]
     if problem.ends != default.ends:
         given.append(f"ends={'-'.join(problem.ends)!r}")
     return f"rodwell.Problem({', '.join(given)})"

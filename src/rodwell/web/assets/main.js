@@ -105,6 +105,7 @@ function show() {
   for (const [name, control] of controls) if (control.value !== state.inputs[name]) control.set(state.inputs[name]);
   $("ends").value = state.inputs.ends;
   $("modes").value = state.inputs.modes;
+  $("branch").value = state.branch;
   hooks.state = state;
   const of = JSON.stringify(wanted());
   if (of !== diagramOf) {
@@ -202,7 +203,7 @@ function haveState({ state: found }) {
 function settled() {
   if (shown === null) return;
   const request = { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special };
-  link.ask("verdict", request);
+  if (state.special === null) link.ask("verdict", request); // at a special point the line that says which one stays
   link.ask("details", request);
   if (!rod) link.ask("file", { ...request, suffix: "png" });
   stills = rod ? 0 : 1;

@@ -1,0 +1,281 @@
+"""The explorer in a real browser: numbers, keys, addresses, who it talks to, and what is shown while it computes."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("starlette", reason="needs the extra: pip install 'rodwell[explore]'")
+
+from test_browser import SOFTWARE, WIDTHS, browser, chromium  # noqa: F401 - skips where no Chromium is
+
+import rodwell
+
+COMMAND = [sys.executable, "-m", "rodwell", "explore", "--no-browser"]
+
+
+class Server:
+    """The command, running."""
+
+    def __init__(self, *more: str) -> None:
+        self.running = subprocess.Popen([*COMMAND, *more], stdout=subprocess.PIPE, text=True, env={**os.environ})
+        assert self.running.stdout is not None
+        found = re.search(r"http://127\.0\.0\.1:(\d+)/\S+", self.running.stdout.readline())
+        assert found is not None
+        self.address, self.port = found[0], found[1]
+
+    def end(self) -> None:
+        self.running.terminate()
+        self.running.communicate(timeout=30)
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    running = Server()
+    yield running
+    running.end()
+
+
+def until(page: Any, script: str, limit: float = 60.0) -> Any:
+    """What a script returns once it is not false. The page's policy forbids what Playwright would do for that."""
+    end = time.monotonic() + limit
+    while time.monotonic() < end:
+        value = page.evaluate(script)
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError(f"{script} is still false: {page.evaluate('window.__rodwell')}")
+
+
+READY = "window.__rodwell && window.__rodwell.ready"
+Opened = Callable[..., Any]
+
+
+@pytest.fixture
+def opened(browser: Any, server: Server) -> Iterator[Opened]:  # noqa: F811
+    """Opens the page; fails the test for errors, and for requests to other places."""
+    pages, faults = [], []
+
+    def open_(hash_: str = "", **options: Any) -> Any:
+        page = browser.new_page(**{"viewport": {"width": 1440, "height": 1000}, **options})
+        page.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: faults.append(str(error)))
+
+        def asked(request: Any) -> None:
+            if not request.url.startswith((server.address, "data:", "blob:")):
+                faults.append(request.url)
+
+        page.on("request", asked)
+        page.goto(server.address + hash_)
+        pages.append(page)
+        until(page, READY)
+        return page
+
+    yield open_
+    for page in pages:
+        page.close()
+    assert faults == []
+
+
+def values(page: Any) -> dict[str, Any]:
+    until(page, READY)
+    return page.evaluate("window.__rodwell.values")
+
+
+def moved(page: Any, before: int) -> None:
+    until(page, f"{READY} && window.__rodwell.updates > {before}")
+
+
+def updates(page: Any) -> int:
+    return page.evaluate("window.__rodwell.updates")
+
+
+def test_the_numbers_shown_are_those_of_the_library(opened: Opened) -> None:
+    branch = rodwell.follow(rodwell.Problem(15.0), mode=1, until=-220.0)
+    page = opened()
+    field = page.get_by_label("end compression −F at s = 1", exact=True)
+    for load in (112.5, 119.25, 150.125):
+        before = updates(page)
+        field.fill(str(load))
+        field.press("Enter")
+        moved(page, before)
+        state, shown = branch.at(-load), values(page)
+        assert shown["force"] == pytest.approx(-load, rel=1e-12)
+        assert shown["largest_push"] == pytest.approx(state.largest("contact_pressure").value, rel=1e-9)
+        assert shown["largest_angle"] == pytest.approx(state.largest("xi2").value, rel=1e-9)
+        assert shown["T2"] == pytest.approx(state.number("support_torque").value, rel=1e-9, abs=1e-12)
+        text = page.inner_text("#values tr[data-name=largest_push] td >> nth=0")
+        assert float(text.split()[0]) == pytest.approx(shown["largest_push"], rel=1e-5)
+        assert page.evaluate("window.__rodwell.widest()") <= 1.001
+    until(page, "document.getElementById('verdict').textContent.includes('the rod has left the wall')")
+
+
+def test_no_number_is_shown_for_other_inputs(opened: Opened) -> None:
+    """Every text while a parameter moves: numbers of results go at once, and come with those of the new inputs."""
+    page = opened()
+    buckles = page.inner_text("#buckles")
+    page.evaluate(
+        """() => {
+        window.seen = [];
+        const look = () => window.seen.push([document.getElementById('input-dimensionless-weight').value,
+            ...['buckles', 'lifts-off', 'now', 'verdict', 'values', 'cursor', 'diagram'].map(
+              (id) => document.getElementById(id).textContent)]);
+        new MutationObserver(look).observe(document.body, { subtree: true, childList: true, characterData: true });
+    }"""
+    )
+    slider = page.locator("#controls input[type=range]").first
+    slider.focus()
+    before = updates(page)
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    moved(page, before)
+    until(page, f"{READY} && document.getElementById('buckles').textContent !== '…'")
+    weight = float(page.input_value("#input-dimensionless-weight"))
+    assert weight == pytest.approx(15.0 * 1.01**5, rel=1e-9)
+    critical = rodwell.critical_loads(rodwell.Problem(weight), 1)[0].force
+    assert float(page.inner_text("#buckles").split()[0]) == pytest.approx(-critical, rel=1e-5)
+    seen = page.evaluate("window.seen")
+    moving = [texts for texts in seen if texts[0] != "15"]
+    assert moving
+    assert not any(buckles in text for texts in moving for text in texts[1:])
+    assert any(texts[1] == "…" for texts in moving)
+
+
+def test_keys_move_load_branch_and_special_point(opened: Opened) -> None:
+    page = opened()
+    page.locator("h1").click()
+    first = values(page)["load"]
+    for key, factor in (("ArrowRight", 1.01), ("Shift+ArrowLeft", 0.9)):
+        before = updates(page)
+        page.keyboard.press(key)
+        moved(page, before)
+        first *= factor
+        assert values(page)["load"] == pytest.approx(first, rel=1e-9)
+    for key, state in (("2", {"branch": "mode 2"}), ("0", {"branch": "straight"}), ("1", {"branch": "mode 1"})):
+        before = updates(page)
+        page.keyboard.press(key)
+        moved(page, before)
+        assert page.evaluate("window.__rodwell.state.branch") == state["branch"]
+    for _ in range(3):
+        before = updates(page)
+        page.keyboard.press("PageDown")
+        moved(page, before)
+        if page.evaluate("window.__rodwell.state.special") == 1:
+            break
+    assert values(page)["force"] == pytest.approx(-123.173074384872, rel=1e-12)  # lift-off, as AUTO-07p has it
+    assert "Lift-off of mode 1" in page.inner_text("#headline")
+    page.keyboard.press("?")
+    assert page.locator("#help").is_visible()
+    page.keyboard.press("Escape")
+    assert not page.locator("#help").is_visible()
+
+
+def test_branches_can_be_focused_clicked_and_tell_what_they_are(opened: Opened) -> None:
+    page = opened()
+    labels = page.evaluate("[...document.querySelectorAll('#diagram path.hit')].map(p => p.getAttribute('aria-label'))")
+    assert len(labels) == 5  # straight, three modes, a secondary branch
+    assert all(page.evaluate("[...document.querySelectorAll('#diagram path.hit')].map(p => p.tabIndex === 0)"))
+    assert any("branch 1, mode 1" in label and "lifts off at 123.173" in label for label in labels)
+    before = updates(page)
+    page.locator("#diagram [data-branch='mode 3']").focus()
+    page.keyboard.press("Enter")
+    moved(page, before)
+    assert page.evaluate("window.__rodwell.state.branch") == "mode 3"
+    assert values(page)["index"] == 2
+    until(page, "document.getElementById('certificate').textContent.includes('passed')")
+
+
+def test_the_address_holds_the_state_and_back_works(opened: Opened) -> None:
+    page = opened()
+    for act in (lambda: page.keyboard.press("2"), lambda: page.keyboard.press("Shift+ArrowRight")):
+        before = updates(page)
+        page.locator("h1").click()
+        act()
+        moved(page, before)
+    time.sleep(0.3)
+    state, shown = page.evaluate("window.__rodwell.state"), values(page)
+    other = opened("#" + page.url.partition("#")[2])
+    assert other.evaluate("window.__rodwell.state") == state
+    assert values(other) == shown
+    before = updates(page)
+    page.go_back()
+    moved(page, before)
+    assert page.evaluate("window.__rodwell.state.load") != state["load"]
+    assert page.evaluate("window.__rodwell.state.branch") == "mode 2"
+
+
+@pytest.mark.parametrize("wrong", ["#load=much", "#nothing=1", "#ends=glued-glued", "#modes=99", "#%ff%00=%"])
+def test_an_address_that_cannot_be_read_gives_one_message_and_the_beginning(opened: Opened, wrong: str) -> None:
+    page = opened(wrong)
+    assert page.locator("#message").is_visible() or page.evaluate("window.__rodwell.values")
+    assert page.evaluate("window.__rodwell.state.inputs['dimensionless.weight']") == 15
+    assert values(page)["load"] == 118.4
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_no_serious_fault_at_any_width(opened: Opened, scheme: str) -> None:
+    from axe_playwright_python.sync_playwright import Axe
+
+    for width in WIDTHS:
+        page = opened(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        dark = page.evaluate("getComputedStyle(document.documentElement).backgroundColor")
+        assert (dark == "rgb(18, 24, 30)") == (scheme == "dark")
+        found = Axe().run(page).response["violations"]
+        bad = [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")]
+        assert bad == []
+
+
+def test_nothing_is_drawn_while_nothing_moves(opened: Opened) -> None:
+    page = opened()
+    time.sleep(1.0)
+    drawn = page.evaluate("window.__rodwell.drawn()")
+    assert drawn >= 1
+    time.sleep(1.0)
+    assert page.evaluate("window.__rodwell.drawn()") == drawn
+
+
+def test_files_are_saved(opened: Opened) -> None:
+    page = opened()
+    for name, start in (("toml", b"title = "), ("csv", b"s [L]"), ("page", b"<!doctype html>")):
+        with page.expect_download() as saved:
+            page.locator(f"[data-save={name}]").click()
+        content = saved.value.path().read_bytes()
+        assert content.startswith(start)
+    assert b"<script src" not in content
+    assert b"data:image/png;base64" in content
+
+
+def test_a_server_that_is_gone_is_told_and_found_again(browser: Any) -> None:  # noqa: F811
+    first = Server()
+    page = browser.new_page()
+    try:
+        page.goto(first.address)
+        until(page, READY)
+        first.running.terminate()
+        until(page, "!document.getElementById('banner').hidden", 10.0)
+        assert "server is gone" in page.inner_text("#banner")
+    finally:
+        page.close()
+        first.end()
+
+
+def test_without_webgl_a_still_picture_and_without_javascript_a_sentence(chromium: Any, server: Server) -> None:  # noqa: F811
+    plain = chromium("--no-sandbox", "--disable-gpu", "--disable-3d-apis")
+    page = plain.new_page()
+    page.goto(server.address)
+    until(page, READY)
+    until(page, "!document.querySelector('#rod .still').hidden")
+    assert page.locator("#rod .still").bounding_box()["height"] > 100.0
+    assert page.evaluate("window.__rodwell.values.load") == 118.4
+    page = plain.new_context(java_script_enabled=False).new_page()
+    page.goto(server.address)
+    assert "rodwell run case.toml" in page.inner_text("noscript")
+    plain.close()
