@@ -1,4 +1,4 @@
-"""Pictures of the explorer, taken in Chromium: docs/_static/explore.png, explore.webp. Run by hand, since it needs a browser.
+"""Pictures of the explorer, taken in Chromium: docs/_static/explore.png, explore.webp. Run by hand, for the browser.
 
 python docs/make_explore.py
 """

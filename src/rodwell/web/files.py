@@ -42,7 +42,7 @@ def file_of(explored: Explored, solution: Solution, suffix: str) -> Written:
     writers: dict[str, Callable[[], bytes]] = {
         "csv": partial(_table, explored, solution),
         "nc": partial(_through_file, "state.nc", partial(_netcdf, explored, solution)),
-        "toml": lambda: case_data(explored, solution.force)[1].encode(),
+        "toml": partial(_case_text, explored, solution),
     }
     for picture in ("glb", "png", "svg", "html"):
         write = partial(export, solution, scales=explored.case.scales)
@@ -80,6 +80,10 @@ def _table(explored: Explored, solution: Solution) -> bytes:
     out.writerow([f"{name} [{data[name].attrs.get('units', '1')}]" for name in names])
     out.writerows(zip(*([repr(float(x)) for x in data[name].values] for name in names), strict=True))
     return text.getvalue().encode()
+
+
+def _case_text(explored: Explored, solution: Solution) -> bytes:
+    return case_data(explored, solution.force)[1].encode()
 
 
 def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
