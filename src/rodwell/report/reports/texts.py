@@ -49,10 +49,14 @@ def plain_rows(numbers: Iterable[KeyNumber]) -> list[dict[str, str]]:
             "label": key.label,
             "value": f"{number(key.number)} {PLAIN_UNITS[key.dimension]}".rstrip(),
             "error": f"{short(key.error)} {PLAIN_UNITS[key.dimension]}".rstrip(),
-            "note": key.remark,
+            "note": "; ".join(filter(None, (_places(key), key.note))),
         }
         for key in numbers
     ]
+
+
+def _places(key: KeyNumber) -> str:
+    return f"at s/L = {', '.join(plain(s, 6) for s in key.s)}" if key.s else ""
 
 
 END_FORCE, REAL = ", end force at s = 1", ", at s = 1"
