@@ -171,8 +171,8 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
     out += _about_the_load(answer)
     if not case.uncertain and case.scales is not None:
         out.append(
-            f'Give inputs that are not known well with their uncertainty ("{UNCERTAIN[case.scales.system.name]}"): the loads '
-            "then get one too."
+            "Give inputs that are not known well with their uncertainty "
+            f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
         )
     if case.scales is not None:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
