@@ -19,7 +19,8 @@ def done_beside(work: Callable[..., Any], *arguments: Any) -> Iterator[Callable[
 
     The second process is a copy of this one (a fork), so nothing is sent to it, and it starts in milliseconds. Where
     that cannot be (another system than Linux, one processor, threads, which a copy would not have) the work is done
-    here when its result is asked for. What it raises is raised here. If the second process is lost, the work is done here.
+    here when its result is asked for. What it raises is raised here. If the second process is lost, the work is done
+    here too.
     """
     if sys.platform != "linux" or (os.cpu_count() or 1) < 2 or threading.active_count() > 1:
         yield lambda: work(*arguments)
