@@ -33,7 +33,9 @@ _HOME = {
     "CriticalLoads": "rodwell.analysis.straight.critical",
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
+    "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
+    "LocalState": "rodwell.analysis.endless.local",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
@@ -54,10 +56,12 @@ _HOME = {
     "critical_curves": "rodwell.analysis.curves.critical",
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
+    "endless": "rodwell.analysis.endless.endless",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
     "follow": "rodwell.analysis.branch.follow",
     "lift_off_curve": "rodwell.analysis.curves.states",
+    "local_state": "rodwell.analysis.endless.local",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
@@ -86,6 +90,8 @@ if TYPE_CHECKING:
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
+    from rodwell.analysis.endless.endless import Endless, endless
+    from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.proof.certify import CertifiedLoads, certify

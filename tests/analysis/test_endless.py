@@ -199,7 +199,7 @@ def test_states_past_a_fold_are_unstable_against_long_waves() -> None:
     assert past.stiffness < 0.0
     told = on_two(past).stability
     assert not told.stable
-    assert told.wavenumber == 0.0
+    assert told.wavenumber < 0.05
 
 
 def test_shape_and_contact_along_the_rod() -> None:

@@ -13,11 +13,13 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.endless.endless import Endless
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
@@ -87,6 +89,11 @@ def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
 @_plot.register
 def _(result: Curve, axes: Any) -> Any:
     return plot_curves([result], ax=axes)
+
+
+@_plot.register
+def _(result: Endless, axes: Any, **options: Any) -> Any:
+    return plot_endless(result, ax=axes, **options)
 
 
 @_plot.register

@@ -19,7 +19,7 @@ FEWEST, MOST = 12, 96
 RESOLVED = 1e-13
 """Part of the largest amplitude below which the last ones must lie."""
 
-FIRST, STEP, SHORTEST = 0.02, 0.15, 1e-3
+FIRST, STEP, SHORTEST = 0.02, 0.15, 1e-5
 """Distance of the first state from buckling, and lengths of the steps in β that follow."""
 
 HELIX_START, PART = 4.0, 0.9

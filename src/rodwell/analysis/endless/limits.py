@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from scipy.optimize import brentq
 
-from rodwell.analysis.endless.following import BUCKLING, FIRST, follow_to, helix_start, start
+from rodwell.analysis.endless.following import BUCKLING, FIRST, follow_to, helix_bears, helix_start, start
 from rodwell.analysis.endless.state import least_contact, mean_energy
 from rodwell.analysis.endless.waves import HELICAL, SINUSOIDAL, Wave, wave, wave_at_frequency
 from rodwell.errors import NotConvergedError
@@ -44,6 +44,9 @@ class Limits:
         Under falling load: the least contact force of the helix is zero; on paper its states turn back.
     sinusoidal_helix_equal_energy, straight_helix_equal_energy
         Where the helix costs as much energy as the sinusoidal state, as the straight rod: no events.
+    helix_largest
+        Largest load that a helix bears, at slopes above 0.26 (sought up to β = 12): where it is so steep that more
+        winding shortens it no further. None below, where it lies near 0.77/ε².
     """
 
     buckling: Value
@@ -53,6 +56,7 @@ class Limits:
     helix_ceases: Value | None
     sinusoidal_helix_equal_energy: Value | None
     straight_helix_equal_energy: Value | None
+    helix_largest: Value | None = None
 
     def named(self) -> dict[str, Value | None]:
         """The loads by name."""
@@ -68,6 +72,8 @@ def limits(slope: float) -> Limits:
     """The loads for a slope. Each is found on two sets of harmonics; they and round-off tell its error."""
     sines, ceases = _along(SINUSOIDAL, slope, BUCKLING + FIRST, HIGHEST)
     helices, gone = _along(HELICAL, slope, helix_start(slope), LOWEST)
+    steeper, collapse = _along(HELICAL, slope, helix_start(slope), min(HIGHEST, 1.1 * helix_bears(slope)))
+    helices = [*reversed(steeper[1:]), *helices]
 
     def dearer(helix: Wave) -> float:
         return mean_energy(helix) - mean_energy(_at(sines, helix.beta, len(helix.amplitudes)))
@@ -81,6 +87,7 @@ def limits(slope: float) -> Limits:
         helix_ceases=gone,
         sinusoidal_helix_equal_energy=_zero(both, dearer),
         straight_helix_equal_energy=_zero(helices, lambda helix: mean_energy(helix) + 1.0),
+        helix_largest=collapse,
     )
 
 

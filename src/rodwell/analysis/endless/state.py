@@ -19,7 +19,7 @@ from rodwell.quantities.value import Value
 ROUND_OFF = 2e-15
 """Part of a number of order one that sums and four derivatives of a series of some ten terms lose."""
 
-GRID, ZOOMS, NARROWED = 512, 3, 16
+GRID, ZOOMS, NARROWED = 192, 4, 16
 
 NUMBERS = (
     "frequency", "amplitude", "energy", "contact_mean", "contact_largest", "contact_least", "rate_largest",
@@ -88,6 +88,11 @@ class PeriodicState:
     def contact_least(self) -> Value:
         """Least contact force per length in q; below 0 the wall would have to pull: the state exists on paper only."""
         return self._value(least_contact)
+
+    @property
+    def in_contact(self) -> bool:
+        """Whether the wall presses everywhere: otherwise the state is that of a rod kept on it, on paper only."""
+        return self.contact_least.value > -self.contact_least.error
 
     @cached_property
     def rate_largest(self) -> Value:

@@ -45,7 +45,7 @@ POWERS = {
 HIGHEST_SINUSOIDAL, LOWEST_HELICAL = 3.6, 2.65
 """Ends of the table: a little past the lift-offs, at β = 3.5417 and 2.7447, which a slope moves."""
 
-DEGREE, CHECKED = 23, 41
+DEGREE, CHECKED = 23, 21
 """Degree of the series, and at how many places of a piece they are compared with states."""
 
 SLOPES = 1e-3 * np.arange(4.0)

@@ -22,8 +22,8 @@ SINUSOIDAL, HELICAL = "sinusoidal", "helical"
 KINDS = (SINUSOIDAL, HELICAL)
 
 MOST_ITERATIONS, CONVERGED, LONGEST_STEP = 40, 1e-13, 0.3
-ROUND_OFF = 1e-15
-"""Of sums of numbers of order one."""
+STALLED = 1e-8
+"""Size of a step that may be the last if it is not much less than the one before: near a fold round-off makes it."""
 
 
 class Basis(NamedTuple):
@@ -51,7 +51,8 @@ def basis(kind: str, count: int) -> Basis:
 def harmonics(phase: FloatArray, orders: FloatArray, most: int) -> FloatArray:
     """Sin nφ and its derivatives up to the order ``most``, (most + 1, p, n)."""
     angle = np.outer(phase, orders)
-    return np.stack([orders**d * np.sin(angle + 0.5 * np.pi * d) for d in range(most + 1)])
+    sine, cosine = np.sin(angle), np.cos(angle)
+    return np.stack([orders**d * (sine, cosine, -sine, -cosine)[d % 4] for d in range(most + 1)])
 
 
 @dataclass(frozen=True)
@@ -142,6 +143,7 @@ def wave(kind: str, beta: float, slope: float, amplitudes: FloatArray, frequency
         If it finds none: most often because there is none near it.
     """
     unknowns = np.append(amplitudes, np.log(frequency))
+    before = np.inf
     for _ in range(MOST_ITERATIONS):
         a, k = unknowns[:-1], float(np.exp(unknowns[-1]))
         if not _possible(kind, slope, a, k):
@@ -151,9 +153,9 @@ def wave(kind: str, beta: float, slope: float, amplitudes: FloatArray, frequency
         if step is None:
             break
         size = float(np.max(np.abs(step)))
-        if size < CONVERGED:
+        if size < CONVERGED or 0.1 * before < size < STALLED:
             return Wave(kind, beta, slope, a + step[:-1], k * float(np.exp(step[-1])), _softest(system.hessian))
-        unknowns = unknowns + step * min(1.0, LONGEST_STEP / size)
+        unknowns, before = unknowns + step * min(1.0, LONGEST_STEP / size), size
     raise NotConvergedError(f"no {kind} state of the endless rod was found near the start, at beta = {beta:.8g}")
 
 

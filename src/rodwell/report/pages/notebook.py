@@ -8,6 +8,8 @@ from functools import singledispatch
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.endless.endless import Endless
+from rodwell.analysis.endless.state import NUMBERS
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
@@ -110,6 +112,25 @@ def _(result: Solution) -> Card:
     lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))
     grid = Grid(("quantity", "symbol", "value", "± error", "unit"), tuple(rows), (2, 3))
     return Card(f"State at F = {_plain(result.force)} B/L²", lines, (grid,), FORCE)
+
+
+@card.register
+def _(result: Endless) -> Card:
+    slope = "small slopes" if result.slope == 0.0 else f"slope ε = {result.slope:g}"
+    loads = tuple(
+        (name.replace("_", " "), number(load), short(load.error))
+        for name, load in result.loads.named().items()
+        if load is not None
+    )
+    grids = [Grid(("load β at which", "value", "± error"), loads, (1, 2))]
+    for kind, state in result.states.items():
+        rows = [(name.replace("_", " "), getattr(state, name)) for name in NUMBERS]
+        cells = tuple((name, number(value), short(value.error)) for name, value in rows)
+        title = f"{kind} state" if state.in_contact else f"{kind} state, on paper only: the wall would pull"
+        grids.append(Grid((title, "value", "± error"), cells, (1, 2)))
+    title = "Endless rod" if result.beta is None else f"Endless rod at β = {_plain(result.beta)}"
+    note = "β = P/√(Bq/D), compression P positive; forces per length in q, lengths in ℓ = (BD/q)^¼."
+    return Card(title, (f"kept on the wall, {slope}",), tuple(grids), note)
 
 
 @card.register
