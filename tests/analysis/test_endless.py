@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import rodwell
 from rodwell.analysis.endless.limits import limits
 from rodwell.analysis.endless.state import NUMBERS, contact, on_two, periodic_state
-from rodwell.analysis.endless.waves import wave_at_frequency
+from rodwell.analysis.endless.waves import Wave, _system, wave_at_frequency
 from rodwell.errors import NotConvergedError
 from rodwell.physics.exact.helix import weightless_helix
 from rodwell.physics.on_wall import endless as formulas
@@ -211,3 +212,25 @@ def test_shape_and_contact_along_the_rod() -> None:
     assert state.angle(np.array(0.25 * wave)) == pytest.approx(state.amplitude.value)
     assert state.contact(np.array([0.25 * wave]))[0] == pytest.approx(state.contact_largest.value)
     assert "sinusoidal state at beta 3" in repr(state)
+
+
+def test_the_middle_of_a_long_rod_is_an_endless_one_of_the_same_wavelength() -> None:
+    """γ = 16000 on splines, clamped: it keeps the waves with which it buckled. Ends are felt by 1/7 per half wave."""
+    weight, beta = 16000.0, 2.8
+    unit, slope = (weight / 0.01) ** -0.25, (weight * 0.01**3) ** 0.25
+    state = rodwell.follow(rodwell.Problem(weight), 1, until=-beta / unit**2).at(-beta / unit**2)
+    places = np.linspace(0.4, 0.6, 8001)
+    fields = state.fields(places)
+    y, pressure = fields["y"], -fields["contact_pressure"] / weight
+    at = np.flatnonzero(np.diff(np.sign(y)))
+    zeros = places[at] - y[at] * np.diff(places)[0] / np.diff(y)[at]
+    k = np.pi * unit / np.min(np.diff(zeros))
+    amplitudes = periodic_state("sinusoidal", beta, slope).coarse.amplitudes.copy()
+    for _ in range(8):
+        system = _system("sinusoidal", beta, slope, amplitudes, k)
+        amplitudes = amplitudes - np.linalg.solve(system.hessian[:-1, :-1], system.gradient[:-1])
+    wave = Wave("sinusoidal", beta, slope, amplitudes, k, 0.0)
+    phase = np.linspace(0.0, np.pi, 4001)
+    assert np.max(np.abs(y)) / 0.01 == pytest.approx(np.max(wave.angles(phase, 0)[0]), rel=1e-4)
+    assert np.max(pressure) == pytest.approx(np.max(contact(wave, phase)), rel=3e-4)
+    assert np.min(pressure) == pytest.approx(np.min(contact(wave, phase)), rel=1e-3)
