@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_endless
 import make_formulas
 import make_howto
 import make_long
@@ -51,12 +52,13 @@ COMMANDS = {
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
     **make_long.COMMANDS,
+    **make_endless.COMMANDS,
     **make_paper.COMMANDS,
 }
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_long", "make_wells", "make_braid", "make_report", "make_architecture",
+    "make_errors", "make_long", "make_wells", "make_endless", "make_braid", "make_report", "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 
