@@ -56,7 +56,7 @@ def string_shortening(
         strain, error = _strain(compression, lateral, stiffness, clearance, rule)
         return Value(length * strain, length * error)
     (coarse, _), (fine, error) = (_inclined(low, compression, lateral, stiffness, clearance, rule, n) for n in NODES)
-    return Value(fine / axial, (abs(fine - coarse) + error) / axial)
+    return Value(float(fine / axial), float((abs(fine - coarse) + error) / axial))
 
 
 def largest_curvature(compression: float, lateral: float, stiffness: float, clearance: float, rule: str) -> float:
