@@ -30,7 +30,7 @@ def plot_packer(answer: PackerAnswer, ax: Any = None) -> Any:
     for i, (_, step) in enumerate(steps):
         ax.bar(i, step / unit, bottom=at / unit, width=0.6, color=MODES[0] if step < 0.0 else MODES[1])
         low = min(at, at + step) / unit
-        ax.annotate(f"{step / unit:+.4g}".replace("-", "−"), (i, low), xytext=(0, 4), textcoords="offset points",
+        ax.annotate(f"{step / unit:+#.4g}".replace("-", "−"), (i, low), xytext=(0, 4), textcoords="offset points",
                     ha="center", va="bottom", fontsize=8.5)  # fmt: skip
         at += step
         reached.append(at)
@@ -39,9 +39,10 @@ def plot_packer(answer: PackerAnswer, ax: Any = None) -> Any:
     ax.bar(last, m.free.value / unit, width=0.6, color="white", ec=INK, lw=1.2)
     ax.bar(last + 1, m.movement.value / unit, width=0.6, color=WARN if m.stopped else MODES[2])
     for i, value in ((last, m.free.value), (last + 1, m.movement.value)):
-        ax.annotate(f"{value / unit:+.4g}".replace("-", "−"), (i, min(value, 0.0) / unit), xytext=(0, 4),
+        ax.annotate(f"{value / unit:+#.4g}".replace("-", "−"), (i, min(value, 0.0) / unit), xytext=(0, 4),
                     textcoords="offset points", ha="center", va="bottom", fontsize=8.5)  # fmt: skip
     ax.axhline(0.0, color=INK, lw=0.9)
+    ax.set_axisbelow(True)
     low, high = min(0.0, *reached) / unit, max(0.0, *reached) / unit
     room = 0.1 * (high - low or 1.0)
     ax.set_ylim(high + room, low - room)  # down is positive
