@@ -126,6 +126,17 @@ def test_an_inclined_string_is_the_sum_of_its_places(rule: str) -> None:
     assert hardly.value == pytest.approx(level.value, rel=1e-5)
 
 
+@pytest.mark.parametrize("lateral", [0.0, 0.05])
+def test_a_string_that_is_buckled_to_the_top_is_the_sum_of_its_halves(lateral: float) -> None:
+    p, axial, b, d, length = 66e3, 0.6, 48.3e6, 1.61, 40e3
+    lower, upper = (
+        string_shortening(at, axial, lateral, 0.5 * length, b, d, LOADING).value for at in (p, p - 0.5 * axial * length)
+    )
+    whole = string_shortening(p, axial, lateral, length, b, d, LOADING).value
+    assert whole == pytest.approx(lower + upper, rel=1e-9)
+    assert 0.3 * whole < upper < lower
+
+
 def test_what_is_helical_stays_so_longer_on_the_way_back() -> None:
     """Between β = 2.745 and 3.542 both states exist."""
     b, d, w = 48.3e6, 1.61, 0.3
@@ -156,7 +167,10 @@ def test_a_stroke_is_used_up_before_the_packer_holds() -> None:
     assert squeezed(Stops(200.0, 0.0)).packer.value == 0.0
     forces = [squeezed(Stops(up, 0.0)).packer.value for up in (0.0, 50.0, 100.0, 160.0)]
     assert forces == sorted(forces, reverse=True)
-    assert squeezed(Stops(50.0, 0.0)).movement.value == -50.0
+    held = squeezed(Stops(50.0, 0.0))
+    assert held.movement.value == -50.0
+    lengths = [total(elongations(TUBING, *at, LOADING)).value for at in ((SQUEEZED, -held.packer.value), (LANDED, 0.0))]
+    assert lengths[0] - lengths[1] == pytest.approx(-50.0, abs=1e-7)
     warmer = replace(LANDED, temperature=100.0)
     down = moved(TUBING, LANDED, warmer, Stops(math.inf, 0.0))
     assert down.stopped == "down"
