@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from rodwell.analysis.off_wall.pattern import DEGREE, Pattern, chain, counts
 from rodwell.numerics.stretches.carry import Sampler, fit, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
+from rodwell.numerics.stretches.walk import Motion, row_of
 from rodwell.quantities.arrays import FloatArray
 
 LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
@@ -76,13 +78,20 @@ def at_load(state: PatternedState, load: float) -> PatternedState | None:
     return None if found is None else PatternedState(state.pattern, state.elements, found)
 
 
-def refined(state: PatternedState, more: int) -> PatternedState | None:
-    """The same state with elements of a degree higher by ``more``: appended bubbles start from zero."""
+def refined(state: PatternedState, more: int, along: Motion | None = None) -> PatternedState | None:
+    """The same state with elements of a degree higher by ``more``: appended bubbles start from zero.
+
+    At the same load; or, with ``along``, at the same place along a path in that direction, which may fold in the load.
+    """
     shape = state.solved.shape
-    links, held = chain(state.model.problem, state.pattern, state.elements, shape.chain.degree + more)
+    links, _ = chain(state.model.problem, state.pattern, state.elements, shape.chain.degree + more)
     bubbles = np.concatenate([shape.bubbles, np.zeros((*shape.bubbles.shape[:2], more))], axis=2)
     raised = Shape(links, shape.nodes, bubbles, shape.breaks, shape.load)
-    found = solve(state.model, raised, fixed_load(links, shape.load))[1]
+    row = fixed_load(links, shape.load)
+    if along is not None:
+        row = row_of(along, links, shape.load)
+        row = replace(row, target=row.of(shape.nodes, shape.breaks, shape.load))
+    found = solve(state.model, raised, row)[1]
     return None if found is None else PatternedState(state.pattern, state.elements, found)
 
 

@@ -38,7 +38,7 @@ FIRST_CONTACT = 5e-4
 
 HALVINGS = 6
 
-NAMES = {OPENS: "gap_opens", TOUCHES: "touch_down", LOST: "contact_lost", GROWS: "contact_line",
+NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
          GROWS_AT_END: "contact_line"}  # fmt: skip
 """What a change is called along a path."""
 

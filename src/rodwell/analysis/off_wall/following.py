@@ -40,6 +40,7 @@ class PathEvent:
     s: tuple[float, ...] = ()
     value: Callable[[Solved], float] | None = None
     together: list[Condition] = field(default_factory=list)
+    along: Motion | None = None
 
 
 @dataclass(eq=False)
@@ -153,7 +154,8 @@ class _Walker:
                 self._shorten(f"{kind} beyond F = {state.load:.8g} B/L² could not be located")
                 return PathEvent("", state)
             there = PatternedState(state.pattern, state.elements, at)
-            located.append((row.of(at.shape.nodes, at.shape.breaks, at.shape.load), PathEvent(kind, there, (), value)))
+            order = row.of(at.shape.nodes, at.shape.breaks, at.shape.load)
+            located.append((order, PathEvent(kind, there, (), value, along=self.along)))
         if not located:
             return None
         number = int(np.argmin([order for order, _ in located]))
@@ -221,7 +223,7 @@ class _Walker:
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
         places = tuple(sorted(one.s for one in _together(there, [condition], 0, strict=False)))
-        self.result.events.append(PathEvent(after.name, there, places, after.grows))
+        self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
         self._enter(Changed(there, after.grows, after.name))
         return True
 

@@ -11,6 +11,7 @@ A model offers, in units where the disc has radius 1,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -99,33 +100,32 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     h, start = np.diff(places)[group], places[group]
     a, rate = shape.local(group)
     k, fields, size = a.shape
-    orders = np.arange(3)
-    inverse = h[:, None] ** -orders.astype(float)  # (k, 3): h^-d
-    u = np.einsum("dqi,kfi->fdkq", table, a) * inverse.T[None, :, :, None]
+    q, order = element.points.size, np.arange(3.0)
+    flat = table.reshape(3 * q, size)
+    inverse = h[:, None] ** -order  # (k, 3): h^-d
+    u = (a @ flat.T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3) * inverse.T[None, :, :, None]
     s = start[:, None] + h[:, None] * element.points
     e, e_load, g, mixed, hessian = density(s, u, shape.load)
     weight = h[:, None] * element.weights  # (k, q)
-    scaled = weight[:, :, None] * inverse[:, None, :]  # w h h^-d: (k, q, d)
-    gradient = np.einsum("kqd,fdkq,dqi->kfi", scaled, g, table, optimize=True)
-    by_load = np.einsum("kqd,fdkq,dqi->kfi", scaled, mixed, table, optimize=True)
+    scaled = inverse[:, None, :, None] * weight[:, None, None, :]  # w h h^-d: (k, 1, 3, q)
     # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
-    bend = np.einsum("fdlekq,lekq->fdkq", hessian, -orders[None, :, None, None] * u / h[:, None])
-    along = model.load_per_length * mixed * element.points
-    lengthen = bend + along + (1 - orders)[None, :, None, None] * g / h[:, None]
-    by_length = np.einsum("kqd,fdkq,dqi->kfi", scaled, lengthen, table, optimize=True)
-    # Hessian: contract one table, then the other, as products of matrices
-    inner = np.einsum("fdlekq,kqd,ke->kqfdle", hessian, scaled, inverse)
-    half = np.einsum("kqfdle,eqj->kfqdlj", inner, table, optimize=True)
-    left = table.transpose(2, 1, 0).reshape(size, -1)
-    matrix = left @ half.reshape(k, fields, left.shape[1], fields * size)
-    matrix = matrix.reshape(k, fields * size, fields * size)
-    flat = [v.reshape(k, -1) for v in (gradient, by_length, by_load, rate)]
-    gradient, by_length, by_load, rate = flat
-    by_length = by_length + np.einsum("kij,kj->ki", matrix, rate)
+    fall = -order[None, :, None, None] * u / h[:, None]
+    lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + (1.0 - order)[None, :, None, None] * g / h[:, None]
+    if model.load_per_length:
+        lengthen = lengthen + model.load_per_length * mixed * element.points
+    rows = np.stack([g, lengthen, mixed]).transpose(0, 3, 1, 2, 4) * scaled  # (3, k, f, d, q)
+    columns = (rows.reshape(3, k, fields, 3 * q) @ flat).reshape(3, k, fields * size)
+    gradient, by_length, by_load = columns
+    # the Hessian: one table contracted place by place, then the other over all places
+    inner = hessian * scaled[:, 0].transpose(1, 0, 2)[None, :, None, None] * inverse.T[None, None, None, :, :, None]
+    inner = inner.transpose(4, 5, 0, 1, 2, 3).reshape(k, q, fields * 3 * fields, 3)
+    half = (inner @ table.transpose(1, 0, 2)).reshape(k, q, fields, 3, fields * size)
+    half = half.transpose(0, 2, 3, 1, 4).reshape(k, fields, 3 * q, fields * size)
+    matrix = (flat.T @ half).reshape(k, fields * size, fields * size)
+    by_length = by_length + (matrix @ rate.reshape(k, -1, 1))[..., 0]
     by_start = model.load_per_length * by_load
 
-    ends = (np.arange(ENDS)[None, :] + size * np.arange(fields)[:, None]).ravel()
-    bubbles = np.setdiff1d(np.arange(fields * size), ends)
+    ends, bubbles = _parts(fields, size)
     kbb = matrix[:, bubbles[:, None], bubbles]
     columns = np.stack([gradient, by_length, by_start, by_load], axis=2)
     right = np.concatenate([matrix[:, bubbles[:, None], ends], columns[:, bubbles]], axis=2)
@@ -144,6 +144,13 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     )  # fmt: skip
     worst = float(np.max(np.abs(gradient[:, bubbles]), initial=0.0))
     return condensed, float(np.sum(weight * e)), float(np.sum(weight * e_load)), worst
+
+
+@lru_cache(maxsize=32)
+def _parts(fields: int, size: int) -> tuple[IntArray, IntArray]:
+    """Where the functions of the ends, and the bubbles, stand among those of all fields."""
+    ends = (np.arange(ENDS)[None, :] + size * np.arange(fields)[:, None]).ravel()
+    return ends, np.setdiff1d(np.arange(fields * size), ends)
 
 
 def _negative(blocks: FloatArray) -> int:

@@ -53,14 +53,25 @@ def _coefficients(degree: int) -> FloatArray:
     return out
 
 
+@lru_cache(maxsize=64)
+def _derivatives(degree: int, orders: int) -> FloatArray:
+    """Legendre coefficients of all functions and their derivatives by ξ, (orders, p+1, p+1)."""
+    out = np.zeros((orders, degree + 1, degree + 1))
+    out[0] = _coefficients(degree)
+    for order in range(1, orders):
+        out[order, :-1] = 2.0 * legendre.legder(out[order - 1])
+    return out
+
+
 def tabulate(degree: int, places: FloatArray, orders: int) -> FloatArray:
     """All functions and their first ``orders`` − 1 derivatives by ξ at ``places`` (k,): (orders, k, p+1)."""
-    coefficients, t = _coefficients(degree), 2.0 * np.asarray(places, dtype=float) - 1.0
-    out = np.empty((orders, t.size, degree + 1))
-    for order in range(orders):
-        out[order] = legendre.legval(t, coefficients).T if coefficients.size else 0.0
-        coefficients = 2.0 * legendre.legder(coefficients) if coefficients.shape[0] > 1 else 0.0 * coefficients
-    return out
+    t = 2.0 * np.asarray(places, dtype=float) - 1.0
+    values = np.ones((t.size, degree + 1))
+    if degree:
+        values[:, 1] = t
+    for n in range(2, degree + 1):  # Legendre polynomials by their recurrence
+        values[:, n] = ((2 * n - 1) * t * values[:, n - 1] - (n - 1) * values[:, n - 2]) / n
+    return np.asarray(values @ _derivatives(degree, orders))
 
 
 @lru_cache(maxsize=32)

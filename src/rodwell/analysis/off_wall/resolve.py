@@ -1,0 +1,57 @@
+"""States and events to a tolerance: elements of a higher degree until the numbers agree, and the error that remains."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rodwell.analysis.off_wall.arrange import refined
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.following import PathEvent
+from rodwell.analysis.off_wall.pattern import FINER
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.stretches.walk import search, tangent
+from rodwell.quantities.value import Value
+
+MOST_DEGREES = 8
+"""How much the degree may grow."""
+
+SEARCH, FARTHEST = 1e-6, 1e-2
+"""First and longest step along the path in which an event is sought again on finer elements."""
+
+
+@dataclass(frozen=True, eq=False)
+class ResolvedEvent:
+    """An event on finer elements, and its load with the estimate of the error; ``met``: within the tolerance."""
+
+    event: PathEvent
+    load: Value
+    met: bool
+
+
+def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
+    """Locate an event again on elements of higher degree, until the load no longer changes by more than the tolerance."""
+    if event.value is None or event.along is None:
+        return ResolvedEvent(event, Value(event.state.load, 0.0), True)
+    load, error = event.state.load, abs(event.state.load)
+    best = event
+    for more in range(FINER, MOST_DEGREES + 1, FINER):
+        finer = _again(event, more)
+        if finer is None:
+            break
+        error = float(estimated_error(finer.state.load, load))
+        best, load = finer, finer.state.load
+        if error <= 0.1 * rtol * abs(load):
+            break
+    return ResolvedEvent(best, Value(load, error), error <= rtol * abs(load))
+
+
+def _again(event: PathEvent, more: int) -> PathEvent | None:
+    if event.value is None or event.along is None:
+        return None
+    raised = refined(event.state, more, event.along)
+    if raised is None:
+        return None
+    found = search(
+        raised.model, raised.solved, tangent(raised.solved, event.along), event.value, SEARCH, FARTHEST
+    )
+    return None if found is None else replace(event, state=PatternedState(raised.pattern, raised.elements, found))
