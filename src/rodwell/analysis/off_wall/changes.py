@@ -43,7 +43,7 @@ NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "c
 """What a change is called along a path."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Changed:
     """The first state of a new pattern, and what grows along the path from there."""
 
@@ -52,7 +52,7 @@ class Changed:
     name: str
 
 
-@dataclass
+@dataclass(repr=False)
 class _Plan:
     """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold."""
 
@@ -73,9 +73,12 @@ class _Plan:
         return first, last
 
 
-def changed(state: PatternedState, vanished: list[Condition]) -> Changed | None:
-    """The pattern after conditions have vanished at ``state``; None if no state of it was found that keeps the rest."""
-    half, first = FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
+def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0) -> Changed | None:
+    """The pattern after conditions have vanished at ``state``; None if no state of it was found that keeps the rest.
+
+    ``part``: of the first length that a gap usually starts with.
+    """
+    half, first = part * FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
     vanished = list(vanished)
     for _ in range(HALVINGS):
         plan = _Plan(state, half, list(state.pattern.touching), list(state.solved.shape.breaks))
@@ -88,15 +91,15 @@ def changed(state: PatternedState, vanished: list[Condition]) -> Changed | None:
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
             if first.kind not in (OPENS,) or not hurt:
                 return Changed(found, _growing(first, found, plan), NAMES[first.kind])
-            more = [one for one in conditions(state) if one.kind == OPENS and one.number not in _numbers(vanished)]
-            spots = {one.number: one for one in hurt if one.kind == OPENS}
-            vanished += [one for one in more if any(abs(one.s - at.s) < half for at in spots.values())]
+            spots = [one.s for one in hurt if one.kind == OPENS]
+            known = [one.s for one in vanished]
+            vanished += [
+                one for one in conditions(state)
+                if one.kind == OPENS and min(abs(one.s - s) for s in known) > 1e-6
+                and any(abs(one.s - s) < 2.0 * half for s in spots)
+            ]  # fmt: skip
         half *= 0.5
     return None
-
-
-def _numbers(vanished: list[Condition]) -> set[int]:
-    return {one.number for one in vanished if one.kind == OPENS}
 
 
 def _just_now(condition: Condition) -> bool:

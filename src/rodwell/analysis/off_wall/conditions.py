@@ -27,6 +27,9 @@ OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "g
 PER_ELEMENT = 12
 """Places in an element at which pressure and gap are looked at first."""
 
+CLOSER, ZOOMS = 9, 4
+"""Places of each closer look at a minimum, and how many looks: the last are some thousandths of an element apart."""
+
 EDGE = 0.02
 """Part of a free stretch at either end where the gap is left to the conditions on forces and curvature."""
 
@@ -40,7 +43,7 @@ class Condition(NamedTuple):
     s: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PatternedState:
     """An equilibrium with its pattern and the numbers of elements of its stretches."""
 
@@ -75,7 +78,7 @@ def conditions(state: PatternedState) -> list[Condition]:
     found: list[Condition] = []
     solved, pattern = state.solved, state.pattern
     for i, on in enumerate(pattern.touching):
-        found.append(pressing(state, i) if on else apart(state, i))
+        found += pressing(state, i) if on else [apart(state, i)]
     for i in range(pattern.breaks):
         place = float(solved.shape.breaks[i])
         found.append(Condition(LOST if pattern.is_point(i) else LEAVES, i, float(solved.forces[i]), place))
@@ -95,22 +98,31 @@ def _at_end(state: PatternedState, last: bool) -> Condition | None:
     return Condition(GROWS_AT_END, int(last), gap_curvature(shape, element, float(last)), float(last))
 
 
-def pressing(state: PatternedState, stretch: int) -> Condition:
-    """The least contact force per length −p on a stretch on the wall, and where."""
-    shape = state.solved.shape
-    best, where = np.inf, np.nan
+def pressing(state: PatternedState, stretch: int) -> list[Condition]:
+    """The least contact forces per length −p on a stretch on the wall, and where: all minima, the lowest first."""
+    shape, elements = state.solved.shape, state.elements_of(stretch)
     xi = np.linspace(0.0, 1.0, PER_ELEMENT + 1)
-    for element in state.elements_of(stretch):
-        left, h = shape.places[element], shape.places[element + 1] - shape.places[element]
+    functions = [_pressure(state, element) for element in elements]
+    values = np.concatenate([function(xi[:-1]) for function in functions] + [functions[-1](xi[-1:])])
+    low = np.r_[True, values[1:] <= values[:-1]] & np.r_[values[:-1] <= values[1:], True]
+    found = []
+    for k in np.flatnonzero(low):
+        best = (float(values[k]), np.nan)
+        for e in {min(max(int(k) - 1, 0) // PER_ELEMENT, len(functions) - 1), min(int(k) // PER_ELEMENT, len(functions) - 1)}:
+            part = int(k) - e * PER_ELEMENT
+            value, where = lowest(functions[e], np.linspace(*xi[[max(part - 1, 0), min(part + 1, PER_ELEMENT)]], CLOSER))
+            left, right = shape.places[elements[e]], shape.places[elements[e] + 1]
+            if value <= best[0] or np.isnan(best[1]):
+                best = (value, float(left + (right - left) * where))
+        found.append(Condition(OPENS, stretch, *best))
+    return sorted(found, key=lambda one: one.value)
 
-        def pressure(part: FloatArray, element: int = element, left: float = left, h: float = h) -> FloatArray:
-            angle = shape.at(element, part)[0]
-            return -state.model.pressure(left + h * part, angle, shape.load)
 
-        value, part = lowest(pressure, xi)
-        if value < best:
-            best, where = value, left + h * part
-    return Condition(OPENS, stretch, best, where)
+def _pressure(state: PatternedState, element: int) -> Callable[[FloatArray], FloatArray]:
+    """The contact force per length −p of an element as a function of ξ."""
+    shape = state.solved.shape
+    left, h = shape.places[element], shape.places[element + 1] - shape.places[element]
+    return lambda xi: -state.model.pressure(left + h * xi, shape.at(element, xi)[0], shape.load)
 
 
 def apart(state: PatternedState, stretch: int) -> Condition:
@@ -152,29 +164,26 @@ def _power(state: PatternedState, stretch: int, last: bool) -> int:
 
 
 def lowest(function: Callable[[FloatArray], FloatArray], xi: FloatArray) -> tuple[float, float]:
-    """Least value of a smooth function over samples and parabolas between them, and where."""
-    values = function(xi)
-    k = int(np.argmin(values))
-    best, where, width = float(values[k]), float(xi[k]), float(xi[1] - xi[0])
-    if 0 < k < xi.size - 1:
-        for _ in range(4):
-            three = np.array([where - width, where, where + width])
-            if three[0] < xi[0] or three[2] > xi[-1]:
-                break
-            a, b, c = function(three)
-            bend = a - 2.0 * b + c
-            if not bend > 0.0:
-                break
-            where += float(np.clip(0.5 * (a - c) / bend, -1.0, 1.0)) * width
-            width *= 0.15
-            best = min(best, float(function(np.array([where]))[0]))
-    return best, where
+    """Least value of a smooth function over samples, looked at more closely, and where; a parabola is the last step."""
+    for zoom in range(ZOOMS):
+        values = function(xi)
+        k = int(np.argmin(values))
+        low, high = max(k - 1, 0), min(k + 1, xi.size - 1)
+        if zoom < ZOOMS - 1:
+            xi = np.linspace(xi[low], xi[high], CLOSER)
+    if high - low < 2:
+        return float(values[k]), float(xi[k])
+    a, b, c = values[k - 1 : k + 2]
+    bend, tilt = a - 2.0 * b + c, 0.5 * (c - a)
+    if not bend > 0.0:
+        return float(b), float(xi[k])
+    return float(b - 0.5 * tilt**2 / bend), float(xi[k] - tilt / bend * (xi[k] - xi[k - 1]))
 
 
 def watched(condition: Condition, state: PatternedState) -> float:
     """The value of a condition in another state of the same pattern."""
     if condition.kind == OPENS:
-        return pressing(state, condition.number).value
+        return pressing(state, condition.number)[0].value
     if condition.kind == TOUCHES:
         return apart(state, condition.number).value
     if condition.kind == GROWS:

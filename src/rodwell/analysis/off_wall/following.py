@@ -17,10 +17,16 @@ FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.02, 0.25, 1e-7
 EASY, HARD = 5, 8
 """Steps of Newton's method up to which the next step grows, and from which on it shrinks."""
 
-SHORT_GAP = 0.12
+SHORT_GAP = 0.3
 """Length of a gap, times the wavenumber, below which it is about to close."""
 
 FOLD, BRANCH_POINT, END, START = "fold", "branch_point", "end", "start"
+
+SMALLEST_PART = 0.1
+"""A gap that opens is tried down to this part of its usual first length."""
+
+NEARLY = 1e-9
+"""A condition that is missed by no more than this is as good as met."""
 
 MOST_STATES = 2000
 
@@ -28,11 +34,12 @@ TOGETHER = 1e-5
 """Conditions vanish together whose values at the place are this much smaller than at the end of the step."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PathEvent:
     """What happens at a place of a path: its kind, the state there, and where along the rod.
 
-    ``value`` is the function whose zero the place is, in states of the same pattern; None for an end.
+    ``value`` is the function whose zero the place is, in states of the same pattern (None for an end), ``along`` the
+    direction of the path, ``between`` the states on either side, ``together`` the conditions that vanish.
     """
 
     kind: str
@@ -41,6 +48,7 @@ class PathEvent:
     value: Callable[[Solved], float] | None = None
     together: list[Condition] = field(default_factory=list)
     along: Motion | None = None
+    between: tuple[PatternedState, PatternedState] | None = None
 
 
 @dataclass(eq=False)
@@ -155,7 +163,7 @@ class _Walker:
                 return PathEvent("", state)
             there = PatternedState(state.pattern, state.elements, at)
             order = row.of(at.shape.nodes, at.shape.breaks, at.shape.load)
-            located.append((order, PathEvent(kind, there, (), value, along=self.along)))
+            located.append((order, PathEvent(kind, there, (), value, [], self.along, (state, new))))
         if not located:
             return None
         number = int(np.argmin([order for order, _ in located]))
@@ -175,26 +183,50 @@ class _Walker:
 
     def _change(self, event: PathEvent) -> None:
         """Go over to the pattern that follows."""
-        after = None if event.together[0].kind == LEAVES else changed(event.state, event.together)
+        self.result.states.append(event.state)
+        self.state, before = event.state, self.along
+        if event.together[0].kind == LEAVES:  # a gap so short that its ends no longer push
+            free = [i for i in (event.together[0].number, event.together[0].number + 1)
+                    if not event.state.pattern.touching[i]]  # fmt: skip
+            if not self._without(free):
+                self.result.ended = _unresolved(event)
+            return
+        after, part = None, 1.0
+        while part >= SMALLEST_PART:
+            found = changed(event.state, event.together, part)
+            if found is None:
+                break
+            after, along = found, self._direction(found)
+            beyond = (found.state.load - self.until) * self.sense > 0.0
+            if along.load * before.load > 0.0 and not beyond:
+                break
+            part *= 0.5  # the first state may lie behind a fold
         if after is None:
-            self.result.states.append(event.state)
-            self.state = event.state
-            self.result.ended = f"contact changes at s = {event.s[0]:.4g} in a way that was not resolved"
+            self.result.ended = _unresolved(event)
             return
         self.result.events.append(replace(event, kind=after.name))
-        self.result.states.append(event.state)
         self._enter(after)
+
+    def _direction(self, after: Changed) -> Motion:
+        """The sense in which a new pattern exists."""
+        start = after.state
+        along = tangent_in_load(start.solved, self.along.load or self.sense)
+        here, size = after.grows(start.solved), 1e-3
+        ahead = step(start.model, start.solved, along, size)[1]
+        return along.times(-1.0) if ahead is not None and after.grows(ahead) < here else along
 
     def _enter(self, after: Changed) -> None:
         """Start on a new pattern, in the sense in which it exists."""
-        along = tangent_in_load(after.state.solved, self.sense if self.along.load == 0.0 else self.along.load)
-        here, size = after.grows(after.state.solved), 1e-3
-        ahead = step(after.state.model, after.state.solved, along, size)[1]
-        if ahead is not None and after.grows(ahead) < here:
-            along = along.times(-1.0)
-        self.state, self.size = after.state, max(min(self.size, 0.5 * FIRST_STEP), 1e-3)
+        along = self._direction(after)
         turned_back = along.load * self.along.load < 0.0
+        self.state, self.size = after.state, max(min(self.size, 0.5 * FIRST_STEP), 1e-3)
         self.along = along
+        if (self.state.load - self.until) * self.sense > 0.0:  # the first state lies beyond the end
+            last = at_load(self.state, self.until)
+            if last is not None and all(one.value > -NEARLY * abs(self.until) for one in conditions(last)):
+                self.state, self.result.ended = last, END
+                self.result.states.append(last)
+                return
         if turned_back and self.load_controlled:
             self.result.ended = FOLD
             self.result.events.append(PathEvent(FOLD, self.result.last))
@@ -208,17 +240,21 @@ class _Walker:
         short = SHORT_GAP / wavenumber(state.model, state.load)
         vanishing = [
             i for i, on in enumerate(state.pattern.touching)
-            if lengths[i] < (FIRST_CONTACT if on else (short if self._between_lines(i) else 0.0)) and rates[i] < 0.0
+            if lengths[i] < (FIRST_CONTACT if on else (short if self._beside_line(i) else 0.0)) and rates[i] < 0.0
         ]  # fmt: skip
         if not vanishing:
             return False
         first = min(vanishing, key=lambda i: lengths[i])
-        found = shortened(state, [first, *(i for i in vanishing if i != first and lengths[i] < 1.05 * lengths[first])])
+        return self._without([first, *(i for i in vanishing if i != first and lengths[i] < 1.05 * lengths[first])])
+
+    def _without(self, stretches: list[int]) -> bool:
+        """Enter the pattern without stretches that vanish, at the place where they do; False if that was not found."""
+        found = shortened(self.state, stretches)
         if found is None:
             return False
         after, condition = found
         along = tangent_in_load(after.state.solved, self.along.load)
-        at = search(state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
+        at = search(after.state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
         if at is None:
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
@@ -227,10 +263,10 @@ class _Walker:
         self._enter(Changed(there, after.grows, after.name))
         return True
 
-    def _between_lines(self, i: int) -> bool:
-        """Whether a gap lies between stretches in contact, or between one and an end."""
+    def _beside_line(self, i: int) -> bool:
+        """Whether a gap has a stretch in contact beside it, that it can close up to."""
         touching = self.state.pattern.touching
-        return all(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching)) and len(touching) > 1
+        return any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))
 
     def _accept(self, new: PatternedState, along: Motion) -> None:
         self.state, self.along = new, along
@@ -242,6 +278,14 @@ class _Walker:
         self.size *= 0.4
         if self.size < SMALLEST_STEP:
             self.result.ended = why
+
+
+def _unresolved(event: PathEvent) -> str:
+    """Why a path ends where the pattern that follows was not found."""
+    return (
+        f"contact changes at s = {event.s[0]:.4g} at F = {event.state.load:.8g} B/L² in a way that was not resolved: no "
+        "state of the pattern that follows was found"
+    )
 
 
 def _watch(condition: Condition, state: PatternedState) -> Callable[[Solved], float]:
@@ -260,16 +304,20 @@ def _together(
 
     With ``strict`` only those among the broken ones.
     """
-    now = {(one.kind, one.number): one for one in conditions(state)}
-    lead = broken[first]
-    at = now[lead.kind, lead.number]._replace(value=0.0)
-    if strict:
-        others = [now[one.kind, one.number] for one in broken if one is not lead]
-        sizes = {(one.kind, one.number): abs(one.value) for one in broken}
-    else:
-        others = [one for key, one in now.items() if key != (lead.kind, lead.number) and one.kind == lead.kind]
-        sizes = {(one.kind, one.number): 1e-2 for one in others}
-    return [at, *(one for one in others if abs(one.value) <= TOGETHER * sizes[one.kind, one.number])]
+    now, lead = conditions(state), broken[first]
+
+    def here(one: Condition) -> Condition | None:
+        same = [other for other in now if (other.kind, other.number) == (one.kind, one.number)]
+        return min(same, key=lambda other: abs(other.s - one.s), default=None)
+
+    at = here(lead) or lead
+    others = broken if strict else [one for one in now if one.kind == lead.kind]
+    found = [at._replace(value=0.0)]
+    for one in others:
+        other, size = here(one), abs(one.value) if strict else 1e-2
+        if other is not None and other not in (at, *found) and abs(other.value) <= TOGETHER * size:
+            found.append(other)
+    return found
 
 
 __all__ = ["Followed", "PathEvent", "Outcome", "at_load", "followed"]

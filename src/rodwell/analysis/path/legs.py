@@ -38,6 +38,9 @@ MOST_SNAPS = 12
 FLAT = 0.05
 """Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
 
+STILL = 1e-4
+"""The same, below which it is straight."""
+
 NO_DROP = 1e-3
 """A state that gives way to one whose energy differs by less than this part has not snapped: the other branches off."""
 
@@ -86,6 +89,9 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
                 return out
             continue
         path = followed(out.last, target, progress=how.progress)
+        if _came_to_rest(out, path, how):
+            begin = how.mode.force
+            continue
         leg.runs.append(path.states)
         out.last = path.last
         _tell(out, path, how)
@@ -115,6 +121,20 @@ def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, 
     return critical.value
 
 
+def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
+    """Whether a path on the wall has met the straight rod, at its buckling load, and would go on along it."""
+    bent = [not _flat(state, STILL) for state in path.states]
+    if not bent[0] or all(bent):
+        return False
+    first = bent.index(False)
+    out.leg.runs.append(path.states[:first])
+    path.events = [event for event in path.events if event.state in path.states[:first]]
+    _tell(out, path, how)
+    out.events.append(PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), out.leg.name))
+    out.last = None
+    return True
+
+
 def _tell(out: Walked, path: Followed, how: How) -> None:
     """Events of a path, located to the tolerance; loss of stability is told by what follows it."""
     for event in path.events:
@@ -132,8 +152,9 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
         out.events.append(PathPoint(kind, one.load, tuple(map(float, event.s)), out.leg.name, None, state, one.met))
 
 
-def _flat(state: PatternedState) -> bool:
-    return state.pattern.full and not state.pattern.turns and float(np.ptp(state.solved.shape.nodes[:, 1])) < FLAT
+def _flat(state: PatternedState, angle: float = FLAT) -> bool:
+    """Whether the rod lies within an angle around the hole, in contact."""
+    return state.pattern.full and not state.pattern.turns and float(np.ptp(state.solved.shape.nodes[:, 1])) < angle
 
 
 def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:

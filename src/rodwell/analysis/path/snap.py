@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import arranged, at_load, wavenumber
+from rodwell.analysis.off_wall.arrange import arranged, wavenumber
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.recognise import recognised
@@ -44,7 +44,8 @@ SAME_ENERGY = 1e-6
 class Snap:
     """Where the flow leads, and how sure that is.
 
-    ``agree`` of ``tried`` starts ended in ``state``, or its mirror image; ``others`` are the energies (scaled) of the rest.
+    ``agree`` of ``tried`` starts ended in ``state``, or its mirror image; ``others`` are the energies of other minima
+    behind the soft wall, in BΔ²/L³.
     """
 
     state: PatternedState
@@ -59,39 +60,41 @@ def snapped(event: PatternedState, sense: float, seeds: int) -> Snap | None:
     None if no start led to a state that could be solved.
     """
     load = event.load + sense * BEYOND * max(abs(event.load), 1.0)
-    found: list[PatternedState] = []
-    tried = 0
+    minima: list[Solved] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
-            tried += 1
-            state = from_start(event, _disturbed(_kicked(event.solved, sign), seed), load)
-            if state is not None:
-                found.append(state)
-    if not found:
-        return None
-    return _most(found, tried, abs(event.solved.out.energy))
+            low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), load)
+            if low is not None:
+                minima.append(low)
+    scale = abs(event.solved.out.energy)
+    for group in _alike(minima, scale):
+        state = recognised(event.model, group[0].shape)
+        if state is not None:
+            others = tuple(sorted({round(one.out.energy, 9) for one in minima if one not in group}))
+            return Snap(state, 2 * seeds, len(group), others)
+    return None
 
 
-def _most(found: list[PatternedState], tried: int, scale: float) -> Snap:
-    """The state in which most starts ended; the lowest of equally many."""
-    energies = np.array([one.solved.out.energy for one in found])
-    size = max(float(np.max(np.abs(energies))), scale)
-    same = np.abs(energies[:, None] - energies[None, :]) <= SAME_ENERGY * size
-    votes = same.sum(axis=1)
-    best = int(np.lexsort((energies, -votes))[0])
-    others = sorted({round(float(e), 12) for e in energies[~same[best]]})
-    return Snap(found[best], tried, int(votes[best]), tuple(others))
+def _alike(minima: list[Solved], scale: float) -> list[list[Solved]]:
+    """Minima of equal energy, which are the same up to mirror images; the largest group first, then the lowest."""
+    groups: list[list[Solved]] = []
+    for one in sorted(minima, key=lambda low: low.out.energy):
+        size = SAME_ENERGY * max(abs(one.out.energy), scale)
+        if groups and abs(groups[-1][0].out.energy - one.out.energy) <= size:
+            groups[-1].append(one)
+        else:
+            groups.append([one])
+    return sorted(groups, key=lambda group: (-len(group), group[0].out.energy))
 
 
-def from_start(event: PatternedState, sample: Sampler, load: float) -> PatternedState | None:
-    """The state to which the flow leads from a sampled shape at a load."""
+def _flowed(event: PatternedState, sample: Sampler, load: float) -> Solved | None:
+    """The minimum behind a soft wall to which the flow leads from a sampled shape at a load."""
     model = event.model
     count = max(FEWEST_ELEMENTS, int(np.ceil(ELEMENTS_PER_HALF_WAVE * wavenumber(model, load) / np.pi)))
     shape, _ = arranged(
         model, Pattern((False,), event.pattern.turns), np.zeros(0), load, sample, degree=FLOW_DEGREE, elements=(count,)
     )
-    low = descended(model, shape, STIFFNESS)
-    return None if low is None else recognised(model, low.shape)
+    return descended(model, shape, STIFFNESS)
 
 
 def _kicked(state: Solved, sign: float) -> Shape:
@@ -126,6 +129,3 @@ def _disturbed(shape: Shape, seed: int) -> Sampler:
         return fields, angle
 
     return sample
-
-
-__all__ = ["Snap", "at_load", "from_start", "snapped"]

@@ -27,7 +27,7 @@ FREE_SLOTS = np.array([0, 2, 4, 6, 1, 3, 5, 7])
 """Where X, X′ at the two ends, then Y, Y′, stand among them."""
 
 
-@dataclass
+@dataclass(repr=False)
 class Condensed:
     """Elements of one kind: what remains for their ends, and what gives the bubbles back.
 
@@ -45,7 +45,7 @@ class Condensed:
     negative: int
 
 
-@dataclass
+@dataclass(repr=False)
 class Assembled:
     """A chain at a shape, in the nodes' coordinates.
 

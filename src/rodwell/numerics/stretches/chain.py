@@ -25,7 +25,7 @@ RADIUS, ANGLE, RADIAL_SLOPE, ANGLE_RATE = range(4)
 """Coordinates of a polar node."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Chain:
     """Elements in a row.
 
@@ -83,7 +83,7 @@ class Chain:
         return np.asarray(self.base + self.shares @ breaks)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Shape:
     """Unknowns: ``nodes`` (e+1, 4), ``bubbles`` (e, 2, p−3), ``breaks`` (m,), and the load.
 

@@ -28,7 +28,14 @@ WIDTH = 8
 TOLERANCE = 1e-10
 """Increment of the nodes' coordinates, relative, at which Newton's method has converged."""
 
-MOST_STEPS = 12
+ROUND_OFF, RESIDUAL = 1e-4, 1e-13
+"""Increments below the first that no longer shrink are round-off, if the residual is below the second, relative to the
+Hessian: next to a singular one increments are that large, along its null vector."""
+
+MOST_SHRUNK, MOST_MOVED = 0.6, 0.5
+"""Of a step no more is taken than shortens an element by this part, or moves a node by this much."""
+
+MOST_STEPS = 14
 
 
 class Outcome(Enum):
@@ -39,7 +46,7 @@ class Outcome(Enum):
     OUT_OF_RANGE = "the rod turned across the hole (|t·k| → 0), or a stretch vanished"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Row:
     """A linear condition: nodes·N + breaks·B + load·λ = target, with weights of the same shapes as the unknowns."""
 
@@ -58,7 +65,7 @@ def fixed_load(chain: Chain, load: float) -> Row:
     return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), 1.0, load)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solved:
     """An equilibrium of a chain: the last assembly, moments at the breaks and forces there."""
 
@@ -195,18 +202,31 @@ def solve(
             nodes, breaks, load = _solve(model, out, row, target, residual=1.0)
         except np.linalg.LinAlgError:
             return Outcome.NOT_CONVERGED, None, step
-        bubbles = bubbles_of(out, nodes, breaks, load, 1.0)
         size = max(float(np.max(np.abs(nodes) / scale)), float(np.max(np.abs(breaks), initial=0.0)))
         if not np.isfinite(size) or size > 1e3:
             return Outcome.NOT_CONVERGED, None, step
-        if size < tolerance and abs(load) <= tolerance * (1.0 + abs(shape.load)):
-            shape = shape.moved(nodes, bubbles, breaks, load)
+        small = size < tolerance and abs(load) <= tolerance * (1.0 + abs(shape.load))
+        part = _safe_part(shape, nodes, breaks)
+        bubbles = bubbles_of(out, nodes, breaks, load, 1.0)
+        shape = shape.moved(part * nodes, part * bubbles, part * breaks, part * load)
+        if small or (size < ROUND_OFF and size > 0.3 * before and _balanced(out)):
             return Outcome.CONVERGED, Solved(model, assemble(model, shape)), step
-        shape = shape.moved(nodes, bubbles, breaks, load)
-        if np.any(np.diff(shape.places) <= 0.0):
-            return Outcome.OUT_OF_RANGE, None, step
         before = size
     return Outcome.NOT_CONVERGED, None, most
+
+
+def _balanced(out: Assembled) -> bool:
+    """Whether the nodes' equations are met to round-off."""
+    left = float(np.max(np.abs(out.residual[~out.shape.chain.held]), initial=0.0))
+    return left <= RESIDUAL * float(np.max(np.abs(out.diagonal)))
+
+
+def _safe_part(shape: Shape, nodes: FloatArray, breaks: FloatArray) -> float:
+    """How much of a step is taken: no element loses more than most of its length, no node moves across the disc."""
+    lengths, change = np.diff(shape.places), np.diff(shape.chain.shares @ breaks)
+    shrink = float(np.max(-change / lengths, initial=0.0))
+    across = float(np.max(np.abs(nodes[:, :2])))
+    return min(1.0, MOST_SHRUNK / shrink if shrink > MOST_SHRUNK else 1.0, MOST_MOVED / max(across, MOST_MOVED))
 
 
 def softest(state: Solved, rounds: int = 4) -> FloatArray:

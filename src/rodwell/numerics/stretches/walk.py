@@ -19,8 +19,11 @@ BREAK_SCALE, LOAD_SCALE = 0.1, 0.1
 LOCATED = 1e-10
 """Part of a step to which a zero is located."""
 
+AS_GOOD_AS_ZERO = 1e-7
+"""Part of its values at the ends of a step below which a function counts as zero where it cannot be followed further."""
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion:
     """A direction along a path: derivatives of nodes, breaks, load and bubbles by arclength."""
 
@@ -124,8 +127,10 @@ def locate(
     try:
         root = float(brentq(value, 0.0, 1.0, xtol=xtol, rtol=4.0 * np.finfo(float).eps))
         value(root)
-    except (_Lost, RuntimeError):
-        return None
+    except (_Lost, RuntimeError):  # right at a branch point the equations are singular: as near as that is found
+        size = max(abs(known[0.0][1]), abs(known[1.0][1]))
+        best, left = min(known.values(), key=lambda one: abs(one[1]))
+        return best if abs(left) <= AS_GOOD_AS_ZERO * size else None
     return known[root][0]
 
 
@@ -143,9 +148,20 @@ def search(
     if other is None:
         return None
     ahead = abs(function(other)) < abs(value) or function(other) * value < 0.0
-    sign, size, here = (1.0 if ahead else -1.0), first, state
+    for sign in (1.0, -1.0) if ahead else (-1.0, 1.0):
+        found = _towards(model, state, along.times(sign), function, first, largest)
+        if found is not None:
+            return found
+    return None
+
+
+def _towards(
+    model: Any, here: Solved, along: Motion, function: Callable[[Solved], float], size: float, largest: float
+) -> Solved | None:
+    """The next state along a path where ``function`` vanishes, in steps that double from ``size`` to ``largest``."""
+    value = function(here)
     while size <= largest:
-        other = step(model, here, along, sign * size)[1]
+        other = step(model, here, along, size)[1]
         if other is None:
             return None
         if function(other) * value <= 0.0:

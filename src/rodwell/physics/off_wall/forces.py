@@ -1,8 +1,9 @@
 """Tangent, curvature and internal force of a rod in space, from its position across the hole: plain formulas.
 
-With the tangent t, moment balance of an inextensible rod that carries the torque T₁,
+With the tangent t, moment balance of an inextensible rod that carries the torque −T₁ about its tangent (the sign of
+T₁ is the paper's, M⁽¹⁾ = (−T₁, ω₂, ω₃)),
 
-    t″ = −n + (t·n − |t′|²) t + T₁ t × t′,
+    t″ = −n + (t·n − |t′|²) t − T₁ t × t′,
 
 gives the part of the internal force n across the rod; the part along it follows from n·k = N(s) = F + wₐ(s − 1), the
 axial resultant, since nothing but the weight acts along the hole without friction. Along a free stretch n′ = wₗ i + wₐ k
@@ -36,6 +37,6 @@ def in_space(
     z3 = -(x[2] ** 2 + y[2] ** 2 + z2**2 + x[1] * x[3] + y[1] * y[3]) / z1
     t, t1, t2 = (np.stack(rows) for rows in ((x[1], y[1], z1), (x[2], y[2], z2), (x[3], y[3], z3)))
     square = np.sum(t1**2, axis=0)
-    across = -t2 - square * t + twist * np.cross(t, t1, axis=0)
+    across = -t2 - square * t - twist * np.cross(t, t1, axis=0)
     tension = (axial_resultant - across[2]) / z1
     return InSpace(t, across + tension * t, np.sqrt(square), tension)
