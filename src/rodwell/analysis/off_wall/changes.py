@@ -21,6 +21,7 @@ from rodwell.analysis.off_wall.conditions import (
     LOST,
     OPENS,
     TOUCHES,
+    UNHELD,
     Condition,
     PatternedState,
     conditions,
@@ -39,7 +40,7 @@ FIRST_CONTACT = 5e-4
 HALVINGS = 6
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
-         GROWS_AT_END: "contact_line"}  # fmt: skip
+         GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
 """What a change is called along a path."""
 
 
@@ -177,7 +178,20 @@ def _grow_at_end(plan: _Plan, condition: Condition) -> None:
         plan.pair = (0.0, size)
 
 
-_EDITS = {OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}
+def _release(plan: _Plan, condition: Condition) -> None:
+    """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
+    problem = plan.state.model.problem
+    weight = max(problem.lateral_weight, 1e-3)
+    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 0.01, 0.3))
+    if condition.number:
+        plan.touching.append(False)
+        plan.breaks.append(1.0 - length)
+    else:
+        plan.touching.insert(0, False)
+        plan.breaks.insert(0, length)
+
+
+_EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}
 
 
 def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:

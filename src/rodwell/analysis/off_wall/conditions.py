@@ -6,6 +6,8 @@ Where one of them vanishes along a path the pattern of contact changes:
 * a point of contact pushes: else it is lost,
 * the gap beside a point of contact opens like a parabola, r″ < 0: else the contact grows to a stretch,
 * at a radially held end the free rod curves inwards: else contact grows from the end,
+* at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
+  moment that this takes: else it leaves the wall there,
 * the rod nowhere reaches the wall within a free stretch: else it touches there.
 """
 
@@ -20,9 +22,11 @@ import numpy as np
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
+from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.quantities.arrays import FloatArray
 
 OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "grows_at_end", "touches", "leaves"
+UNHELD = "unheld"
 
 PER_ELEMENT = 12
 """Places in an element at which pressure and gap are looked at first."""
@@ -92,7 +96,10 @@ def _at_end(state: PatternedState, last: bool) -> Condition | None:
     """The curvature of the gap at a radially held end of a free stretch."""
     shape = state.solved.shape
     node = -1 if last else 0
-    if state.pattern.touching[node] or not (shape.chain.held[node, 2] and shape.chain.held[node, 0]):
+    if state.pattern.touching[node]:
+        ball = state.model.problem.ends[node] in OFF_WALL_ENDS
+        return Condition(UNHELD, int(last), -abs(float(shape.nodes[node, 3])), float(last)) if ball else None
+    if not (shape.chain.held[node, 2] and shape.chain.held[node, 0]):
         return None
     element = shape.chain.elements - 1 if last else 0
     return Condition(GROWS_AT_END, int(last), gap_curvature(shape, element, float(last)), float(last))
@@ -188,7 +195,7 @@ def watched(condition: Condition, state: PatternedState) -> float:
         return apart(state, condition.number).value
     if condition.kind == GROWS:
         return float(state.solved.openings[condition.number])
-    if condition.kind == GROWS_AT_END:
+    if condition.kind in (GROWS_AT_END, UNHELD):
         at = _at_end(state, bool(condition.number))
         return np.nan if at is None else at.value
     return float(state.solved.forces[condition.number])

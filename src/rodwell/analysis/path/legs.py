@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import at_load, solved
-from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.following import END, Followed, followed
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
@@ -25,7 +25,7 @@ from rodwell.analysis.path.events import (
     Leg,
     PathPoint,
 )
-from rodwell.analysis.path.snap import Snap, snapped
+from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, Snap, snapped
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.stretches.carry import rim_fields
@@ -37,6 +37,9 @@ MOST_SNAPS = 12
 
 FLAT = 0.05
 """Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
+
+SLACK = 1e-9
+"""A condition on contact that is missed by no more than this part of the load is as good as met."""
 
 STILL = 1e-4
 """The same, below which it is straight."""
@@ -173,7 +176,9 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
 
 def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value) -> None:
     """Go where the flow leads from a state that gives way at a load."""
-    snap = snapped(event, sense, how.seeds)
+    snap = None
+    for beyond in BEYOND_BUCKLING if _flat(event) else (BEYOND,):
+        snap = snap or snapped(event, sense, how.seeds, beyond)
     if snap is None:
         out.ended = (
             f"the rod gives way at F = {load.value:.8g} B/L², and where it goes was not resolved: no minimum found by "
@@ -181,19 +186,32 @@ def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value)
         )
         return
     found, at = _destination(snap, load)
-    kind = found.kind if at is not None else ""
-    dropped = event.solved.out.energy - (at.solved.out.energy if at is not None else -np.inf)
-    size = max(abs(event.solved.out.energy), abs(snap.state.solved.out.energy))
-    if at is not None and abs(dropped) < NO_DROP * size:
-        if not event.pattern.full or float(np.ptp(event.solved.shape.nodes[:, 1])) > FLAT:
-            out.events.append(PathPoint(BRANCH_POINT, load, (), out.leg.name, None, found))
+    if _continuous(event, snap.state, at):
+        kind = BRANCH_POINT
+        if _flat(event):
+            kind = "" if found.fine.pattern.full else LIFT_OFF
+        if kind:
+            out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
     else:
-        to = Destination(kind or found.kind, found.turns, found.energy, snap.tried, snap.agree)
+        to = Destination(found.kind, found.turns, found.energy, snap.tried, snap.agree)
         out.events.append(PathPoint(SNAP, load, (), out.leg.name, to, found))
     out.last = None if found.kind == STRAIGHT else snap.state
+
+
+def _continuous(event: PatternedState, after: PatternedState, at: PatternedState | None) -> bool:
+    """Whether the state after an event grows out of that before: at the load of the event itself they are the same."""
+    if at is None:
+        return True  # it exists beyond that load only
+    before, beyond = event.solved.out.energy, after.solved.out.energy
+    there = at.solved.out.energy
+    if _flat(event):
+        return abs(there) < 0.1 * abs(beyond)
+    return abs(there - before) < NO_DROP * max(abs(there), abs(before))
 
 
 def _destination(snap: Snap, load: Value) -> tuple[ContactState, PatternedState | None]:
     """The state after a snap, at the load of the snap if it exists there, else where the flow was."""
     at = at_load(snap.state, load.value)
+    if at is not None and (at.solved.index or any(one.value < -SLACK * abs(load.value) for one in conditions(at))):
+        at = None
     return contact_state(at if at is not None else snap.state), at

@@ -232,7 +232,8 @@ def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
     if until >= how.mode.force:
         return walked(None, model, max(top, until), until, leg, how)
-    begun = on_wall(problem, 1, mirror, until, how.rtol) if problem.pressed else None
+    stays = problem.pressed and "ball" not in problem.ends
+    begun = on_wall(problem, 1, mirror, until, how.rtol) if stays else None
     if begun is None:
         return walked(None, model, top, until, leg, how)
     critical = PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), LOADING)

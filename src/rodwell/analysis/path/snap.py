@@ -25,6 +25,9 @@ from rodwell.quantities.arrays import FloatArray
 BEYOND = 1e-3
 """How far beyond the loss of stability the flow starts, relative to the load."""
 
+BEYOND_BUCKLING = (2e-4, 2e-3, 1e-2)
+"""The same for the straight rod, tried one after the other: what branches off from it is small at first."""
+
 KICK, NOISE = 0.05, 0.02
 """Largest displacement, in Δ, of the kick along the softest direction, and size of the random ones."""
 
@@ -54,12 +57,12 @@ class Snap:
     others: tuple[float, ...]
 
 
-def snapped(event: PatternedState, sense: float, seeds: int) -> Snap | None:
+def snapped(event: PatternedState, sense: float, seeds: int, beyond: float = BEYOND) -> Snap | None:
     """The state to which the rod goes from one that has just ceased to be stable; ``sense`` of the load's change.
 
     None if no start led to a state that could be solved.
     """
-    load = event.load + sense * BEYOND * max(abs(event.load), 1.0)
+    load = event.load + sense * beyond * max(abs(event.load), 1.0)
     minima: list[Solved] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
