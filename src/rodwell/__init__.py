@@ -34,6 +34,7 @@ _HOME = {
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
     "InputError": "rodwell.errors",
+    "LoadPath": "rodwell.analysis.path.load_path",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
@@ -60,6 +61,7 @@ _HOME = {
     "lift_off_curve": "rodwell.analysis.curves.states",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "load_path": "rodwell.analysis.path.load_path",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
@@ -88,6 +90,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.path.load_path import LoadPath, load_path
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate

@@ -23,6 +23,7 @@ from rodwell.cli.init import init
 from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.paper import paper
+from rodwell.cli.path import path
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
@@ -45,7 +46,7 @@ def cli() -> None:
 
 for command in (
     *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, init, keys, catalogue, paper),
+    *(diagram, curve, path, twist, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 

@@ -13,12 +13,14 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.fields import plot_field
+from rodwell.plots.path import plot_path
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
@@ -87,6 +89,11 @@ def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
 @_plot.register
 def _(result: Curve, axes: Any) -> Any:
     return plot_curves([result], ax=axes)
+
+
+@_plot.register
+def _(result: LoadPath, axes: Any) -> Any:
+    return plot_path(result, ax=axes)
 
 
 @_plot.register

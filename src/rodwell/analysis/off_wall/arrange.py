@@ -54,8 +54,11 @@ def solved(
     degree: int = DEGREE,
     elements: tuple[int, ...] | None = None,
 ) -> PatternedState | None:
-    """The equilibrium of a pattern near a sampled shape, at the load; or, where ``fixed`` names two ends of stretches,
-    at the distance they have now (−1 and the number of breaks: the ends of the rod). None if Newton's method fails."""
+    """The equilibrium of a pattern near a sampled shape; None if Newton's method fails.
+
+    It is at the load; or, where ``fixed`` names two ends of stretches (−1 and the number of breaks: the ends of the
+    rod), at the distance they have now.
+    """
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]
@@ -107,6 +110,4 @@ def needs_new_elements(state: PatternedState) -> bool:
 def with_new_elements(state: PatternedState) -> PatternedState | None:
     """The same state on elements made for its stretches."""
     shape = state.solved.shape
-    return solved(
-        state.model, state.pattern, shape.breaks, shape.load, sampler(shape), degree=shape.chain.degree
-    )
+    return solved(state.model, state.pattern, shape.breaks, shape.load, sampler(shape), degree=shape.chain.degree)

@@ -13,11 +13,12 @@ Complementarity: no penetration, no contact that pulls.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import GROWS, GROWS_AT_END, OPENS, TOUCHES, PatternedState, conditions
+from rodwell.analysis.off_wall.conditions import OPENS, PatternedState, conditions
 from rodwell.analysis.off_wall.measured import position
 from rodwell.physics.off_wall.forces import in_space
 from rodwell.quantities.arrays import FloatArray
@@ -39,9 +40,8 @@ class ContactCertificate:
     Attributes
     ----------
     residuals
-        Relative to the end force (or the weight, if that is larger): "balance of free stretches", "balance of stretches in
-        contact", "point forces by two routes", "jumps across the wall's normal" and "shortening by two routes" (relative
-        to the shortening).
+        Relative to the end force (or the weight, if that is larger): "balance of free stretches", "balance of
+        stretches in contact", "point forces by two routes" and "jumps across the wall's normal".
     penetration
         Largest penetration of the wall, in Δ; 0 for none.
     least_force
@@ -123,9 +123,9 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
     points, weights = np.polynomial.legendre.leggauss(ORDER)
     inner = state.solved.shape.places
     out = np.zeros((3, places.size - 1))
-    for k, (a, b) in enumerate(zip(places[:-1], places[1:], strict=True)):
+    for k, (a, b) in enumerate(pairwise(places)):
         grid = np.concatenate([[a], inner[(inner > a) & (inner < b)], [b]])
-        for left, right in zip(grid[:-1], grid[1:], strict=True):
+        for left, right in pairwise(grid):
             for half in (0.0, 0.5):  # two panels of the rule
                 h = 0.5 * (right - left)
                 s = left + half * (right - left) + 0.5 * h * (points + 1.0)
@@ -153,6 +153,3 @@ def _least(state: PatternedState) -> tuple[float, float]:
     forces = state.model.problem.clearance * state.solved.forces
     pressing = [one.value for one in conditions(state) if one.kind == OPENS]
     return float(np.min(forces, initial=np.inf)), float(min(pressing, default=np.inf))
-
-
-__all__ = ["GROWS", "GROWS_AT_END", "TOUCHES", "ContactCertificate", "contact_certificate"]

@@ -1,8 +1,8 @@
 """How the pattern of contact goes on where conditions on it cease to hold.
 
-A change starts from the state where a condition vanishes, or several at once, as in symmetric states. It gives the first
-state of the new pattern, and a number that grows in the sense in which the path goes on there. A gap or a stretch in
-contact starts with a small length, held while the load is solved for: right at its opening a gap has no height long
+A change starts from the state where a condition vanishes, or several at once, as in symmetric states. It gives the
+first state of the new pattern, and a number that grows in the sense in which the path goes on there. A gap or a stretch
+in contact starts with a small length, held while the load is solved for: right at its opening a gap has no height long
 before it has no length.
 """
 
@@ -204,7 +204,7 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
     first, where = stretches[0], float(np.mean(bounds[stretches[0] : stretches[0] + 2]))
     for i in sorted(stretches, reverse=True):
         last = i == len(state.pattern.touching) - 1
-        if touching[i] and 0 < i and not last:
+        if touching[i] and i > 0 and not last:
             del touching[i]
             breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         elif touching[i]:

@@ -115,9 +115,14 @@ def pressing(state: PatternedState, stretch: int) -> list[Condition]:
     found = []
     for k in np.flatnonzero(low):
         best = (float(values[k]), np.nan)
-        for e in {min(max(int(k) - 1, 0) // PER_ELEMENT, len(functions) - 1), min(int(k) // PER_ELEMENT, len(functions) - 1)}:
+        for e in {
+            min(max(int(k) - 1, 0) // PER_ELEMENT, len(functions) - 1),
+            min(int(k) // PER_ELEMENT, len(functions) - 1),
+        }:
             part = int(k) - e * PER_ELEMENT
-            value, where = lowest(functions[e], np.linspace(*xi[[max(part - 1, 0), min(part + 1, PER_ELEMENT)]], CLOSER))
+            value, where = lowest(
+                functions[e], np.linspace(*xi[[max(part - 1, 0), min(part + 1, PER_ELEMENT)]], CLOSER)
+            )
             left, right = shape.places[elements[e]], shape.places[elements[e] + 1]
             if value <= best[0] or np.isnan(best[1]):
                 best = (value, float(left + (right - left) * where))
@@ -144,9 +149,7 @@ def apart(state: PatternedState, stretch: int) -> Condition:
     for element in state.elements_of(stretch):
         start, h = shape.places[element], shape.places[element + 1] - shape.places[element]
 
-        def gap(
-            part: FloatArray, element: int = element, start: float = start, h: float = h
-        ) -> FloatArray:
+        def gap(part: FloatArray, element: int = element, start: float = start, h: float = h) -> FloatArray:
             x, y = shape.at(element, part, 1)[:, 0]
             at = (start + h * part - left) / (right - left)
             return np.asarray((1.0 - np.hypot(x, y)) / (at ** powers[0] * (1.0 - at) ** powers[1]))

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import at_load, needs_new_elements, wavenumber, with_new_elements
 from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, changed, shortened
-from rodwell.analysis.off_wall.conditions import LEAVES, Condition, PatternedState, conditions, watched
-from rodwell.numerics.stretches.newton import Outcome, Solved, softest, stiffness_along
+from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
+from rodwell.analysis.off_wall.happening import (
+    BRANCH_POINT,
+    END,
+    FOLD,
+    Followed,
+    PathEvent,
+    load_rate,
+    together,
+    unresolved,
+    watch,
+)
+from rodwell.numerics.stretches.newton import softest, stiffness_along
 from rodwell.numerics.stretches.walk import Motion, locate, row_of, search, step, tangent, tangent_in_load
 
 FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.02, 0.25, 1e-7
@@ -20,8 +31,6 @@ EASY, HARD = 5, 8
 SHORT_GAP = 0.3
 """Length of a gap, times the wavenumber, below which it is about to close."""
 
-FOLD, BRANCH_POINT, END, START = "fold", "branch_point", "end", "start"
-
 SMALLEST_PART = 0.1
 """A gap that opens is tried down to this part of its usual first length."""
 
@@ -29,41 +38,6 @@ NEARLY = 1e-9
 """A condition that is missed by no more than this is as good as met."""
 
 MOST_STATES = 2000
-
-TOGETHER = 1e-5
-"""Conditions vanish together whose values at the place are this much smaller than at the end of the step."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class PathEvent:
-    """What happens at a place of a path: its kind, the state there, and where along the rod.
-
-    ``value`` is the function whose zero the place is, in states of the same pattern (None for an end), ``along`` the
-    direction of the path, ``between`` the states on either side, ``together`` the conditions that vanish.
-    """
-
-    kind: str
-    state: PatternedState
-    s: tuple[float, ...] = ()
-    value: Callable[[Solved], float] | None = None
-    together: list[Condition] = field(default_factory=list)
-    along: Motion | None = None
-    between: tuple[PatternedState, PatternedState] | None = None
-
-
-@dataclass(eq=False)
-class Followed:
-    """States and events of a path in order, why it ended, and the direction there."""
-
-    states: list[PatternedState] = field(default_factory=list)
-    events: list[PathEvent] = field(default_factory=list)
-    ended: str = ""
-    along: Motion | None = None
-
-    @property
-    def last(self) -> PatternedState:
-        """The last state."""
-        return self.states[-1]
 
 
 def followed(
@@ -146,9 +120,9 @@ class _Walker:
         """The first thing that happens within a step, located; kind "" where it could not be: the step is shortened."""
         state = self.state
         broken = [one for one in conditions(new) if one.value < 0.0]
-        candidates = [(one.kind, _watch(one, state)) for one in broken]
+        candidates = [(one.kind, watch(one, state)) for one in broken]
         if self.along.load * turned.load < 0.0:
-            candidates.append((FOLD, _load_rate(self.along)))
+            candidates.append((FOLD, load_rate(self.along)))
         elif new.solved.index != state.solved.index:
             direction = softest(new.solved)
             candidates.append((BRANCH_POINT, lambda one: stiffness_along(one, direction)))
@@ -170,8 +144,8 @@ class _Walker:
         event = located[number][1]
         if number >= len(broken):
             return event
-        together = _together(event.state, broken, number)
-        return replace(event, s=tuple(sorted(one.s for one in together)), together=together)
+        at_once = together(event.state, broken, number)
+        return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
 
     def _stability_lost(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
         self.result.events.append(event)
@@ -189,7 +163,7 @@ class _Walker:
             free = [i for i in (event.together[0].number, event.together[0].number + 1)
                     if not event.state.pattern.touching[i]]  # fmt: skip
             if not self._without(free):
-                self.result.ended = _unresolved(event)
+                self.result.ended = unresolved(event)
             return
         after, part = None, 1.0
         while part >= SMALLEST_PART:
@@ -202,7 +176,7 @@ class _Walker:
                 break
             part *= 0.5  # the first state may lie behind a fold
         if after is None:
-            self.result.ended = _unresolved(event)
+            self.result.ended = unresolved(event)
             return
         self.result.events.append(replace(event, kind=after.name))
         self._enter(after)
@@ -258,7 +232,7 @@ class _Walker:
         if at is None:
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
-        places = tuple(sorted(one.s for one in _together(there, [condition], 0, strict=False)))
+        places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))
         self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
         self._enter(Changed(there, after.grows, after.name))
         return True
@@ -278,46 +252,3 @@ class _Walker:
         self.size *= 0.4
         if self.size < SMALLEST_STEP:
             self.result.ended = why
-
-
-def _unresolved(event: PathEvent) -> str:
-    """Why a path ends where the pattern that follows was not found."""
-    return (
-        f"contact changes at s = {event.s[0]:.4g} at F = {event.state.load:.8g} B/L² in a way that was not resolved: no "
-        "state of the pattern that follows was found"
-    )
-
-
-def _watch(condition: Condition, state: PatternedState) -> Callable[[Solved], float]:
-    return lambda one: watched(condition, PatternedState(state.pattern, state.elements, one))
-
-
-def _load_rate(along: Motion) -> Callable[[Solved], float]:
-    """How fast the load changes along the path: zero at a fold."""
-    return lambda one: tangent(one, along).load
-
-
-def _together(
-    state: PatternedState, broken: list[Condition], first: int, *, strict: bool = True
-) -> list[Condition]:
-    """Conditions that vanish at a state together: the first of the broken ones, and its images in symmetric states.
-
-    With ``strict`` only those among the broken ones.
-    """
-    now, lead = conditions(state), broken[first]
-
-    def here(one: Condition) -> Condition | None:
-        same = [other for other in now if (other.kind, other.number) == (one.kind, one.number)]
-        return min(same, key=lambda other: abs(other.s - one.s), default=None)
-
-    at = here(lead) or lead
-    others = broken if strict else [one for one in now if one.kind == lead.kind]
-    found = [at._replace(value=0.0)]
-    for one in others:
-        other, size = here(one), abs(one.value) if strict else 1e-2
-        if other is not None and other not in (at, *found) and abs(other.value) <= TOGETHER * size:
-            found.append(other)
-    return found
-
-
-__all__ = ["Followed", "PathEvent", "Outcome", "at_load", "followed"]

@@ -59,7 +59,7 @@ def measured(state: PatternedState) -> Numbers:
     )  # fmt: skip
 
 
-def _pressure(state: PatternedState, e: int, left: float, h: float):  # noqa: ANN202 - a plain function of ξ
+def _pressure(state: PatternedState, e: int, left: float, h: float):
     shape = state.solved.shape
 
     def pressure(xi: FloatArray) -> FloatArray:
@@ -68,7 +68,7 @@ def _pressure(state: PatternedState, e: int, left: float, h: float):  # noqa: AN
     return pressure
 
 
-def _inside(state: PatternedState, e: int):  # noqa: ANN202 - a plain function of ξ
+def _inside(state: PatternedState, e: int):
     def inside(xi: FloatArray) -> FloatArray:
         x, y = state.solved.shape.at(e, xi, 1)[:, 0]
         return np.asarray(np.hypot(x, y) - 1.0)

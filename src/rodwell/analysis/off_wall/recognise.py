@@ -1,9 +1,9 @@
-"""From a minimum behind a soft wall to the state behind the hard one: the pattern is read off, solved, and put right."""
+"""From a minimum behind a soft wall to the state behind the hard one: the pattern is read off, solved, put right."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +28,7 @@ FINER_FROM = 1e9
 """Stiffness from which on the mesh of the soft wall has twice as many elements."""
 
 POINT, END = 5.0, 3.0
-"""A concentrated force is spread over about this many lengths k^(−1/4) behind a soft wall, within the rod and at an end."""
+"""Over how many lengths k^(−1/4) a concentrated force is spread behind a soft wall: within the rod, and at an end."""
 
 DOUBTFUL = 2.0
 """Contacts shorter or longer than that by up to this factor are tried both as points and as stretches."""
@@ -99,12 +99,12 @@ def _polished(
 
 
 def _pieces(s: FloatArray, deep: BoolArray) -> list[_Piece]:
-    """Pieces in contact and free in turn, from where the soft wall is pressed in; gaps too narrow to count are closed."""
+    """Pieces in contact and free in turn, from where the soft wall is pressed in; too narrow gaps are closed."""
     change = np.flatnonzero(np.diff(deep.astype(int))) + 1
     ends = [0.0, *(float(0.5 * (s[i] + s[i - 1])) for i in change), 1.0]
     merged: list[_Piece] = []
     on = bool(deep[0])
-    for left, right in zip(ends[:-1], ends[1:], strict=True):
+    for left, right in pairwise(ends):
         here = on or right - left < NARROW
         if merged and merged[-1].on and here:
             merged[-1] = merged[-1]._replace(right=right)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from rodwell.analysis.off_wall.arrange import refined
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.following import BRANCH_POINT, PathEvent
+from rodwell.analysis.off_wall.happening import BRANCH_POINT, PathEvent
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.stretches.walk import locate, search, tangent
@@ -32,7 +32,7 @@ class ResolvedEvent:
 
 
 def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
-    """Locate an event again on elements of higher degree, until the load no longer changes by more than the tolerance."""
+    """Locate an event again on elements of higher degree, until its load changes by no more than the tolerance."""
     if event.value is None or event.along is None:
         return ResolvedEvent(event, Value(event.state.load, 0.0), True)
     load, error = event.state.load, UNKNOWN * abs(event.state.load)

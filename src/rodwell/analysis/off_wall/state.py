@@ -175,18 +175,20 @@ class ContactState:
         """Fields along the rod at ``s`` (k,), or at that many evenly spaced places.
 
         ``s``; ``x``, ``y`` across the hole in L, the bottom at x = −Δ; ``z`` along it; ``gap`` between rod and wall in
-        Δ; ``angle`` around the hole from the bottom in rad, between −π and π; ``curvature`` in 1/L; ``bending_moment`` in
-        B/L; ``tension`` along the rod in B/L²; ``contact_pressure`` p in B/L³, negative in contact, without point forces.
+        Δ; ``angle`` around the hole from the bottom in rad, between −π and π; ``curvature`` in 1/L, which is the
+        bending moment in B/L; ``tension`` along the rod in B/L²; ``contact_pressure`` p in B/L³, negative in contact,
+        without point forces.
         """
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
         x, y, pressure = position(self.fine, places)
         problem = self.problem
         n = self.force + problem.axial_weight * (places - 1.0)
         rod = in_space(x, y, n, problem.twist)
+        gap = 1.0 - np.hypot(x[0], y[0]) / problem.clearance
         return {
-            "s": places, "x": x[0], "y": y[0], "z": self._axial(places), "gap": 1.0 - np.hypot(x[0], y[0]) / problem.clearance,
-            "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "bending_moment": rod.curvature,
-            "tension": rod.tension, "contact_pressure": pressure,
+            "s": places, "x": x[0], "y": y[0], "z": self._axial(places), "gap": gap,
+            "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "tension": rod.tension,
+            "contact_pressure": pressure,
         }  # fmt: skip
 
     def _axial(self, places: FloatArray) -> FloatArray:
@@ -207,13 +209,10 @@ class ContactState:
             "energy": plain(self.energy),
             "stability_index": self.stability_index,
             "gaps": [
-                {"from": plain(g.start), "to": plain(g.end), "largest": plain(g.largest), "at": g.at}
-                for g in self.gaps
+                {"from": plain(g.start), "to": plain(g.end), "largest": plain(g.largest), "at": g.at} for g in self.gaps
             ],
             "contacts": [{"from": plain(c.start), "to": plain(c.end), "force": plain(c.force)} for c in self.contacts],
-            "point_contacts": [
-                {"s": plain(p.s), "force": plain(p.force), "kind": p.kind} for p in self.point_forces
-            ],
+            "point_contacts": [{"s": plain(p.s), "force": plain(p.force), "kind": p.kind} for p in self.point_forces],
             "contact_total": plain(self.contact_total),
             "shortening": plain(self.shortening),
             "certificate": self.certificate.as_dict(),

@@ -9,7 +9,9 @@ from rodwell.problem.problem import Problem
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     if problem.outside:
-        raise InputError("outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off")
+        raise InputError(
+            "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"
+        )
     if problem.on_top:
         raise InputError("on_top", True, "nothing presses a rod on top to the wall: its path begins at the bottom")
     if problem.turns:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.state import ContactState, plain
+from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, plain
 from rodwell.quantities.value import Value
 
 LOADING, UNLOADING = "loading", "unloading"
@@ -87,8 +88,10 @@ class PathPoint:
         """What happens, in words."""
         if self.to is None:
             return MEANING[self.kind]
+        if self.to.kind == STRAIGHT:
+            return "the rod falls back to the straight shape"
         turns = f" of {abs(self.to.turns)} turn{'s' if abs(self.to.turns) != 1 else ''}" if self.to.turns else ""
-        return f"the rod snaps to {_ARTICLE.get(self.to.kind, 'a state of ')}{self.to.kind}{turns}"
+        return f"the rod snaps to {_ARTICLE.get(self.to.kind, 'another state of ')}{self.to.kind}{turns}"
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
@@ -98,7 +101,7 @@ class PathPoint:
         }  # fmt: skip
 
 
-_ARTICLE = {"straight": "the ", "sinusoidal": "a ", "helix": "a "}
+_ARTICLE = {"sinusoidal": "a ", "helix": "a "}
 
 
 @dataclass(eq=False)
@@ -115,7 +118,7 @@ class Leg:
     def near(self, force: float) -> list[PatternedState]:
         """Known states on either side of an end force, the nearer first."""
         for run in reversed(self.runs):
-            for one, other in zip(run[:-1], run[1:], strict=True):
+            for one, other in pairwise(run):
                 if min(one.load, other.load) <= force <= max(one.load, other.load):
                     return sorted((one, other), key=lambda state: abs(state.load - force))
         return []

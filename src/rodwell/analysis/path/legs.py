@@ -9,7 +9,8 @@ import numpy as np
 
 from rodwell.analysis.off_wall.arrange import at_load, solved
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
-from rodwell.analysis.off_wall.following import END, Followed, followed
+from rodwell.analysis.off_wall.following import followed
+from rodwell.analysis.off_wall.happening import END, Followed
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.resolve import resolved_event
@@ -193,7 +194,8 @@ def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value)
         if kind:
             out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
     else:
-        to = Destination(found.kind, found.turns, found.energy, snap.tried, snap.agree)
+        energy = Value(0.0, 0.0) if found.kind == STRAIGHT else found.energy
+        to = Destination(found.kind, found.turns, energy, snap.tried, snap.agree)
         out.events.append(PathPoint(SNAP, load, (), out.leg.name, to, found))
     out.last = None if found.kind == STRAIGHT else snap.state
 

@@ -12,15 +12,16 @@ import numpy as np
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.conditions import conditions
-from rodwell.analysis.off_wall.following import END
+from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.checks import checked_problem
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, straight_state, walked
 from rodwell.analysis.path.start import on_wall
+from rodwell.analysis.path.words import sentences
 from rodwell.analysis.straight.critical import critical_loads
-from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
 from rodwell.faces import Shown, drawn
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -70,6 +71,8 @@ class LoadPath(Shown):
         Why it ended.
     rtol
         The tolerance asked for.
+    mirror
+        Whether it took the other arm of the buckling mode.
     """
 
     problem: Problem
@@ -80,6 +83,7 @@ class LoadPath(Shown):
     reached: bool
     ended_because: str
     rtol: float
+    mirror: bool = False
 
     def __repr__(self) -> str:
         return f"<LoadPath to {self.until:g} B/L²: " + ", ".join(
@@ -103,7 +107,9 @@ class LoadPath(Shown):
     @property
     def missed(self) -> tuple[str, ...]:
         """Events whose load misses the tolerance, in words."""
-        return tuple(f"{one.kind} at {one.force.value:.8g} ± {one.force.error:.0e}" for one in self.events if not one.met)
+        return tuple(
+            f"{one.kind} at {one.force.value:.8g} ± {one.force.error:.0e}" for one in self.events if not one.met
+        )
 
     def at(self, force: float) -> tuple[PathState, ...]:
         """States at an end force, one for each leg that passes it.
@@ -120,6 +126,11 @@ class LoadPath(Shown):
         if not found:
             raise InputError("force", force, f"the path does not pass it: {self.ended_because or 'see its events'}")
         return tuple(found)
+
+    @property
+    def meaning(self) -> tuple[str, ...]:
+        """What happens, in sentences: loads as compression at s = 1 in B/L²."""
+        return sentences(self.events)
 
     def _on(self, leg: Leg, force: float) -> ContactState:
         model = RodInHole(self.problem)
@@ -143,7 +154,9 @@ class LoadPath(Shown):
             for a, b in leg.straight[:1] if leg.name == LOADING else []:
                 rows += [(a, 0.0, 0.0, run), (b, 0.0, 0.0, run)]
             for states in leg.runs:
-                rows += [(s.load, s.solved.out.energy_by_load * square, s.solved.out.energy * square, run) for s in states]
+                rows += [
+                    (s.load, s.solved.out.energy_by_load * square, s.solved.out.energy * square, run) for s in states
+                ]
                 run += 1
             for a, b in leg.straight if leg.name == UNLOADING else []:
                 rows += [(a, 0.0, 0.0, run), (b, 0.0, 0.0, run)]
@@ -154,11 +167,18 @@ class LoadPath(Shown):
         """Plain data, for JSON, with the states at the end forces ``at``."""
         return {
             "events": [one.as_dict() for one in self.events],
-            "states": [state.as_dict() for force in at for state in self.at(force)],
+            "states": [one for force in at for one in self._plain_states(force)],
             "reached": self.reached,
             "ended_because": self.ended_because,
             "assumptions": ASSUMPTIONS,
         }
+
+    def _plain_states(self, force: float) -> list[dict[str, Any]]:
+        """States at an end force as plain data, or why there is none."""
+        try:
+            return [state.as_dict() for state in self.at(force)]
+        except RodwellError as error:
+            return [{"force": force, "reached": False, "why": str(error)}]
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw load against shortening, with events and snaps."""
@@ -224,7 +244,7 @@ def load_path(
         walks.append(walked(up.last, RodInHole(problem), until, unload_to, Leg(UNLOADING), how))
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
     events = tuple(event for walk in walks for event in walk.events)
-    return LoadPath(problem, until, unload_to, events, tuple(w.leg for w in walks), not ended, ended, rtol)
+    return LoadPath(problem, until, unload_to, events, tuple(w.leg for w in walks), not ended, ended, rtol, mirror)
 
 
 def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:

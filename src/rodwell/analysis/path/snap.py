@@ -1,8 +1,8 @@
 """Where a rod goes when its state ceases to be stable: downhill, from the direction in which it gave way.
 
 The state is kicked along the softest direction, either way, and by small random disturbances, at a load just beyond;
-the gradient flow behind a soft wall leads to a minimum, whose pattern of contact is then solved for behind the hard wall.
-Frictionless, and without inertia: a rod that swings may end elsewhere.
+the gradient flow behind a soft wall leads to a minimum, whose pattern of contact is then solved for behind the hard
+wall. Frictionless, and without inertia: a rod that swings may end elsewhere.
 """
 
 from __future__ import annotations

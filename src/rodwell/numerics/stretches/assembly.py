@@ -3,7 +3,8 @@
 A model offers, in units where the disc has radius 1,
 
 * ``rim(s, u, load)`` and ``interior(s, u, load)``: energy density, its derivative by the load, gradient (f, 3), mixed
-  derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields and two derivatives;
+  derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields and two
+  derivatives;
 * ``load_per_length``: the density depends on s only through load + load_per_length · s;
 * ``rim_reaction(u)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`reactions`.
 """
@@ -49,8 +50,9 @@ class Condensed:
 class Assembled:
     """A chain at a shape, in the nodes' coordinates.
 
-    ``diagonal`` (n, 4, 4) and ``below`` (e, 4, 4), blocks of the Hessian; ``residual`` and ``by_load`` (n, 4); ``by_break``
-    (n, 4, m); ``plain`` (n, 4): the gradient before bubbles are condensed, whose held entries are reactions.
+    ``diagonal`` (n, 4, 4) and ``below`` (e, 4, 4), blocks of the Hessian; ``residual`` and ``by_load`` (n, 4);
+    ``by_break`` (n, 4, m); ``plain`` (n, 4): the gradient before bubbles are condensed, whose held entries are
+    reactions.
     """
 
     shape: Shape
@@ -190,9 +192,7 @@ def _add(out: Assembled, one: Condensed, to_polar: FloatArray, covector: FloatAr
     out.below[group] = block[:, 1, :, 0]
 
 
-def bubbles_of(
-    out: Assembled, nodes: FloatArray, breaks: FloatArray, load: float, residual: float
-) -> FloatArray:
+def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: float, residual: float) -> FloatArray:
     """Increments of the bubbles (e, 2, p−3) that belong to those of the rest.
 
     ``residual`` is 1 in Newton's method, 0 for a tangent.

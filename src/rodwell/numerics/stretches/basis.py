@@ -22,7 +22,7 @@ ENDS = 4
 
 
 class ReferenceElement(NamedTuple):
-    """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points`` (q,) and ``weights`` (q,) on [0, 1]."""
+    """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points``, ``weights`` (q,) on [0, 1]."""
 
     degree: int
     table: FloatArray
@@ -76,7 +76,7 @@ def tabulate(degree: int, places: FloatArray, orders: int) -> FloatArray:
 
 @lru_cache(maxsize=32)
 def bubble_projection(degree: int) -> tuple[FloatArray, FloatArray]:
-    """Gauss points on [0, 1] and the matrix (p−3, q) that takes second derivatives by ξ there to bubbles' coefficients."""
+    """Gauss points on [0, 1], and the matrix (p−3, q) that makes bubbles of second derivatives by ξ there."""
     points, weights = legendre.leggauss(degree + 2)
     rows = [np.sqrt(2.0 * j + 1.0) * legendre.legval(points, np.eye(j + 1)[j]) for j in range(2, degree - 1)]
     return 0.5 * (points + 1.0), np.array(rows).reshape(-1, points.size) * (0.5 * weights)

@@ -1,7 +1,8 @@
 """Downhill from a shape that is no equilibrium: implicit Euler steps on the gradient flow, behind a soft rim.
 
-The disc's rim is a spring here, ½k(R − 1)² per length where R > 1: whatever touches it, and where, is found by the flow,
-not prescribed. A minimum found like this is close to one behind the hard rim, as 1/k, and tells the pattern of contact.
+The disc's rim is a spring here, ½k(R − 1)² per length where R > 1: whatever touches it, and where, is found by the
+flow, not prescribed. A minimum found like this is close to one behind the hard rim, as 1/k, and tells the pattern of
+contact.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from rodwell.numerics.stretches.newton import Solved, fixed_load, solve
 from rodwell.quantities.arrays import FloatArray
 
 FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9
-"""Inverse step of time: the first, one at which the flow is as good as Newton's method, and one at which it gives up."""
+"""Inverse step of time: the first, one at which the flow is like Newton's method, and one at which it gives up."""
 
 FLOW_TOLERANCE = 1e-7
 MOST_EULER_STEPS = 400

@@ -189,7 +189,7 @@ def _solve(
 def solve(
     model: Any, shape: Shape, row: Row, tolerance: float = TOLERANCE, most: int = MOST_STEPS
 ) -> tuple[Outcome, Solved | None, int]:
-    """Newton's method from ``shape`` to the equilibrium that meets ``row``; what came of it, and the number of steps."""
+    """Newton's method from ``shape`` to the equilibrium that meets ``row``: what came of it, and how many steps."""
     scale = np.maximum(1.0, np.max(np.abs(shape.nodes), axis=0))
     before = np.inf
     for step in range(1, most + 1):

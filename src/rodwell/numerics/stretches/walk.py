@@ -20,7 +20,7 @@ LOCATED = 1e-10
 """Part of a step to which a zero is located."""
 
 AS_GOOD_AS_ZERO = 1e-7
-"""Part of its values at the ends of a step below which a function counts as zero where it cannot be followed further."""
+"""Part of its values at the ends of a step below which a function counts as zero where Newton's method fails."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

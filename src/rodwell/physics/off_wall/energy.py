@@ -44,7 +44,7 @@ def energy_density() -> sp.Expr:
       has no cancellation for small slopes,
     * dead torque ``T₁ (x'y'' − y'x'')/(1 + z')``.
 
-    On the wall, x = −Δ cos φ and y = Δ sin φ, it is the density of :mod:`rodwell.physics.on_wall.energy`, place by place.
+    On the wall, x = −Δ cos φ and y = Δ sin φ, it is the density of ``rodwell.physics.on_wall``, place by place.
     """
     z1 = AxialRate(x1, y1)
     axial_force = force + axial_weight * (s - 1)

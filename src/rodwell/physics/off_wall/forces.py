@@ -6,8 +6,8 @@ T₁ is the paper's, M⁽¹⁾ = (−T₁, ω₂, ω₃)),
     t″ = −n + (t·n − |t′|²) t − T₁ t × t′,
 
 gives the part of the internal force n across the rod; the part along it follows from n·k = N(s) = F + wₐ(s − 1), the
-axial resultant, since nothing but the weight acts along the hole without friction. Along a free stretch n′ = wₗ i + wₐ k
-remains to be met, i pointing up across the hole: none of these is used by the solver.
+axial resultant, since nothing but the weight acts along the hole without friction. Along a free stretch
+n′ = wₗ i + wₐ k remains to be met, i pointing up across the hole: none of these is used by the solver.
 """
 
 from __future__ import annotations
@@ -28,9 +28,7 @@ class InSpace(NamedTuple):
     tension: FloatArray
 
 
-def in_space(
-    x: FloatArray, y: FloatArray, axial_resultant: FloatArray, twist: float
-) -> InSpace:
+def in_space(x: FloatArray, y: FloatArray, axial_resultant: FloatArray, twist: float) -> InSpace:
     """Tangent and internal force from x and y with three derivatives, (4, k) each, and N(s)."""
     z1 = np.sqrt(1.0 - x[1] ** 2 - y[1] ** 2)
     z2 = -(x[1] * x[2] + y[1] * y[2]) / z1

@@ -8,6 +8,7 @@ from functools import singledispatch
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.path.load_path import ASSUMPTIONS, LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
@@ -110,6 +111,24 @@ def _(result: Solution) -> Card:
     lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))
     grid = Grid(("quantity", "symbol", "value", "± error", "unit"), tuple(rows), (2, 3))
     return Card(f"State at F = {_plain(result.force)} B/L²", lines, (grid,), FORCE)
+
+
+@card.register
+def _(result: LoadPath) -> Card:
+    ended = "followed to the end" if result.reached else f"not followed to the end: {result.ended_because}"
+    rows = tuple(
+        (
+            event.leg,
+            event.meaning,
+            number(event.force),
+            short(event.force.error),
+            ", ".join(f"{s:.6g}" for s in event.s),
+        )
+        for event in result.events
+    )
+    grid = Grid(("leg", "what", "F in B/L²", "± error", "s/L"), rows, (2, 3))
+    lines = (_problem(result.problem), ended, _converged(not result.missed))
+    return Card("Load path", lines, (grid,), f"{FORCE} {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
 
 
 @card.register
