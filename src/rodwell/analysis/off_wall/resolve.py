@@ -15,6 +15,9 @@ from rodwell.quantities.value import Value
 MOST_DEGREES = 8
 """How much the degree may grow."""
 
+PART = 0.02
+"""Part of the tolerance at which elements are fine enough."""
+
 UNKNOWN = 1e-5
 """Relative error that an event is given which could not be located again on finer elements: it counts as not met."""
 
@@ -43,7 +46,7 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
             break
         error = float(estimated_error(finer.state.load, load))
         best, load = finer, finer.state.load
-        if error <= 0.1 * rtol * abs(load):
+        if error <= PART * rtol * abs(load):
             break
     return ResolvedEvent(best, Value(load, error), error <= rtol * abs(load))
 

@@ -12,6 +12,9 @@ from rodwell.quantities.value import Value
 
 LOADING, UNLOADING = "loading", "unloading"
 
+ROUND_OFF = 1e-12
+"""By how much of itself a load asked for may lie beyond the last state."""
+
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
 TOUCH_DOWN = "touch_down"
 
@@ -119,6 +122,7 @@ class Leg:
         """Known states on either side of an end force, the nearer first."""
         for run in reversed(self.runs):
             for one, other in pairwise(run):
-                if min(one.load, other.load) <= force <= max(one.load, other.load):
+                slack = ROUND_OFF * abs(force)
+                if min(one.load, other.load) - slack <= force <= max(one.load, other.load) + slack:
                     return sorted((one, other), key=lambda state: abs(state.load - force))
         return []
