@@ -24,7 +24,7 @@ def test_density_is_generated_from_its_symbols() -> None:
 
 
 def test_parameters_stand_in_the_order_of_those_on_the_wall() -> None:
-    assert parameters.PARAMETERS == wall.PARAMETERS[: len(parameters.PARAMETERS)]
+    assert wall.PARAMETERS[: len(parameters.PARAMETERS)] == parameters.PARAMETERS
 
 
 @settings(max_examples=60, deadline=None)
