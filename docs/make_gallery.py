@@ -29,8 +29,8 @@ CHECKED = {
     "bifurcation_diagram": "secondary bifurcations at −362.63 and −164.78, section 4.1.2 of the paper",
     "broken_symmetry": "the same two loads, Fig. 4; the odd shape needs no torque at the support",
     "snap_to_coil": "energies of an interior-point method that lets the rod leave the wall, to 1e-6",
-    "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 and "
-    "−103.6731326",
+    "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
+    "and −103.6731326",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",

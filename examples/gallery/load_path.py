@@ -1,7 +1,7 @@
 """The whole load path: lift-off, partial contact, the snap into a helix, and the way back.
 
-Compression grows (solid) until partial contact ends in a limit point and the rod snaps into a helix; taken off (dashed),
-the helix stays until it has come off the wall and falls back to the straight shape.
+Compression grows (solid) until partial contact ends in a limit point and the rod snaps into a helix; taken off
+(dashed), the helix stays until it has come off the wall and falls back to the straight shape.
 """
 
 import rodwell

@@ -1,8 +1,9 @@
 """The load path off the wall, against reference states of two independent programs, closed relations and itself.
 
-Reference: clamped, α = 90°, Δ = 0.01, w = 15, from a multi-segment boundary value problem with unknown contact boundaries
-and from a second program that imposes no symmetry; loads in B/L² at s = 1, tension positive, energies in B/L relative to
-the straight rod. One largest gap of theirs, 1.168081e-5 at F = −125.418, was read off samples and is taken to 5 digits.
+Reference: clamped, α = 90°, Δ = 0.01, w = 15, from a multi-segment boundary value problem with unknown contact
+boundaries and from a second program that imposes no symmetry; loads in B/L² at s = 1, tension positive, energies in
+B/L relative to the straight rod. One largest gap of theirs, 1.168081e-5 at F = −125.418, is lower by 4e-6 of itself
+than the maximum between samples: it is taken to that.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def test_states_of_partial_contact(loop: LoadPath, force: float, breaks, forces,
     found = [point.s.value for point in state.point_forces]
     assert np.array(found) + found[::-1] == pytest.approx(np.ones(6), abs=1e-9)  # symmetric, though not imposed
     if breaks:
-        assert found[:3] == pytest.approx(breaks, abs=0.6e-5 if force > -126.5 else 0.6e-5)
+        assert found[:3] == pytest.approx(breaks, abs=0.6e-5)
     if forces:
         assert [point.force.value for point in state.point_forces[:3]] == pytest.approx(forces, abs=0.6e-4)
     for gap, largest in zip(state.gaps, gaps or (), strict=False):
@@ -173,7 +174,7 @@ def test_ball_joints_let_the_rod_off_at_its_ends() -> None:
 
 
 def test_the_bifurcation_of_a_heavier_rod() -> None:
-    """w = 30 gives way at a bifurcation that breaks the symmetry, seen though the path is symmetric; to an unsymmetric helix."""
+    """w = 30 gives way where the symmetry breaks, seen though the path is symmetric, and to an unsymmetric helix."""
     path = load_path(rodwell.Problem(weight=30), until=-214.0, seeds=1)
     snap = path.snaps[0]
     assert path.first("fold") is None
