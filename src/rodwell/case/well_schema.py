@@ -20,7 +20,7 @@ from rodwell.case.kinds import (
     Units,
 )
 from rodwell.case.schema import REQUIRED, CatalogueFiles, Mud, PressureAtEnd, SectionInput, _key
-from rodwell.case.string import StringPart
+from rodwell.case.well_string import StringPart
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")
 CONTACTS = ("exact", "correlation", "straight")

@@ -7,10 +7,25 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import OutPath, print_json, print_written, progress_bar, results_folder, units_option
+from rodwell.cli.options import (
+    OutPath,
+    check_missed,
+    print_json,
+    print_written,
+    progress_bar,
+    results_folder,
+    units_option,
+)
 from rodwell.quantities.text import minus
 
+FAR = 10.0
+"""Multiples of the yield strength that are told as beyond it."""
+
+BALANCED = 1e-8
+"""Part of all work by which that of the ends may differ from that of gravity and friction."""
+
 if TYPE_CHECKING:
+    from rodwell.studies.drag.calibration import Calibration
     from rodwell.studies.drag.drag import Drag
 
 
@@ -18,10 +33,22 @@ if TYPE_CHECKING:
 @click.argument("well", type=click.Path(path_type=Path))
 @click.option("--out", type=OutPath(), help="Folder for the results.  [default: results/NAME-drag]")
 @units_option
+@click.option(
+    "--calibrate", type=click.Path(path_type=Path), metavar="CSV",
+    help="Measured hook loads and torques: friction factors are fitted to them, and all is computed with these.",
+)  # fmt: skip
 @click.option("--pdf", "with_pdf", is_flag=True, help="Write the report as PDF too; needs rodwell[pdf].")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the summary.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
-def drag(well: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, quiet: bool) -> None:
+def drag(
+    well: Path,
+    out: Path | None,
+    units: str | None,
+    calibrate: Path | None,
+    with_pdf: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
     """Compute the operations of WELL, a TOML file of string, hole with survey, fluids and operations.
 
     For each operation: hook load and torque at surface, where the string is buckled and how, contact force, stress,
@@ -44,15 +71,35 @@ def drag(well: Path, out: Path | None, units: str | None, with_pdf: bool, as_jso
     folder = results_folder(out, text.name, "-drag")
     read = Well.read(text).in_units(units)
     check_writable(folder)
+    fitted = None
     with progress_bar(not quiet and not as_json, "operations") as tell:
+        if calibrate is not None:
+            from rodwell.studies.drag.calibration import calibrate as fit  # noqa: PLC0415
+            from rodwell.studies.drag.calibration import read_measured  # noqa: PLC0415
+
+            fitted = fit(read, read_measured(calibrate, read), tell)
+            read = fitted.well
         found = compute(read, tell)
         tell("figures, report and data", 1.0)
-        files = write_drag(found, folder, with_pdf=with_pdf)
+        files = write_drag(found, folder, calibration=fitted, with_pdf=with_pdf)
     if as_json:
-        print_json(drag_dict(found))
+        print_json(drag_dict(found, fitted))
     elif not quiet:
         _print(found)
+        if fitted is not None:
+            _print_friction(fitted)
         print_written(folder, files)
+    from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
+
+    check_missed(unbalanced(found), BALANCED)
+
+
+def _print_friction(found: Calibration) -> None:
+    """Friction factors that were found."""
+    for name, value in zip(found.names, found.friction, strict=True):
+        known = value.error == value.error and value.error < float("inf")
+        error = f" ± {value.error:.2g} (standard error)" if known else ": nothing is measured that depends on it"
+        click.echo(f"friction factor of {name}: {value.value:.4g}{error}")
 
 
 def _print(found: Drag) -> None:
@@ -99,7 +146,7 @@ def _table(found: Drag) -> object:
             *(cell(one.compared[name].hook_load, n) if name in one.compared else "" for name in
               ("straight", "correlation")),
             cell(one.ends.torque, nm), f"{buckled:.4g} {by['depth'][1]}" if buckled else "no",
-            f"{100.0 * max(used):.3g} %" if used else "–",
+            ("–" if not used else "beyond" if max(used) >= FAR else f"{100.0 * max(used):.3g} %"),
             style="bold red" if level_of_one(one) == FAILS else None,
         )  # fmt: skip
     return table

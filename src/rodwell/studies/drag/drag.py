@@ -15,6 +15,7 @@ from rodwell.studies.drag.history import History, run_with_history, states_diffe
 from rodwell.studies.drag.laws import STRAIGHT_LAW, Contact, contact_named, correlation
 from rodwell.studies.drag.lock_up import Reach, reach, transfer
 from rodwell.studies.drag.pieces import Cutter
+from rodwell.studies.drag.road_map import RoadMap, road_map
 from rodwell.studies.drag.run import Run, balance, error_of, errors_along, run
 from rodwell.studies.drag.strength import Strength, strength_of
 from rodwell.studies.drag.well_case import Operation, Well
@@ -98,11 +99,14 @@ class Drag:
         What was found, in the order of the file.
     contact
         The law of contact.
+    road_map
+        Hook load and torque against the depth of the bit, if the well asks for it.
     """
 
     well: Well
     operations: tuple[OperationResult, ...]
     contact: Contact
+    road_map: RoadMap | None = None
 
     @cached_property
     def balanced(self) -> bool:
@@ -128,9 +132,9 @@ def drag(well: Well, progress: Progress | None = None) -> Drag:
     history = History(cutter, contact)
     results = []
     for i, operation in enumerate(well.operations):
-        tell(operation.name, i / len(well.operations))
+        tell(operation.name, 0.7 * i / len(well.operations))
         results.append(_computed(well, cutter, history, operation))
-    return Drag(well, tuple(results), contact)
+    return Drag(well, tuple(results), contact, road_map(well, lambda what, done: tell(what, 0.7 + 0.3 * done)))
 
 
 def _computed(well: Well, cutter: Cutter, history: History, operation: Operation) -> OperationResult:
@@ -148,7 +152,7 @@ def _computed(well: Well, cutter: Cutter, history: History, operation: Operation
     if down:
         deepest = min(well.end, float(cutter.string_ends[-1]))
         first = reach(cutter, operation, contact, "early", deepest)
-        reaches = {"early": first, "late": first if contact.one_state or not several else
+        reaches = {"early": first, "late": first if contact.one_state else
                    reach(cutter, operation, contact, "late", deepest)}  # fmt: skip
     known = [b.hook_load for b in (ends, *bounds.values())]
     margin = None

@@ -10,9 +10,11 @@ import numpy as np
 from rodwell._version import __version__
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
+from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, Ends, OperationResult
 from rodwell.studies.drag.lock_up import Reach
+from rodwell.studies.drag.road_map import RoadMap
 from rodwell.studies.drag.tables import worst_depth
 from rodwell.studies.drag.words import assumptions, level_of, sentences
 
@@ -24,7 +26,7 @@ CONVENTION = (
 )
 
 
-def drag_dict(found: Drag) -> dict[str, Any]:
+def drag_dict(found: Drag, calibration: Calibration | None = None) -> dict[str, Any]:
     """Everything that was found."""
     well = found.well
     return {
@@ -41,6 +43,8 @@ def drag_dict(found: Drag) -> dict[str, Any]:
         "block_weight": well.settings.block_weight,
         "survey": well.survey.source,
         "operations": [operation_dict(one) for one in found.operations],
+        "road_map": None if found.road_map is None else _road_map(found.road_map),
+        "calibration": None if calibration is None else _calibration(calibration),
     }
 
 
@@ -83,6 +87,31 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
             "von_mises": listed(strength.von_mises),
             "error": listed(one.force_errors),
         },
+    }
+
+
+def _road_map(found: RoadMap) -> dict[str, Any]:
+    curves = [
+        {
+            "kind": curve.kind, "label": curve.label, "friction": list(curve.friction),
+            "hook_load": listed(curve.hook_load), "error": listed(curve.error), "surface_torque": listed(curve.torque),
+            "possible": [bool(one) for one in curve.possible],
+        }
+        for curve in found.curves
+    ]  # fmt: skip
+    return {"bit_depth": listed(found.depths), "state_rule": "early", "curves": curves}
+
+
+def _calibration(found: Calibration) -> dict[str, Any]:
+    return {
+        "friction": [
+            {"section": name, "value": value.value, "error": value.error if math.isfinite(value.error) else None}
+            for name, value in zip(found.names, found.friction, strict=True)
+        ],
+        "correlation": [listed(row) for row in found.correlation],
+        "standard_deviation": {"hook_load": found.spread[0], "surface_torque": found.spread[1]},
+        "measurements": len(found.measured),
+        "residuals": {"hook_load": listed(found.residuals[:, 0]), "surface_torque": listed(found.residuals[:, 1])},
     }
 
 

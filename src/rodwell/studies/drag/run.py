@@ -18,7 +18,7 @@ from rodwell.studies.drag.pieces import Cutter, Interval, Pieces
 from rodwell.studies.drag.well_case import Operation
 from rodwell.studies.well.survey import Survey
 
-FINE, COARSE = 1e-11, 1e-8
+FINE, COARSE, CRUDE = 1e-11, 1e-8, 1e-5
 """Relative errors of the contact force summed, per length: of what is reported, and of what tells its error."""
 
 LONGEST, LONGEST_COARSE = 10.0, 30.0
@@ -169,6 +169,7 @@ def run(
     bit_force: float | None = None,
     remembered: Sequence[Interval] = (),
     coarse: bool = False,
+    crude: bool = False,
     record: bool = True,
 ) -> Run:
     """Integrate one operation from the bit up.
@@ -181,8 +182,8 @@ def run(
         In place of the operation's, in m and in N (tension positive).
     remembered
         Where the string has been helical before, distances above the bit in m: it stays so until the helix ceases.
-    coarse
-        Whether only forces are wanted, to 1e-8.
+    coarse, crude
+        Whether forces are wanted to 1e-8, to 1e-5: what tells the error of a finer one.
     record
         Whether forces along the string are wanted.
     """
@@ -190,6 +191,7 @@ def run(
     pieces = cutter.pieces(operation, place, contact.helix_from(rule), contact.early, remembered)
     start = operation.bit_force if bit_force is None else bit_force
     tolerance, longest = (COARSE, LONGEST_COARSE) if coarse else (FINE, LONGEST)
+    tolerance = CRUDE if crude else tolerance
     most = BEYOND * math.sqrt(float(np.max(pieces.table[:, 7] * pieces.table[:, 6])) + 1e-300) + 10.0 * abs(start)
     rows = np.zeros((3 * len(pieces.table) + int(place / longest) + 2000 if record else 0, 7))
     while True:

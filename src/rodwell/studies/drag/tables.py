@@ -6,8 +6,10 @@ import math
 
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.value import Value
+from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
+from rodwell.studies.drag.road_map import RoadMap
 from rodwell.studies.drag.well_case import Well
 from rodwell.studies.drag.words import assumptions, level_of_one
 
@@ -66,6 +68,45 @@ def along_table(found: Drag, one: OperationResult) -> Table:
         (*(_known(float(values[i])) for values in arrays), NAMES[int(run.states[i])]) for i in range(len(run.rows))
     )
     return Table(_sheet(one.operation.name), columns, rows, notes=tuple(assumptions(found)))
+
+
+def road_map_table(found: RoadMap) -> Table:
+    """Hook load and torque at every depth of the bit, a column for each curve."""
+    by = units(found.well)
+    (m, depth), (n, force), (nm, torque) = by["depth"], by["force"], by["torque"]
+    columns, arrays = [f"bit depth [{depth}]"], [found.depths / m]
+    for curve in found.curves:
+        columns += [f"hook load, {curve.kind}, friction {curve.label} [{force}]", f"± error [{force}]"]
+        arrays += [curve.hook_load / n, curve.error / n]
+        if any(abs(t) > 0.0 for t in curve.torque if t == t):  # noqa: PLR0124
+            columns.append(f"torque, {curve.kind}, friction {curve.label} [{torque}]")
+            arrays.append(curve.torque / nm)
+        columns.append(f"possible, {curve.kind}, friction {curve.label}")
+        arrays.append(curve.possible)
+    rows = tuple(
+        tuple(("yes" if a[i] else "no") if a.dtype == bool else _known(float(a[i])) for a in arrays)
+        for i in range(len(found.depths))
+    )
+    return Table("Road map", tuple(columns), rows, notes=("Empty: the string locks up.",))
+
+
+def calibration_table(found: Calibration) -> Table:
+    """What was measured, beside what is computed with the friction found."""
+    by = units(found.well)
+    (m, depth), (n, force), (nm, torque) = by["depth"], by["force"], by["torque"]
+    columns = ("line", "operation", f"bit depth [{depth}]", f"hook load, measured [{force}]", f"computed [{force}]",
+               f"torque, measured [{torque}]", f"computed [{torque}]")  # fmt: skip
+    rows = tuple(
+        (one.line, one.operation.kind, one.operation.bit_depth / m, _known(one.hook_load / n),
+         _known((one.hook_load - left[0]) / n), _known(one.torque / nm), _known((one.torque - left[1]) / nm))
+        for one, left in zip(found.measured, found.residuals, strict=True)
+    )  # fmt: skip
+    factors = tuple(
+        f"{name}: friction factor {value.value:.5g}"
+        + (f" ± {value.error:.2g}" if math.isfinite(value.error) else ", on which nothing is measured")
+        for name, value in zip(found.names, found.friction, strict=True)
+    )
+    return Table("Calibration", columns, rows, notes=factors)
 
 
 def worst_depth(one: OperationResult, name: str) -> Value | None:

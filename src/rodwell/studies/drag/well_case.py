@@ -15,8 +15,8 @@ from rodwell.case.catalogue import package_catalogue, read_catalogue
 from rodwell.case.checks.signs import unsigned
 from rodwell.case.file import CaseText, read_case
 from rodwell.case.hole_sections import HoleSection, hole_sections
-from rodwell.case.string import StringSection, string_sections
 from rodwell.case.well_file import in_file, named, read_well
+from rodwell.case.well_string import StringSection, string_sections
 from rodwell.errors import InputError
 from rodwell.quantities.units import SI, SYSTEMS, System
 from rodwell.studies.well.survey import Survey

@@ -9,7 +9,7 @@ import numpy as np
 from rodwell.quantities.text import amount, minus
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.contact import NAMES
-from rodwell.studies.drag.drag import Drag, OperationResult
+from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
 from rodwell.studies.drag.well_case import Well
 
 FAILS, BUCKLES, PASSES = "fails", "buckles", "passes"
@@ -70,7 +70,7 @@ def sentences(found: Drag) -> list[str]:
     worst = min(found.operations, key=lambda one: LEVELS.index(level_of_one(one)))
     out = [_verdict(found, worst)]
     for one in found.operations:
-        out += _of_one(found.well, one)
+        out += sentences_of(found.well, one)
     return out
 
 
@@ -100,7 +100,7 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _of_one(well: Well, one: OperationResult) -> list[str]:
+def sentences_of(well: Well, one: OperationResult) -> list[str]:
     """Sentences on one operation: ends, bounds, buckled intervals, how deep it can go, what is marked."""
     name = _capital(one.operation.name)
     out = []
@@ -159,6 +159,10 @@ def _reach(well: Well, one: OperationResult, name: str) -> list[str]:
 def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
     """Where assumptions end."""
     out = []
+    if yields(one) and not one.run.arrived:
+        first = int(np.argmax(np.nan_to_num(one.strength.used) >= 1.0))
+        where = depth(well, float(one.run.measured_depth[first]))
+        return [f"{name}: before it locks up the string yields, above {where}: forces beyond that are no real ones."]
     if yields(one):
         used = float(np.nanmax(one.strength.used))
         out.append(f"{name}: the von Mises stress reaches {100.0 * used:.3g} % of the yield strength: beyond it "
@@ -170,6 +174,15 @@ def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
         out.append(f"{name}: the helix is as steep as {math.degrees(math.atan(steepest)):.3g}°; its contact force is "
                    "that of small slopes.")  # fmt: skip
     return out
+
+
+def unbalanced(found: Drag) -> list[str]:
+    """Operations whose work does not balance, in words."""
+    return [
+        f"{one.operation.name}: work of {one.balance.value:.1e} of all is missing"
+        for one in found.operations
+        if one.balance is not None and not one.balance.value <= BALANCED
+    ]
 
 
 def assumptions(found: Drag) -> list[str]:
