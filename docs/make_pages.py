@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_drag
 import make_formulas
 import make_howto
 import make_long
@@ -50,13 +51,14 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_drag.COMMANDS,
     **make_long.COMMANDS,
     **make_paper.COMMANDS,
 }
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_long", "make_wells", "make_braid", "make_report", "make_architecture",
+    "make_errors", "make_long", "make_wells", "make_drag", "make_braid", "make_report", "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 

@@ -33,6 +33,7 @@ _HOME = {
     "CriticalLoads": "rodwell.analysis.straight.critical",
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
+    "Drag": "rodwell.studies.drag.drag",
     "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
     "LocalState": "rodwell.analysis.endless.local",
@@ -49,6 +50,7 @@ _HOME = {
     "Study": "rodwell.studies.sweep.study",
     "Survey": "rodwell.studies.well.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
+    "Well": "rodwell.studies.drag.well_case",
     "WallTouch": "rodwell.analysis.straight.without_wall",
     "branch_off": "rodwell.analysis.branch.follow",
     "certify": "rodwell.analysis.proof.certify",
@@ -56,6 +58,7 @@ _HOME = {
     "critical_curves": "rodwell.analysis.curves.critical",
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
+    "drag": "rodwell.studies.drag.drag",
     "endless": "rodwell.analysis.endless.endless",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
@@ -107,6 +110,8 @@ if TYPE_CHECKING:
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.export import export
     from rodwell.studies.audit.audit import Audit, audit
+    from rodwell.studies.drag.drag import Drag, drag
+    from rodwell.studies.drag.well_case import Well
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
     from rodwell.studies.well.survey import Survey, read_surveys

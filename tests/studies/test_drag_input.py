@@ -92,7 +92,7 @@ def test_a_survey_that_begins_below_the_surface_is_led_to_it_and_says_so() -> No
 
 
 def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
-    example = Path(__file__).parents[2] / "examples" / "horizontal-well.toml"
+    example = Path(__file__).parents[2] / "examples" / "wells" / "horizontal.toml"
     ran = CliRunner().invoke(cli, ["drag", str(example), "--out", str(tmp_path / "out"), "--json"])
     assert ran.exit_code == 0, ran.output
     data = json.loads(ran.stdout)

@@ -26,22 +26,40 @@ DASHES = ("-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (5, 2, 1.5, 2)), (0, (8, 3)), (
 
 def plot_forces(found: Drag) -> Figure:
     """Draw inclination, and the effective force of every operation with the limits of buckling, against depth."""
-    by = units(found.well)
-    (m, depth), (n, force) = by["depth"], by["force"]
+    m, depth = units(found.well)["depth"]
     with mpl.rc_context(RC):
         figure = _figure((7.6, 6.4))
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1, 3.6))
         _inclination(left, found.well, m, depth)
-        for i, one in enumerate(found.operations):
-            right.plot(one.run.forces / n, one.run.measured_depth / m, color=MODES[i % len(MODES)], lw=1.7,
-                       ls=DASHES[i % len(DASHES)], label=one.operation.name)  # fmt: skip
-        _limits(right, found, max(found.operations, key=lambda one: one.operation.bit_depth), n, m)
-        right.axvline(0.0, color=GREY, lw=0.8)
-        right.set_xlabel(f"effective force, tension positive  [{force}]")
-        _range(right, np.concatenate([one.run.forces for one in found.operations]) / n)
-        right.legend(loc="upper center", bbox_to_anchor=(0.36, -0.09), ncols=3)
+        _lines(right, found)
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3)
         figure.suptitle(found.well.title, x=0.01, ha="left", fontsize=10)
         return figure
+
+
+def plot_drag(found: Drag, ax: Any) -> Any:
+    """Draw the effective force of every operation on ``ax``, depth downwards; return it."""
+    m, depth = units(found.well)["depth"]
+    _lines(ax, found)
+    ax.set_ylabel(f"measured depth  [{depth}]")
+    ax.set_ylim(max(one.operation.bit_depth for one in found.operations) / m, 0.0)
+    ax.set_title(found.well.title, loc="left", fontsize=10)
+    ax.legend()
+    return ax
+
+
+def _lines(ax: Any, found: Drag) -> None:
+    """Effective force of every operation, and the limits of buckling for the one with the deepest bit."""
+    by = units(found.well)
+    (m, _), (n, force) = by["depth"], by["force"]
+    for i, one in enumerate(found.operations):
+        ax.plot(one.run.forces / n, one.run.measured_depth / m, color=MODES[i % len(MODES)], lw=1.7,
+                ls=DASHES[i % len(DASHES)], label=one.operation.name)  # fmt: skip
+    _limits(ax, found, max(found.operations, key=lambda one: one.operation.bit_depth), n, m)
+    ax.axvline(0.0, color=GREY, lw=0.8)
+    ax.set_xlabel(f"effective force, tension positive  [{force}]")
+    lowest = min(_lowest(one) for one in found.operations)
+    _range(ax, np.concatenate([one.run.forces for one in found.operations]) / n, lowest / n)
 
 
 def plot_operation(found: Drag, one: OperationResult) -> Figure:
@@ -59,17 +77,18 @@ def plot_operation(found: Drag, one: OperationResult) -> Figure:
         forces.axvline(0.0, color=GREY, lw=0.8)
         forces.set_xlabel(f"force, tension positive  [{force}]")
         forces.set_ylabel(f"measured depth  [{depth}]")
-        _range(forces, np.concatenate([run.forces, one.strength.true_force]) / n)
+        _range(forces, np.concatenate([run.forces, one.strength.true_force]) / n, _lowest(one) / n)
+        shown = run.forces >= _lowest(one)
         contact.plot(run.contacts / q, md, color=MODES[2], lw=1.5)
         contact.set_xlabel(f"contact force  [{per}]")
-        contact.set_xlim(0.0, _top(run.contacts / q))
+        contact.set_xlim(0.0, _top(run.contacts[shown] / q))
         if one.operation.rotating:
             last.plot(run.torques / nm, md, color=MODES[3], lw=1.5)
             last.set_xlabel(f"torque  [{torque}]")
         elif np.any(np.isfinite(one.strength.von_mises)):
             last.plot(one.strength.von_mises / pa, md, color=MODES[3], lw=1.5)
             last.set_xlabel(f"von Mises stress  [{stress}]")
-            last.set_xlim(0.0, _top(one.strength.von_mises / pa))
+            last.set_xlim(0.0, _top(one.strength.von_mises[shown] / pa))
         for ax in (forces, contact, last):
             _shade(ax, one, m)
         forces.set_ylim(one.operation.bit_depth / m, 0.0)
@@ -177,17 +196,28 @@ def _differ(true: Any, effective: Any) -> bool:
     return bool(np.any(np.abs(true[known] - effective[known]) > 1e-6 * np.max(np.abs(effective), initial=1.0)))
 
 
-def _range(ax: Any, values: Any) -> None:
-    """A range that what decides fills: compression that grows beyond bounds is cut."""
+def _range(ax: Any, values: Any, low: float) -> None:
+    """A range of forces that what decides fills, from ``low`` on."""
     known = values[np.isfinite(values)]
     high = max(float(np.max(known)), 0.0)
-    low = max(float(np.min(known)), -3.0 * max(high, float(np.percentile(np.abs(known), 60.0))))
     room = 0.06 * (high - low)
     ax.set_xlim(low - room, high + room)
 
 
+def _lowest(one: OperationResult) -> float:
+    """Lowest force in N that is drawn of an operation: where it locks up, some times the limit of buckling."""
+    lowest = min(float(np.min(one.run.forces)), 0.0)
+    if one.run.arrived:
+        return lowest
+    limits = limit_compression(one.run, CUT)
+    return max(lowest, -float(np.median(limits[limits > 0.0])))
+
+
+CUT = 8.0
+"""β at which the compression of a string that locks up is cut in figures."""
+
+
 def _top(values: Any) -> float:
-    """Where an axis from 0 ends: a lock-up's infinity is cut."""
+    """Where an axis from 0 ends."""
     known = values[np.isfinite(values)]
-    typical = float(np.percentile(known, 90.0))
-    return 1.08 * min(float(np.max(known)), max(5.0 * typical, 1e-9)) or 1.0
+    return 1.08 * float(np.max(known, initial=0.0)) or 1.0

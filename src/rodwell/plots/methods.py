@@ -19,11 +19,13 @@ from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.drag import plot_drag
 from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
+from rodwell.studies.drag.drag import Drag
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
@@ -84,6 +86,11 @@ def _(result: Answer, axes: Any, **options: Any) -> Any:
 @_plot.register
 def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
     return plot_modes(result, ax=axes, **options)
+
+
+@_plot.register
+def _(result: Drag, axes: Any) -> Any:
+    return plot_drag(result, ax=axes)
 
 
 @_plot.register

@@ -16,7 +16,17 @@ from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
 from rodwell.studies.drag.tables import operations_table, units
-from rodwell.studies.drag.words import FAILS, assumptions, depth, force, level_of_one, sentences, sentences_of, yields
+from rodwell.studies.drag.words import (
+    FAILS,
+    assumptions,
+    depth,
+    force,
+    level_of_one,
+    sentences,
+    sentences_of,
+    torque,
+    yields,
+)
 
 MOST_INTERVALS = 30
 
@@ -123,6 +133,18 @@ def _operations(found: Drag) -> ReportSection:
         "operations.csv, drag.xlsx, drag.json.", "small",
     ))  # fmt: skip
     return ReportSection("Operations", tuple(blocks))
+
+
+def ends_grid(found: Drag) -> Grid:
+    """Hook load and torque of every operation."""
+    well = found.well
+    rows = tuple(
+        (one.operation.name, depth(well, one.operation.bit_depth),
+         "locks up" if one.ends.hook_load is None else force(well, one.ends.hook_load),
+         "–" if one.ends.torque is None else torque(well, one.ends.torque), level_of_one(one))
+        for one in found.operations
+    )  # fmt: skip
+    return Grid(("operation", "bit at", "hook load", "torque at surface", "verdict"), rows, numeric=(1, 2, 3))
 
 
 def _text(cell: Cell, title: str) -> str:

@@ -6,10 +6,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rodwell.errors import InputError
+from rodwell.faces import Shown, drawn, plain
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.history import History, run_with_history, states_differ
 from rodwell.studies.drag.laws import STRAIGHT_LAW, Contact, contact_named, correlation
@@ -19,6 +21,9 @@ from rodwell.studies.drag.road_map import RoadMap, road_map
 from rodwell.studies.drag.run import Run, balance, error_of, errors_along, run
 from rodwell.studies.drag.strength import Strength, strength_of
 from rodwell.studies.drag.well_case import Operation, Well
+
+if TYPE_CHECKING:
+    from rodwell.faces import Axes
 
 Progress = Callable[[str, float], None]
 
@@ -88,7 +93,7 @@ class OperationResult:
 
 
 @dataclass(frozen=True)
-class Drag:
+class Drag(Shown):
     """Torque and drag of a well: forces in N, tension positive, effective; torques in N m; depths measured, in m.
 
     Attributes
@@ -112,6 +117,14 @@ class Drag:
     def balanced(self) -> bool:
         """Whether the work of every run balances."""
         return all(one.balance is None or one.balance.value <= BALANCED for one in self.operations)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything as plain data, for JSON."""
+        return plain(self)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the effective force of every operation with the limits of buckling, against measured depth."""
+        return drawn(self, ax)
 
 
 def drag(well: Well, progress: Progress | None = None) -> Drag:
