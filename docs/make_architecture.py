@@ -31,6 +31,7 @@ PURPOSE = {
     "store": "files: NetCDF, JSON, XLSX, glTF",
     "studies": "",
     "studies/sweep": "lists and ranges\nin a case file",
+    "studies/packer": "tubing: changes\nof length",
     "studies/well": "a survey, station\nby station",
     "studies/drag": "torque and drag\nof a well",
     "studies/audit": "formulas beside\nexact loads",

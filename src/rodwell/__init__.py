@@ -40,6 +40,7 @@ _HOME = {
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
+    "PackerAnswer": "rodwell.studies.packer.packer",
     "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.studies.well.screening",
@@ -73,6 +74,7 @@ _HOME = {
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
+    "packer": "rodwell.studies.packer.packer",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
     "special_curve": "rodwell.analysis.curves.special",
@@ -120,6 +122,7 @@ if TYPE_CHECKING:
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.drag.drag import Drag, drag
     from rodwell.studies.drag.well_case import Well
+    from rodwell.studies.packer.packer import PackerAnswer, packer
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
     from rodwell.studies.well.survey import Survey, read_surveys

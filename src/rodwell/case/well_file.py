@@ -27,7 +27,7 @@ _ELSEWHERE = {
     "operation": "is not a section; operations stand in [[well.operation]]",
     "road_map": "is not a section; it stands in [well.road_map]",
     "survey": "is not a section; name the file as hole.survey",
-    "packer": "is not treated yet: leave it out",
+    "packer": "is not taken in the file of a well: `rodwell packer` has a file of its own",
 }
 
 

@@ -24,6 +24,7 @@ from rodwell.cli.export import export
 from rodwell.cli.init import init
 from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
+from rodwell.cli.packer import packer
 from rodwell.cli.paper import paper
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
@@ -46,7 +47,7 @@ def cli() -> None:
 
 
 for command in (
-    *(run, screen, drag, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
     *(diagram, curve, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)

@@ -25,11 +25,13 @@ from rodwell.plots.drag import plot_drag
 from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
+from rodwell.plots.packer import plot_packer
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
 from rodwell.quantities.scales import Scales
 from rodwell.studies.drag.drag import Drag
+from rodwell.studies.packer.packer import PackerAnswer
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
@@ -113,6 +115,11 @@ def _(result: Curve, axes: Any) -> Any:
 @_plot.register
 def _(result: Endless, axes: Any, **options: Any) -> Any:
     return plot_endless(result, ax=axes, **options)
+
+
+@_plot.register
+def _(result: PackerAnswer, axes: Any) -> Any:
+    return plot_packer(result, ax=axes)
 
 
 @_plot.register

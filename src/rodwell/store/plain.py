@@ -11,6 +11,8 @@ from rodwell.studies.audit.audit import Audit
 from rodwell.studies.audit.plain import audit_dict
 from rodwell.studies.drag.drag import Drag
 from rodwell.studies.drag.plain import drag_dict
+from rodwell.studies.packer.packer import PackerAnswer
+from rodwell.studies.packer.tables import packer_dict
 from rodwell.studies.sweep.plain import study_dict
 from rodwell.studies.sweep.study import Study
 
@@ -39,3 +41,8 @@ def _(result: Audit) -> dict[str, Any]:
 @plain.register
 def _(result: Drag) -> dict[str, Any]:
     return drag_dict(result)
+
+
+@plain.register
+def _(result: PackerAnswer) -> dict[str, Any]:
+    return packer_dict(result)

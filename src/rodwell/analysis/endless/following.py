@@ -9,6 +9,7 @@ import numpy as np
 
 from rodwell.analysis.endless.waves import SINUSOIDAL, Wave, wave
 from rodwell.errors import NotConvergedError
+from rodwell.physics.exact.helix import LARGEST, sine_squared
 
 BUCKLING = 2.0
 """β at which the straight endless rod buckles, whatever its slope: R. Dawson and P. R. Paslay (1984), with k = 1."""
@@ -34,7 +35,7 @@ def amplitude_near_buckling(beta: float, slope: float) -> float:
 
 def helix_bears(slope: float) -> float:
     """Largest β that a weightless helix bears, 4/(3√3 ε²): at sin²η = 2/3."""
-    return 4.0 / math.sqrt(27.0) / slope**2 if slope > 0.0 else math.inf
+    return 2.0 * LARGEST / slope**2 if slope > 0.0 else math.inf
 
 
 def helix_start(slope: float) -> float:
@@ -54,9 +55,7 @@ def weightless_rate(beta: float, slope: float) -> float:
     if beta > helix_bears(slope):
         most = helix_bears(slope)
         raise NotConvergedError(f"no helix bears beta = {beta:.6g} at the slope {slope:.6g}: they end near {most:.6g}")
-    # u³ − u² + load² = 0: the middle one of three real roots, by the cosine of a third of an angle
-    u = 1.0 / 3.0 + 2.0 / 3.0 * math.cos(math.acos(1.0 - 13.5 * load**2) / 3.0 + 4.0 * math.pi / 3.0)
-    return math.sqrt(u) / slope if load > 1e-4 else math.sqrt(0.5 * beta / math.sqrt(1.0 - load))
+    return math.sqrt(sine_squared(load)) / slope if slope > 0.0 else math.sqrt(0.5 * beta)
 
 
 def start(kind: str, beta: float, slope: float) -> Wave:

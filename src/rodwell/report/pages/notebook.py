@@ -26,6 +26,9 @@ from rodwell.report.reports.drag import ends_grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
 from rodwell.studies.drag.drag import Drag
 from rodwell.studies.drag.words import sentences as drag_sentences
+from rodwell.studies.packer.packer import PackerAnswer
+from rodwell.studies.packer.tables import SIGNS, packer_table
+from rodwell.studies.packer.words import sentences as packer_sentences
 
 FORCE = "F is the end force at s = 1, tension positive; units B = L = 1 where no other stand."
 
@@ -140,6 +143,14 @@ def _(result: Endless) -> Card:
     title = "Endless rod" if result.beta is None else f"Endless rod at β = {_plain(result.beta)}"
     note = "β = P/√(Bq/D), compression P positive; forces per length in q, lengths in ℓ = (BD/q)^¼."
     return Card(title, (f"kept on the wall, {slope}",), tuple(grids), note)
+
+
+@card.register
+def _(result: PackerAnswer) -> Card:
+    table = packer_table(result)
+    cells = tuple((str(row[0]), *(f"{x:.6g}" for x in row[1:3]), *map(str, row[3:])) for row in table.rows)
+    title, *more = packer_sentences(result)
+    return Card(result.case.title, (title, *more), (Grid(table.columns, cells, (1, 2)),), " ".join(SIGNS[:2]))
 
 
 @card.register
