@@ -17,6 +17,7 @@ from rodwell.cli.audit import audit
 from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
 from rodwell.cli.critical import critical
+from rodwell.cli.drag import drag
 from rodwell.cli.endless import endless
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
@@ -47,7 +48,7 @@ def cli() -> None:
 
 
 for command in (
-    *(run, screen, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
     *(diagram, curve, path, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)

@@ -22,6 +22,7 @@ from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.drag import plot_drag
 from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
@@ -31,6 +32,7 @@ from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
 from rodwell.quantities.scales import Scales
+from rodwell.studies.drag.drag import Drag
 from rodwell.studies.packer.packer import PackerAnswer
 
 
@@ -100,6 +102,11 @@ def _(result: Answer, axes: Any, ordinate: Number | None = None) -> Any:
 @_plot.register
 def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
     return plot_modes(result, ax=axes, **options)
+
+
+@_plot.register
+def _(result: Drag, axes: Any) -> Any:
+    return plot_drag(result, ax=axes)
 
 
 @_plot.register

@@ -23,7 +23,10 @@ from rodwell.quantities.text import minus
 from rodwell.report.pages.templates import template
 from rodwell.report.reports.case import key_numbers
 from rodwell.report.reports.content import Grid
+from rodwell.report.reports.drag import ends_grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
+from rodwell.studies.drag.drag import Drag
+from rodwell.studies.drag.words import sentences as drag_sentences
 from rodwell.studies.packer.packer import PackerAnswer
 from rodwell.studies.packer.tables import SIGNS, packer_table
 from rodwell.studies.packer.words import sentences as packer_sentences
@@ -116,6 +119,12 @@ def _(result: Solution) -> Card:
     lines = (_problem(result.problem), f"{stable}, under dead loads, kept on the wall", _converged(result.converged))
     grid = Grid(("quantity", "symbol", "value", "± error", "unit"), tuple(rows), (2, 3))
     return Card(f"State at F = {_plain(result.force)} B/L²", lines, (grid,), FORCE)
+
+
+@card.register
+def _(result: Drag) -> Card:
+    note = "Effective forces, tension positive; hook load at surface without the block."
+    return Card(f"Torque and drag: {result.well.title}", (drag_sentences(result)[0],), (ends_grid(result),), note)
 
 
 @card.register
