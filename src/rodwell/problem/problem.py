@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
+from rodwell.problem.rod import Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -68,12 +70,17 @@ class Problem:
     torsion
         C/B as measured, for shafts that are not round rods of one material (braided, coiled, slotted); ``poisson`` then
         has no effect. None: that of ``poisson``.
+    sections
+        A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L, adding
+        up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a uniform rod
+        of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or ``poisson``
+        give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
 
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
     end force acts at s = 1, the upper end of an inclined cylinder, along the cylinder's axis; the axial resultant is
-    N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
+    N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left of it, whatever its condition.
 
     Raises
     ------
@@ -91,6 +98,7 @@ class Problem:
     outside: bool = False
     ends: tuple[str, str] = ("clamped", "clamped")
     torsion: float | None = None
+    sections: tuple[Section, ...] = ()
 
     def __post_init__(self) -> None:
         for name, (low, high, allowed) in LIMITS.items():
@@ -102,6 +110,7 @@ class Problem:
             if not isinstance(getattr(self, flag), bool):
                 raise InputError(flag, getattr(self, flag), "must be True or False")
         object.__setattr__(self, "ends", checked_ends(self.ends))
+        object.__setattr__(self, "sections", checked_sections(self.sections))
         if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
             allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
             raise InputError("clearance", self.clearance, allowed)
@@ -132,26 +141,41 @@ class Problem:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the problem is the same seen from either end: equal ends and no axial weight.
+        """Whether the problem is the same seen from either end: equal ends, no axial weight, sections alike.
 
         A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
-        return self.axial_weight == 0.0 and self.ends[0] == self.ends[1] and not loose
+        if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose:
+            return False
+        return not self.sections or self.rod.symmetric
 
     @property
     def pressed(self) -> bool:
         """Whether lateral weight presses the straight rod on the wall: at the bottom inside, or outside on top."""
         return self.lateral_weight > 0.0 and self.on_top == self.outside
 
+    @cached_property
+    def rod(self) -> Rod:
+        """Stiffness and weight along s."""
+        return Rod(self.sections or ((1.0, 1.0, 1.0, 1.0, 1.0),))
+
+    @property
+    def hung_weight(self) -> float:
+        """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one."""
+        return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
+
     @property
     def axial_weight(self) -> float:
-        """wₐ = γ cos α, exactly zero for a horizontal cylinder."""
+        """wₐ = γ cos α, exactly zero for a horizontal cylinder; of sections, that of weight ratio 1."""
         return self.weight * (0.0 if self.alpha == 90.0 else math.cos(math.radians(self.alpha)))
 
     @property
     def lateral_weight(self) -> float:
-        """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`."""
+        """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`.
+
+        Of sections, that of weight ratio 1.
+        """
         return self.weight * math.sin(math.radians(self.alpha))
 
     @property
@@ -168,6 +192,20 @@ class Problem:
     def torsional_stiffness(self) -> float:
         """C/B: ``torsion``, or 1/(1 + ν)."""
         return 1.0 / (1.0 + self.poisson) if self.torsion is None else self.torsion
+
+    @property
+    def turn_per_torque(self) -> float:
+        """∫ ds/C(s) in L/B: by how much T₁ = 1 turns the straight rod's end s = 1 about its axis."""
+        if not self.sections:
+            return 1.0 / self.torsional_stiffness
+        shares = sum(length / torsion for length, *_, torsion in self.sections)
+        return shares / self.torsional_stiffness
+
+    @property
+    def given_sections(self) -> dict[str, Any]:
+        """Sections by name where there are any: for what lists the data of a problem."""
+        names = ("length", "stiffness", "weight", "clearance", "torsion")
+        return {"sections": [dict(zip(names, one, strict=True)) for one in self.sections]} if self.sections else {}
 
     @property
     def given_torsion(self) -> dict[str, float]:

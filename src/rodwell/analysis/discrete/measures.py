@@ -145,10 +145,30 @@ def measure(family: Family, state: State) -> FloatArray:
     spline's derivatives comes out of these enlarged by h⁻¹, h⁻².
     """
     space, p = state.space, family.parameters(state.lam)
-    wait_for("maxima")
-    found = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    found = _maxima(family, state.c, p)
     numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, *found)
     return np.asarray(numbers)
+
+
+def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """Places and values (k,) of maxima of the contact pressure near its highest, and its lowest sample.
+
+    Between steps of the stiffness, where the pressure jumps, each stretch has its own; at its upper end that is the value
+    just below the step.
+    """
+    space, mesh = family.space, family.mesh
+    wait_for("maxima")
+    if not space.kinks.size:
+        return _quick_maxima(mesh, space.knots, *space.samples, c, parameters, NEAR_THE_TOP)
+    found = []
+    for elements, functions, knots, grid, table in space.pieces:
+        points = slice(elements.start * space.per_element, elements.stop * space.per_element)
+        piece = mesh._replace(starts=space.starts[elements] - functions.start, given=mesh.given[points])
+        found.append(_quick_maxima(piece, knots, grid, table, c[functions], parameters, NEAR_THE_TOP))
+    places, values = (np.concatenate([one[k] for one in found]) for k in (0, 1))
+    lowest = min(one[2] for one in found)
+    high = values >= np.max(values) - NEAR_THE_TOP * (np.max(values) - lowest)
+    return places[high], values[high], float(lowest)
 
 
 def pressure_maxima(
@@ -156,6 +176,5 @@ def pressure_maxima(
 ) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
-    wait_for("maxima")
-    places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    places, _, lowest = _maxima(family, state.c, p)
     return places, np.asarray(balanced_pressures(family.mesh, space.knots, state.c, p, places)), float(lowest)

@@ -12,16 +12,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.choices import DEGREE, ELEMENTS_PER_RADIAN, LINEAR_ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH
+from rodwell.analysis.discrete import sectioned
+from rodwell.analysis.discrete.choices import (
+    DEGREE,
+    ELEMENTS_PER_RADIAN,
+    LEAST_WAVENUMBER,
+    LINEAR_ELEMENTS_PER_RADIAN,
+    POINTS_OF_BRANCH,
+)
 from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 SPARE_MODES = 4
 """How many modes more than asked for the mesh is made for."""
-
-LEAST_WAVENUMBER = 6.0 * np.pi
-"""Wavenumber in rad/L that is resolved everywhere: for light rods, where frozen coefficients say little."""
 
 DEAD = 30.0
 """Where a solution has fallen by exp(−30) it need not be resolved any more."""
@@ -44,6 +48,8 @@ PLACES = 257
 
 def linear_space(problem: Problem, count: int) -> SplineSpace:
     """Return a spline space for the first ``count`` critical loads."""
+    if problem.sections:
+        return sectioned.linear_space(problem, count + SPARE_MODES)
     load = wkb_load(problem, count + SPARE_MODES)
     places = _places(problem, load)
     mesh = graded_mesh(resolved(problem, places, load) + LEAST_WAVENUMBER, places, LINEAR_ELEMENTS_PER_RADIAN)
@@ -66,6 +72,8 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
 
     Elements grow where states have died away: beyond the part of the rod in which the lowest end force makes waves.
     """
+    if problem.sections:
+        return sectioned.first_space(problem, compression, tension)
     load = -compression
     s = _places(problem, load)
     weight = problem.axial_weight * (s - 1.0)
@@ -88,6 +96,8 @@ def _waves(problem: Problem, load: float) -> bool:
 
 def wkb_load(problem: Problem, number: float) -> float:
     """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
+    if problem.sections:
+        return sectioned.wkb_load(problem, number)
     b, weight, whole = problem.foundation / problem.clearance, problem.axial_weight, number * np.pi
     if b < 0.0:  # on top: the whole rod is in waves of k₃, the other root is imaginary
         s = np.linspace(0.0, 1.0, PLACES)
@@ -168,6 +178,8 @@ def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
 
 def free_space(problem: Problem, count: int) -> SplineSpace:
     """Spline space for the first ``count`` critical loads without a wall: modes turn with the twist along s as well."""
+    if problem.sections:
+        return sectioned.free_space(problem, count + SPARE_MODES)
     upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)
     load = wkb_load(upright, count + SPARE_MODES)
     places = _places(upright, load)

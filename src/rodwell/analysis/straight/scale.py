@@ -14,7 +14,9 @@ EULER = 4.0 * np.pi**2
 
 
 def load_scale(problem: Problem) -> float:
-    """γ cos α + 4π², of a rod that is kept on the wall."""
+    """γ cos α + 4π², of a rod that is kept on the wall; of sections, their axial weight and softness count."""
+    if problem.sections:
+        return problem.hung_weight + EULER / problem.rod.compliance
     return problem.axial_weight + EULER
 
 

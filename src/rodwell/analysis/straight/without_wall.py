@@ -208,7 +208,7 @@ def _loads(problem: Problem, count: int, rtol: float) -> LoadsWithoutWall:
     alike = _alike(problem)
     wanted = count * alike
     space = free_space(problem, count)
-    while space.elements + space.degree < 2 * wanted + 8:
+    while space.size < 2 * wanted + 8:
         space = space.refined()
     values, vectors = pencil.lowest(space, wanted, None)
     while True:
