@@ -136,7 +136,7 @@ def _end_force(
     facts = []
 
     def at_top(given: float, what: str) -> float:
-        force = (given + less) / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+        force = (given + less) / scales.factor("force") + (problem.hung_weight if bottom else 0.0)
         how = f"from {load.kind or 'effective'} {scales.system.text(given, 'force', 6)} at the {where}"
         facts.append(Fact(f"{what}, effective, at s = 1", force * scales.factor("force"), "force", how))
         return force

@@ -10,7 +10,7 @@ from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
-from rodwell.problem.rod import Rod, Section, checked_sections
+from rodwell.problem.rod import PLAIN, Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -158,7 +158,7 @@ class Problem:
     @cached_property
     def rod(self) -> Rod:
         """Stiffness and weight along s."""
-        return Rod(self.sections or ((1.0, 1.0, 1.0, 1.0, 1.0),))
+        return Rod(self.sections or PLAIN)
 
     @property
     def hung_weight(self) -> float:
@@ -194,12 +194,11 @@ class Problem:
         return 1.0 / (1.0 + self.poisson) if self.torsion is None else self.torsion
 
     @property
-    def turn_per_torque(self) -> float:
-        """∫ ds/C(s) in L/B: by how much T₁ = 1 turns the straight rod's end s = 1 about its axis."""
+    def whole_torsion(self) -> float:
+        """Torsional stiffness of the whole straight rod, whose end s = 1 turns by T₁ over it: C, or 1/∫ ds/C(s)."""
         if not self.sections:
-            return 1.0 / self.torsional_stiffness
-        shares = sum(length / torsion for length, *_, torsion in self.sections)
-        return shares / self.torsional_stiffness
+            return self.torsional_stiffness
+        return self.torsional_stiffness / sum(length / torsion for length, *_, torsion in self.sections)
 
     @property
     def given_sections(self) -> dict[str, Any]:

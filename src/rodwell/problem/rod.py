@@ -24,6 +24,9 @@ ROUNDED = 1e-9
 EQUAL_LENGTHS = 1e-12
 """Lengths that differ by less count as equal."""
 
+PLAIN: tuple[Section, ...] = ((1.0, 1.0, 1.0, 1.0, 1.0),)
+"""The one section of a uniform rod."""
+
 FORM = "must be a sequence of (length, stiffness, weight, clearance, torsion), from s = 0; all but the length may be left out"
 
 
@@ -125,9 +128,17 @@ class Rod:
         return alike and bool(np.max(np.abs(self.breaks + self.breaks[::-1] - 1.0)) <= EQUAL_LENGTHS)
 
     @property
-    def constant(self) -> bool:
-        """Whether nothing jumps."""
-        return len(self.sections) == 1
+    def plain(self) -> bool:
+        """Whether it is the uniform rod that everything is a ratio to."""
+        return self.sections == PLAIN
+
+
+def lower_half(sections: tuple[Section, ...]) -> tuple[Section, ...]:
+    """Sections of the half from s = 0 to ½, with lengths in its own length."""
+    breaks = Rod(sections).breaks if sections else np.array([0.0])
+    inside = [i for i in range(len(sections)) if breaks[i] < 0.5]
+    lengths = [2.0 * (min(float(breaks[i + 1]), 0.5) - float(breaks[i])) for i in inside]
+    return tuple((length, *sections[i][1:]) for i, length in zip(inside, lengths, strict=True))
 
 
 def checked_sections(sections: object) -> tuple[Section, ...]:
@@ -160,7 +171,7 @@ def checked_sections(sections: object) -> tuple[Section, ...]:
             joined.append(section)
     if len(joined) == 1:
         joined = [(1.0, *joined[0][1:])]
-    return () if joined == [(1.0, 1.0, 1.0, 1.0, 1.0)] else tuple(joined)
+    return () if tuple(joined) == PLAIN else tuple(joined)
 
 
 def _checked(section: object, number: int) -> Section:

@@ -160,7 +160,7 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
         return use.of(LoadedRod("", problem, least + share * (critical - least)))[0] - 1.0
 
     # what is used is convex in the force, and least where neither end is far from zero force
-    forces = [force for force in np.linspace(0.0, problem.axial_weight, LOOKS) if force > critical]
+    forces = [force for force in np.linspace(0.0, problem.hung_weight, LOOKS) if force > critical]
     parts = [use.of(LoadedRod("", problem, float(force)))[0] for force in forces]
     if not parts or min(parts) >= 1.0:
         return None

@@ -73,7 +73,7 @@ class LoadedRod:
     @property
     def at_bottom(self) -> float:
         """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α."""
-        return self.force - self.problem.axial_weight
+        return self.force - self.problem.hung_weight
 
     @property
     def along(self) -> tuple[OnMesh, ...]:

@@ -96,7 +96,7 @@ def exceeded(state: LoadedRod, limit: float, unit: float) -> Exceeded:
     Compression falls from the lower end s = 0 upwards, so the place is the lower part of the string; in a horizontal
     hole all of it or none.
     """
-    bottom, weight = -state.at_bottom * unit, state.problem.axial_weight * unit
+    bottom, weight = -state.at_bottom * unit, state.problem.hung_weight * unit
     if bottom <= limit:
         return Exceeded(limit, 0.0)
     return Exceeded(limit, 1.0 if weight == 0.0 else min((bottom - limit) / weight, 1.0))

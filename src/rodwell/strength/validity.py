@@ -184,7 +184,7 @@ def _strains(case: Case, states: tuple[LoadedRod, ...], forces: tuple[tuple[str,
     per_force = rod.inertia / rod.area / length**2  # B/L² over EA, with B = EI
     acting = [(name, force, 0.0) for name, force in forces] + [(s.name, s.force, s.error) for s in states]
     ends = [
-        (name, abs(end), error) for name, force, error in acting for end in (force, force - case.problem.axial_weight)
+        (name, abs(end), error) for name, force, error in acting for end in (force, force - case.problem.hung_weight)
     ]
     where, force, error = max(ends, key=lambda one: one[1], default=("", 0.0, 0.0))
     radius = 0.5 * (rod.outer_diameter or 0.0) / length

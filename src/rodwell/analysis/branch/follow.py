@@ -100,7 +100,7 @@ def follow(
         If the branch cannot even be started.
     """
     how = Following(checked_rtol(rtol), checked_step(largest_step), progress)
-    first_run.begin()
+    first_run.begin(problem)
     if parameter not in PATHS:
         raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
     if start is not None:

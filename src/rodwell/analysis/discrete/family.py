@@ -11,6 +11,7 @@ from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray
 
 HELD = {
@@ -129,9 +130,11 @@ def family(
 
 def given_along(problem: Problem) -> Given | None:
     """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3)."""
-    if not problem.sections:
-        return None
-    rod = problem.rod
+    return given_of(problem.rod) if problem.sections else None
+
+
+def given_of(rod: Rod) -> Given:
+    """The same of a rod of sections."""
     columns = np.stack([rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1)
     return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 

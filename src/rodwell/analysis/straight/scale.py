@@ -21,5 +21,6 @@ def load_scale(problem: Problem) -> float:
 
 
 def twisted_load_scale(problem: Problem) -> float:
-    """γ cos α + 4π² + T₁²/4, of a rod that nothing presses to the wall."""
-    return load_scale(problem) + 0.25 * problem.twist**2
+    """γ cos α + 4π² + T₁²/4, of a rod that nothing presses to the wall; of sections with their softness."""
+    softness = problem.rod.compliance if problem.sections else 1.0
+    return load_scale(problem) + 0.25 * problem.twist**2 * softness

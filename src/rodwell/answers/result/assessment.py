@@ -201,7 +201,7 @@ class Assessment:
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
         gives = limits(self.case, self.branch, self.buckling)
-        bottom = self.case.problem.axial_weight - self.buckling.value
+        bottom = self.case.problem.hung_weight - self.buckling.value
         return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
     @cached_property
@@ -218,7 +218,7 @@ class Assessment:
     @cached_property
     def formulas(self) -> tuple[FormulaRow, ...]:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
-        weight = self.case.problem.axial_weight
+        weight = self.case.problem.hung_weight
         loads = [ExactLoad("critical", "first critical load", self.buckling.value, self.buckling.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:

@@ -9,7 +9,10 @@ Between sections y and y′ are continuous, and so are, by the energy, the bendi
 force ∂e/∂y′ − (∂e/∂y″)′. Across the wall no equation of y is left, and the reactions there follow: the moment about u₁ is
 b ω₃ with ω₃ = sin²η/Δ continuous, so that at a step [b] of the stiffness the wall must exert
 
-    the couple [b] ω₃ about u₁, two opposite radial forces close together, and the radial force T₁ [ω₂].
+    the couple −[b] ω₃ about u₁, two opposite radial forces close together, and the force T₁ [ω₂] along d₁.
+
+([x] is x on the side of s = 1 less x on that of s = 0.) The pair of forces is turned with the rod, which leaves of it
+[b] ω₃ sin η/Δ along u₂.
 
 The couple needs an end of the wall's contact that pulls: a string that is not held radially at the step leaves the wall
 there, over a short stretch, as soon as it is buckled with a slope at the step (:func:`step_loads`).
@@ -57,11 +60,11 @@ def section_density(s: Any, y: Any, y1: Any, y2: Any, given: Any, parameters: An
 def step_loads(
     slope: FloatArray, moment: FloatArray, stiffness: FloatArray, parameters: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Couple about u₁ and radial force towards the axis, (k,) each, by which the wall keeps the rod at k steps of b.
+    """Couple about u₁ and force along d₁ (towards the axis), (k,) each, that the wall exerts on the rod at k steps of b.
 
     ``slope`` y′ and ``moment`` b ω₂ are (k,), ``stiffness`` (2, k) on the sides towards s = 0 and s = 1. From the balance of
     moments, M₃ = b ω₃ and F₂ = −ω₂(3b ω₁ + T₁), and of forces.
     """
     below, above = stiffness
     curvature = slope**2 / parameters[CLEARANCE]
-    return (above - below) * curvature, np.asarray(parameters[TWIST] * moment * (1.0 / above - 1.0 / below))
+    return (below - above) * curvature, np.asarray(parameters[TWIST] * moment * (1.0 / above - 1.0 / below))

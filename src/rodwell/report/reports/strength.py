@@ -188,7 +188,7 @@ def _window_text(a: Assessment) -> str:
 
 def _limits(a: Assessment) -> Grid:
     """Buckling, and what gives after it, or before it."""
-    weight, first = a.case.problem.axial_weight, Limit("buckling", a.window.buckling)
+    weight, first = a.case.problem.hung_weight, Limit("buckling", a.window.buckling)
     rows = []
     for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
         if limit.load is None:

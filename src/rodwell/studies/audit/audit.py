@@ -133,5 +133,5 @@ def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) 
     given = f"{load.given:.6g} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
     number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
     label = f"applied load{number}, {minus(given)} at the {'bottom' if load.bottom else 'top'}"
-    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.axial_weight)
+    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight)
     return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))
