@@ -71,16 +71,17 @@ class Problem:
         C/B as measured, for shafts that are not round rods of one material (braided, coiled, slotted); ``poisson`` then
         has no effect. None: that of ``poisson``.
     sections
-        A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L, adding
-        up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a uniform rod
-        of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or ``poisson``
-        give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
+        A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
+        adding up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a
+        uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
+        ``poisson`` give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
 
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
     end force acts at s = 1, the upper end of an inclined cylinder, along the cylinder's axis; the axial resultant is
-    N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left of it, whatever its condition.
+    N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left of it,
+    whatever its condition.
 
     Raises
     ------

@@ -41,7 +41,7 @@ def most_sections(problem: Problem) -> None:
         raise InputError(
             "sections",
             len(problem.sections),
-            f"a string is solved once more with at most {MOST_SECTIONS} sections; the certificate of each state holds for any",
+            f"a string is solved once more with at most {MOST_SECTIONS} sections; the certificate holds for any number",
         )
 
 
@@ -69,6 +69,13 @@ def _solved(rates: Any, conditions: Any, start: Guess, rtol: float) -> Any:
     return result
 
 
+def _at_one_place(load: Load) -> Load:
+    """A load with numbers in place of arrays of one."""
+    varied = ("force", "twist", "axial_weight", "lateral_weight", "C")
+    single: dict[str, Any] = {name: float(np.squeeze(getattr(load, name))) for name in varied}
+    return load._replace(**single)
+
+
 class _Stacked:
     """The sections of a string side by side: (15 n) variables on [0, 1], each section in its own units."""
 
@@ -78,19 +85,20 @@ class _Stacked:
         middles = 0.5 * (self.breaks[1:] + self.breaks[:-1])
         each = [own_units(problem, load, middles[[i]]) for i in range(middles.size)]
         self.b = [float(np.squeeze(b)) for b, _ in each]
-        self.loads = [Load(*(value if isinstance(value, tuple) else float(np.squeeze(value)) for value in own)) for _, own in each]
+        self.loads = [_at_one_place(own) for _, own in each]
         self.scale = np.array([[b if is_load else 1.0 for is_load in FORCES] for b in self.b])[:, :, None]
 
     def rates(self, _: FloatArray, x: FloatArray) -> FloatArray:
         parts = x.reshape(len(self.b), COUNT, -1)
-        rates = [length * equations.rates(part, load) for part, load, length in zip(parts, self.loads, self.lengths, strict=True)]
+        rates = [
+            length * equations.rates(part, load)
+            for part, load, length in zip(parts, self.loads, self.lengths, strict=True)
+        ]
         return np.concatenate(rates)
 
     def conditions(self, first: FloatArray, last: FloatArray) -> FloatArray:
         first, last = first.reshape(-1, COUNT), last.reshape(-1, COUNT)
-        ends = [
-            equations.end_conditions(Fifteen(*first[0]), Fifteen(*last[-1]), self.loads[k]) for k in (0, -1)
-        ]
+        ends = [equations.end_conditions(Fifteen(*first[0]), Fifteen(*last[-1]), self.loads[k]) for k in (0, -1)]
         outer = [ends[0 if name in AT_FIRST_END else 1][name].residual for name in ends[0]]
         above, below = self._continuous(first), self._continuous(last)
         return np.concatenate([outer, (above[1:] - below[:-1]).ravel()])
@@ -100,7 +108,7 @@ class _Stacked:
         out = x * self.scale[:, :, 0]
         out[:, LAMBDA] += np.array(self.b) * x[:, OMEGA3]
         out[:, OMEGA2] *= np.array(self.b)
-        return out
+        return np.asarray(out)
 
     def solve(self, start: Guess, rtol: float) -> tuple[int, float, Dense, str]:
         places, values = start

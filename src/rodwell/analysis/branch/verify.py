@@ -39,8 +39,8 @@ SMALL = 1e-3
 
 SECANT_STEPS = 12
 AWAY, PART = 0.01, 0.2
-"""The search for lift-off starts this part of the load away from the engine's answer, or this part of the way back to the
-start of the branch, if that is less."""
+"""The search for lift-off starts this part of the load away from the engine's answer, or this part of the way back to
+the start of the branch, if that is less."""
 
 _KINDS = {
     "braid_F1": ("braid_F2", "braid_F3"),
@@ -49,7 +49,6 @@ _KINDS = {
     "omega2": ("omega3",),
 }
 """The leading field of each kind, and the others of it."""
-
 
 
 @dataclass(frozen=True)

@@ -135,7 +135,9 @@ def given_along(problem: Problem) -> Given | None:
 
 def given_of(rod: Rod) -> Given:
     """The same of a rod of sections."""
-    columns = np.stack([rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1)
+    columns = np.stack(
+        [rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1
+    )
     return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 
 

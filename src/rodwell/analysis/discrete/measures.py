@@ -153,13 +153,14 @@ def measure(family: Family, state: State) -> FloatArray:
 def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Places and values (k,) of maxima of the contact pressure near its highest, and its lowest sample.
 
-    Between steps of the stiffness, where the pressure jumps, each stretch has its own; at its upper end that is the value
-    just below the step.
+    Between steps of the stiffness, where the pressure jumps, each stretch has its own; at its upper end that is the
+    value just below the step.
     """
     space, mesh = family.space, family.mesh
     wait_for("maxima")
     if not space.kinks.size:
-        return _quick_maxima(mesh, space.knots, *space.samples, c, parameters, NEAR_THE_TOP)
+        places, values, lowest = _quick_maxima(mesh, space.knots, *space.samples, c, parameters, NEAR_THE_TOP)
+        return places, values, lowest
     found = []
     for elements, functions, knots, grid, table in space.pieces:
         points = slice(elements.start * space.per_element, elements.stop * space.per_element)

@@ -1,9 +1,9 @@
-"""First meshes of a string of sections: a mesh point at every step, and no element longer than its section's waves ask for.
+"""First meshes of a string of sections: a mesh point at every step, elements as the waves of each section ask for.
 
 In a section the equations are those of a uniform rod with bending stiffness b, compression P(s) and foundation
-a = q wₗ/Δ: solutions exp(iks) with b k⁴ − P k² + a = 0, waves with (k₃ − k₁)² = P/b − 2√(a/b) where that is positive, and
-abs(k) ≤ √(P/b) + (a/b)^¼ everywhere. Resolving the latter in all sections costs elements where a long string stays straight, and
-asks for nothing that a step could make wrong.
+a = q wₗ/Δ: solutions exp(iks) with b k⁴ − P k² + a = 0, waves with (k₃ − k₁)² = P/b − 2√(a/b) where that is positive,
+and abs(k) ≤ √(P/b) + (a/b)^¼ everywhere. Resolving the latter in all sections costs elements where a long string stays
+straight, and asks for nothing that a step could make wrong.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rodwell.analysis.discrete.choices import (
 )
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 PLACES = 9
 """Places in each section between which the local wavenumber counts as linear; evenly spaced."""
@@ -31,7 +31,7 @@ ABOUT = 1e-6
 LEAST_ELEMENTS = 8
 
 
-def _places(problem: Problem) -> tuple[FloatArray, FloatArray]:
+def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
     """Places (m,), rising, each step twice, and the section (m,) that each belongs to."""
     breaks = problem.rod.breaks
     lengths = np.diff(breaks)
@@ -43,7 +43,7 @@ def _places(problem: Problem) -> tuple[FloatArray, FloatArray]:
     return places, section
 
 
-def _local(problem: Problem, places: FloatArray, section: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _local(problem: Problem, places: FloatArray, section: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """B(s)/B, N(s) at F = 0, and wₗ/Δ with its sign at places, (m,) each."""
     rod = problem.rod
     offset, weight = rod.lever.coefficients[section].T
@@ -111,9 +111,10 @@ def _space(
     wavenumber = np.sqrt(most / stiffness) + (np.abs(foundation) / stiffness) ** 0.25 + least
     phase = np.concatenate([[0.0], np.cumsum(0.5 * (wavenumber[1:] + wavenumber[:-1]) * np.diff(places))])
     breaks = problem.rod.breaks
-    ends = np.searchsorted(section, np.arange(breaks.size - 1)), np.searchsorted(
-        section, np.arange(breaks.size - 1), side="right"
-    ) - 1
+    ends = (
+        np.searchsorted(section, np.arange(breaks.size - 1)),
+        np.searchsorted(section, np.arange(breaks.size - 1), side="right") - 1,
+    )
     first, last = phase[ends[0]], phase[ends[1]]
     lengths = np.diff(breaks)
     counts = np.maximum(np.ceil(per_radian * (last - first)), np.ceil(LEAST_ELEMENTS * lengths)).astype(int)
@@ -126,4 +127,5 @@ def _space(
     mesh[starts] = breaks[:-1]
     if problem.symmetric:
         mesh = 0.5 * (mesh + (1.0 - mesh[::-1]))
+        mesh[starts] = breaks[:-1]
     return SplineSpace(mesh, DEGREE, per_element, mesh[starts[1:]])

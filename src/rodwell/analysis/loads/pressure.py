@@ -39,7 +39,10 @@ def pressure_rates(
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:
         direction = state.tangent / state.tangent_lam
-        p = {k: _pressure(solution.problem, family, state, state.c + k * h * direction, state.lam + k * h, at) for k in (-2, -1, 1, 2)}
+        p = {
+            k: _pressure(solution.problem, family, state, state.c + k * h * direction, state.lam + k * h, at)
+            for k in (-2, -1, 1, 2)
+        }
         return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
 
     fine = rate(meshes.fine, point.fine, step)
@@ -49,7 +52,8 @@ def pressure_rates(
 
 
 def _pressure(
-    problem: Problem, family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray) -> np.ndarray:
+    problem: Problem, family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray
+) -> np.ndarray:
     sense = -1.0 if problem.outside else 1.0
     return sense * pressure_at(problem.rod, family.parameters(lam), places, shape(family, state, places, 4, c))
 
@@ -64,18 +68,20 @@ SECTION_STEP = 1e-4
 def section_pressure_rates(
     solution: Solution, places: tuple[float, ...], number: int, ratio: str
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0), like :func:`pressure_rates`.
+    """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0).
 
-    States move along δc = −H⁻¹ ∂g/∂q.
+    Returned as by :func:`pressure_rates`. States move along δc = −H⁻¹ ∂g/∂q.
     """
     problem, at = solution.problem, np.array(places)
     which = 1 + SECTION_RATIOS.index(ratio)
     size = problem.sections[number][which] or 1.0
 
     def changed(step: float) -> Rod:
-        sections = [list(section) for section in problem.sections]
-        sections[number][which] += step
-        return Rod(tuple(map(tuple, sections)))  # not checked: a weight may be below zero by the step
+        sections = list(problem.sections)
+        length, stiffness, weight, clearance, twisting = sections[number]
+        more = (step, 0.0) if ratio == "stiffness" else (0.0, step)
+        sections[number] = (length, stiffness + more[0], weight + more[1], clearance, twisting)
+        return Rod(tuple(sections))  # not checked: a weight may be below zero by the step
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:
         factors = family.held.free_part(family.assemble(state.c, state.lam)[2])

@@ -58,8 +58,8 @@ class Sensitivity:
         What to know about them, or nothing.
     sections
         Of a string, for each section from s = 0: ∂f by its ratios "stiffness" and "weight", and, of critical loads, by
-        the place "upper_end" of the step above it (all but the last), with error estimates. Torsional stiffness does not
-        enter: T₁ is a dead load.
+        the place "upper_end" of the step above it (all but the last), with error estimates. Torsional stiffness does
+        not enter: T₁ is a dead load.
     """
 
     name: str
@@ -164,7 +164,9 @@ def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
     out: list[Derivatives] = []
     for i in range(len(problem.sections)):
         values = {name: (row[i], coarse[name][i]) for name, row in fine.items() if i < row.size}
-        out.append({k: Value(float(a), float(abs(a - b)) + NUMBER_NOISE * (abs(a) + size)) for k, (a, b) in values.items()})
+        out.append(
+            {k: Value(float(a), float(abs(a - b)) + NUMBER_NOISE * (abs(a) + size)) for k, (a, b) in values.items()}
+        )
     return tuple(out)
 
 

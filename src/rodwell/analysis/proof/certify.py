@@ -133,7 +133,7 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
         raise InputError(
             "sections",
             f"{len(problem.sections)} of them",
-            "loads with proof are those of a uniform rod: the counts use solutions of its equation; ask for critical loads",
+            "loads with proof are those of a uniform rod, whose solutions the counts use: ask for critical loads",
         )
     counter = Counter(lambda x: _rod(problem, x))
     # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do

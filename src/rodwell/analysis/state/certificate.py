@@ -47,9 +47,10 @@ class Certificate:
     ----------
     residuals
         By number in the paper, or by name: the equations (22)–(27), (32)–(36), (41)–(44), the relations (37)–(39) and
-        (52)–(58), the end conditions (B1)–(B15), of a string "moment at steps" (continuity of b ω₂), "T₂ by two routes" (distributed torque (33), and moment balance
-        of the whole, relative to the largest T₂), "h by two routes" ((56), and force balance along the rod)
-        and "work and energy" (change of stored energy against work of the end loads along the branch).
+        (52)–(58), the end conditions (B1)–(B15), of a string "moment at steps" (continuity of b ω₂), "T₂ by two routes"
+        (distributed torque (33), and moment balance of the whole, relative to the largest T₂), "h by two routes" ((56),
+        and force balance along the rod) and "work and energy" (change of stored energy against work of the end loads
+        along the branch).
     limit
         Up to which the largest of them counts as zero.
     """
@@ -170,9 +171,7 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     return Certificate(out, max(LIMIT, SLACK * solution.meshes.rtol))
 
 
-def _end_conditions(
-    problem: Problem, whole: Load, ends: list[Fifteen], extent: dict[str, float]
-) -> dict[str, float]:
+def _end_conditions(problem: Problem, whole: Load, ends: list[Fifteen], extent: dict[str, float]) -> dict[str, float]:
     """(B1)–(B15) at both ``ends``, against the largest values of what they are about."""
     units, loads = zip(*(own_units(problem, whole, np.array([s])) for s in (0.0, 1.0)), strict=True)
     first, last = (in_units(x, float(np.squeeze(b))) for x, b in zip(ends, units, strict=True))
@@ -218,7 +217,10 @@ def _strands(x: Fifteen, load: Load, b: float | FloatArray, inside: Any) -> dict
     sums = {"(52)": s.F11, "(53)": s.F12, "(54)": s.F13, "(56)": s.F21, "(57)": s.F22, "(58)": s.F23, "(55)": s.p}
     rod = (inside("rod_F3"),)  # the cylinder's forces are differences F − F⁽¹⁾, (45), and known no better than these
     sizes = {"(56)": rod, "(57)": rod, "(58)": rod}
-    return {number: _scaled((-inside(name), *(b * term for term in sums[number])), sizes.get(number, ())) for number, name in names.items()}
+    return {
+        number: _scaled((-inside(name), *(b * term for term in sums[number])), sizes.get(number, ()))
+        for number, name in names.items()
+    }
 
 
 def _torque(fields: dict[str, FloatArray], problem: Problem) -> float:

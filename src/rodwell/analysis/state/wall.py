@@ -70,8 +70,8 @@ class StepLoad:
         Place of the step, in L.
     couple
         Moment about u₁ (normal to the rod, along the wall) in B/L: two opposite radial forces close together, one of
-        which pulls. A wall only pushes: where it is not zero the true rod, unless something there holds its slope across
-        the wall, leaves the wall over a short stretch beside the step.
+        which pulls. A wall only pushes: where it is not zero the true rod, unless something there holds its slope
+        across the wall, leaves the wall over a short stretch beside the step.
     force
         Force towards the axis in B/L²; zero without twist.
     """
@@ -87,7 +87,7 @@ class StepLoad:
 
 
 def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
-    """Return what the wall exerts at the steps of the bending stiffness of a string, from s = 0; none of a uniform rod."""
+    """Return what the wall exerts at steps of the bending stiffness, from s = 0; nothing of a uniform rod."""
     problem = solution.problem
     if not problem.sections:
         return ()

@@ -33,9 +33,9 @@ def load_slope(
 def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, FloatArray]:
     """Derivatives of a critical load by the data of each of n sections.
 
-    "stiffness" and "weight" (n,): by the ratios b and q, "upper_end" (n − 1,): by the place of the step above a section,
-    which is as much longer as the next is shorter. With the bending moment m = b v″, which is continuous, [x] the change of
-    x at the step towards s = 1 and h′ = q,
+    "stiffness" and "weight", (n,), are those by the ratios b and q; "upper_end", (n − 1,), those by the place of the
+    step above a section, which becomes longer as the next becomes shorter. With the bending moment m = b v″, which is
+    continuous, the change [x] of x at the step towards s = 1, and h′ = q,
 
         dF/db = −∫ v″² ds,   dF/dq = −∫ wₐ ∂h/∂q v′² + (wₗ/Δ) v² ds,
         dF/ds = −(m² [1/b] − (wₗ/Δ)[q] v² + wₐ [q] ∫₀ˢ v′² ds),
@@ -48,7 +48,7 @@ def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArra
     whole, n = w @ slope**2, len(problem.sections)
 
     def each(values: FloatArray) -> FloatArray:
-        return np.bincount(piece, w * values, n)
+        return np.asarray(np.bincount(piece, w * values, n), dtype=float)
 
     below = np.concatenate([[0.0], np.cumsum(each(slope**2))])
     lateral, axial = problem.foundation / problem.clearance, problem.axial_weight

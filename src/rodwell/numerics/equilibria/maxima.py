@@ -1,7 +1,7 @@
 """Where what a model observes of a state is highest along s, and how high: also between grid points.
 
-The class of a model names it: ``observed(s, u, given, parameters)``, from the field and three derivatives. What is given
-along s must be constant in each element.
+The class of a model names it: ``observed(s, u, given, parameters)``, from the field and three derivatives. What is
+given along s must be constant in each element.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ SIDE_BY_SIDE = (0,) * 8
 
 STENCIL, ORDERS = (0,) * 5, (0,) * 4
 """As long as the stencil of differences, and as many orders of derivatives as are known, with the field."""
+
 
 def _observing(model: Any) -> Callable[..., Sequence[Any]]:
     def formula(rows: Any, parameters: Any) -> Sequence[Any]:

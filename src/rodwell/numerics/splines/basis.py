@@ -133,8 +133,9 @@ def _copy(table, known, first, count):
 def tabulate(knots, degree, starts, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
-    ``starts`` (elements,) are the first functions of the elements. One place more than that counts as the right end of the last element. The places must divide all elements alike:
-    where knots are evenly spaced, the table of one element is copied to the next.
+    ``starts`` (elements,) are the first functions of the elements. One place more than that counts as the right end of
+    the last element. The places must divide all elements alike: where knots are evenly spaced, the table of one element
+    is copied to the next.
     """
     table = np.empty((places.size, orders, degree + 1))
     known, spacing = -1, 0.0  # first place of the last element that was tabulated among evenly spaced knots

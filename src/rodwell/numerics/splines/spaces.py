@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -104,13 +105,13 @@ class SplineSpace:
     def pieces(self) -> tuple[tuple[slice, slice, FloatArray, FloatArray, FloatArray], ...]:
         """The space between kinks, each piece a space of its own: what there is of it, and where to look.
 
-        Elements and coefficients (slices), knots, and :attr:`samples` of the piece. A piece that ends in a kink is looked
-        at up to the number just below it: at the kink itself functions have the derivatives of the next piece.
+        Elements and coefficients (slices), knots, and :attr:`samples` of the piece. A piece that ends in a kink is
+        looked at up to the number just below it: at the kink itself functions have the derivatives of the next piece.
         """
         edges = [0, *self.kink_elements.tolist(), self.elements]
         grid, table = self.samples
         found = []
-        for first, last in zip(edges[:-1], edges[1:], strict=True):
+        for first, last in itertools.pairwise(edges):
             start, end = int(self.starts[first]), int(self.starts[last - 1]) + self.degree + 1
             if last == self.elements:
                 looked, values = grid[SAMPLES_PER_ELEMENT * first :], table[SAMPLES_PER_ELEMENT * first :]

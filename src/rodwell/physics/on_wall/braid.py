@@ -10,7 +10,8 @@ y′ the moment M₂(1); what an end does not hold vanishes (natural conditions)
 free) the rod keeps the curvature ω₃ = sin²η/Δ, though no fitting bends it: the moment ω₃ u₁ there comes from the
 rim of contact, as a pair of opposite radial forces close together, which does no work and acts on the cylinder
 in return. A step [b] of the stiffness does the same inside: the moment b ω₃ jumps there, and the wall's pair of forces
-bears it (:mod:`rodwell.physics.on_wall.sections`). Where y is free, it is F₁ sin η + F₃ cos η of the rod together with ω₃ sin η/Δ from that pair that vanishes.
+bears it (:mod:`rodwell.physics.on_wall.sections`). Where y is free, it is F₁ sin η + F₃ cos η of the rod together with
+ω₃ sin η/Δ from that pair that vanishes.
 """
 
 from __future__ import annotations
@@ -50,10 +51,9 @@ def end_force(
 ) -> EndForce:
     """Shear and bending moment at the end s = 1 from the natural boundary terms of the energy.
 
-    ``moment`` is ∂e/∂y″ = b y″/cos²η, so b ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a clamped
-    end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁
-    has a part T₁ (cos η − 1)/Δ in it.
-    They come from virtual work, which knows them far better than the derivatives of a spline at its end.
+    ``moment`` is ∂e/∂y″ = b y″/cos²η, so b ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a
+    clamped end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁ has a part T₁ (cos η −
+    1)/Δ in it. They come from virtual work, which knows them far better than the derivatives of a spline at its end.
     """
     clearance, twist = float(parameters[CLEARANCE]), float(parameters[TWIST])
     cos_eta = float(np.sqrt(1.0 - y1 * y1))
@@ -280,13 +280,11 @@ def _tangential_balance(
     return np.asarray(total - total[np.searchsorted(piece, piece, side="right") - 1])
 
 
-def step_jumps(
-    y: FloatArray, slope: FloatArray, loads: tuple[FloatArray, FloatArray], clearance: float
-) -> FloatArray:
+def step_jumps(y: FloatArray, slope: FloatArray, loads: tuple[FloatArray, FloatArray], clearance: float) -> FloatArray:
     """Jumps (2, k) of the rod's force along i and j at k steps of b, towards s = 1, where y and y′ are (k,).
 
-    ``loads`` are those of :func:`rodwell.physics.on_wall.sections.step_loads`: the force along d₁, and the couple c about
-    u₁, which leaves the force c d₁′ = c (ω₁ u₁ − ω₃ t₁) = −c sin η/Δ u₂.
+    ``loads`` are those of :func:`rodwell.physics.on_wall.sections.step_loads`: the force along d₁, and the couple c
+    about u₁, which leaves the force c d₁′ = c (ω₁ u₁ − ω₃ t₁) = −c sin η/Δ u₂.
     """
     couple, radial = loads
     sin_a, cos_a, around = np.sin(y / clearance), np.cos(y / clearance), -couple * slope / clearance

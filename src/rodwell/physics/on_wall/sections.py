@@ -1,13 +1,13 @@
 """A section of a string: a uniform rod with its own constants.
 
 Where bending stiffness b B and weight per length are constant, a rod is a uniform one. With N(s) = F + wₐ h(s) and
-h(s) = d + q(s − 1) in a section of weight ratio q, it sees the end force F + wₐ d, the weights q wₐ and q wₗ; and, since
-every other term of the energy is linear in these loads, its energy is b times that of a rod of stiffness 1 under
+h(s) = d + q(s − 1) in a section of weight ratio q, it sees the end force F + wₐ d, the weights q wₐ and q wₗ; and,
+since every other term of the energy is linear in these loads, its energy is b times that of a rod of stiffness 1 under
 1/b of them. So nothing about the rod is stated a second time.
 
-Between sections y and y′ are continuous, and so are, by the energy, the bending moment b ω₂ about d₁ and the circumferential
-force ∂e/∂y′ − (∂e/∂y″)′. Across the wall no equation of y is left, and the reactions there follow: the moment about u₁ is
-b ω₃ with ω₃ = sin²η/Δ continuous, so that at a step [b] of the stiffness the wall must exert
+Between sections y and y′ are continuous, and so are, by the energy, the bending moment b ω₂ about d₁ and the
+circumferential force ∂e/∂y′ − (∂e/∂y″)′. Across the wall no equation of y is left, and the reactions there follow: the
+moment about u₁ is b ω₃ with ω₃ = sin²η/Δ continuous, so that at a step [b] of the stiffness the wall must exert
 
     the couple −[b] ω₃ about u₁, two opposite radial forces close together, and the force T₁ [ω₂] along d₁.
 
@@ -60,10 +60,10 @@ def section_density(s: Any, y: Any, y1: Any, y2: Any, given: Any, parameters: An
 def step_loads(
     slope: FloatArray, moment: FloatArray, stiffness: FloatArray, parameters: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Couple about u₁ and force along d₁ (towards the axis), (k,) each, that the wall exerts on the rod at k steps of b.
+    """Couple about u₁ and force along d₁ (towards the axis), (k,) each, of the wall on the rod at k steps of b.
 
-    ``slope`` y′ and ``moment`` b ω₂ are (k,), ``stiffness`` (2, k) on the sides towards s = 0 and s = 1. From the balance of
-    moments, M₃ = b ω₃ and F₂ = −ω₂(3b ω₁ + T₁), and of forces.
+    ``slope`` y′ and ``moment`` b ω₂ are (k,), ``stiffness`` (2, k) on the sides towards s = 0 and s = 1. From the
+    balance of moments, M₃ = b ω₃ and F₂ = −ω₂(3b ω₁ + T₁), and of forces.
     """
     below, above = stiffness
     curvature = slope**2 / parameters[CLEARANCE]
