@@ -10,7 +10,7 @@ from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
-from rodwell.problem.rod import PLAIN, Rod, Section, checked_sections
+from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -31,9 +31,10 @@ LIMITS = {
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
-    """End conditions in words: their names, or what ``words`` says of each."""
+    """End conditions in words: their names, or what ``words`` says of each; and how many sections a string has."""
     first, last = (words[end] if words else end for end in problem.ends)
-    return f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+    ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+    return f"{ends}, string of {len(problem.sections)} sections" if problem.sections else ends
 
 
 @dataclass(frozen=True)
@@ -202,15 +203,15 @@ class Problem:
         return self.torsional_stiffness / sum(length / torsion for length, *_, torsion in self.sections)
 
     @property
-    def given_sections(self) -> dict[str, Any]:
-        """Sections by name where there are any: for what lists the data of a problem."""
-        names = ("length", "stiffness", "weight", "clearance", "torsion")
-        return {"sections": [dict(zip(names, one, strict=True)) for one in self.sections]} if self.sections else {}
-
-    @property
-    def given_torsion(self) -> dict[str, float]:
-        """C/B by name where it was given and does not follow from ν: for what lists the data of a problem."""
-        return {} if self.torsion is None else {"torsion": self.torsion}
+    def given_more(self) -> dict[str, float | list[float]]:
+        """What was given besides, by name, for what lists the data of a problem: C/B where it does not follow from ν,
+        and each column of the sections.
+        """
+        out: dict[str, float | list[float]] = {} if self.torsion is None else {"torsion": self.torsion}
+        if self.sections:
+            columns = zip(*self.sections, strict=True)
+            out |= {f"section_{name}": list(column) for name, column in zip(COLUMNS, columns, strict=True)}
+        return out
 
     def but(self, **changes: Any) -> Problem:
         """Return this problem with some values changed."""

@@ -15,6 +15,7 @@ Section = tuple[float, float, float, float, float]
 """Length in L, and ratios to the problem's data: bending stiffness, weight, clearance, torsional stiffness."""
 
 RATIOS = ("stiffness", "weight", "clearance", "torsion")
+COLUMNS = ("length", *RATIOS)
 SMALLEST_RATIO, LARGEST_RATIO = 1e-6, 1e6
 MOST_SECTIONS = 100_000
 
