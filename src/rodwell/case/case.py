@@ -24,6 +24,7 @@ from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
+from rodwell.case.string import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError, printable
 from rodwell.faces import Shown
@@ -93,6 +94,9 @@ class Case(Shown):
         What each support can bear, if given.
     gravity
         In m/s².
+    string
+        The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
+        and the whole length. None of a uniform rod.
     """
 
     title: str
@@ -112,11 +116,14 @@ class Case(Shown):
     applied: tuple[AppliedLoad, ...] = ()
     supports: schema.Supports | None = None
     gravity: float = 9.80665
+    string: PhysicalString | None = None
 
     @property
     def yield_strength(self) -> float | None:
-        """Yield strength of the rod in Pa, None where it is not given."""
-        return None if self.rod is None else self.rod.yield_strength
+        """Yield strength of the rod in Pa (the least of a string's), None where it is not given everywhere."""
+        rods = [member.rod for member in self.string.members] if self.string is not None else [self.rod]
+        known = [rod.yield_strength for rod in rods if rod is not None and rod.yield_strength is not None]
+        return min(known) if len(known) == len(rods) else None
 
     @property
     def with_fluids(self) -> bool:
@@ -179,13 +186,28 @@ class Case(Shown):
     @classmethod
     def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:
         """A case from data without uncertainties."""
+        whole, string_rod = dict(data), None
+        if "string" in data:  # [rod] has what belongs to the whole only
+            beside = whole.pop("rod", {})
+            check_beside(beside, data["string"])
         try:
-            parsed = schema.CaseFile.model_validate(dict(data))
+            parsed = schema.CaseFile.model_validate(whole)
         except ValidationError as error:
             raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
+        if parsed.string is not None:
+            string_rod = _string_rod(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
-        return _assemble(parsed, data, source, text, catalogue)
+        return _assemble(parsed, data, source, text, catalogue, string_rod)
+
+
+def _string_rod(given: Any, source: str) -> schema.StringRod:
+    """[rod] beside [[string]]."""
+    try:
+        return schema.StringRod.model_validate(given)
+    except ValidationError as error:
+        problems = [(f"rod.{key}", value, what) for key, value, what in explain(error, within=("rod",))]
+        raise CaseError(source, problems) from None
 
 
 def _uncertain(
@@ -209,10 +231,17 @@ def _given(data: Mapping[str, Any]) -> dict[str, Any]:
     return {name: values for name, values in data.items() if name in SECTIONS}
 
 
-def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
+def _assemble(
+    parsed: schema.CaseFile,
+    data: Mapping[str, Any],
+    source: str,
+    text: str,
+    catalogue: Catalogue,
+    string_rod: schema.StringRod | None,
+) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
-    with_dimensions = parsed.rod is not None or parsed.hole is not None
+    with_dimensions = parsed.rod is not None or parsed.hole is not None or string_rod is not None
     if with_dimensions and parsed.dimensionless is not None:
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
     if not with_dimensions and parsed.dimensionless is None:
@@ -230,11 +259,11 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = _plausible(parsed, load, catalogue, data, source)
+        found = _plausible(parsed, load, catalogue, data, source, string_rod)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
-                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
+                    supports=parsed.supports, gravity=found.gravity, string=found.string, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
         case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
@@ -246,11 +275,16 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
 
 
 def _plausible(
-    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, data: Mapping[str, Any], source: str
+    parsed: schema.CaseFile,
+    load: schema.LoadInput,
+    catalogue: Catalogue,
+    data: Mapping[str, Any],
+    source: str,
+    string_rod: schema.StringRod | None,
 ) -> Physical:
     """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
     try:
-        found = physical(parsed, load, catalogue)
+        found = physical(parsed, load, catalogue, string_rod)
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]

@@ -51,8 +51,8 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
             click.option(
                 "--sections",
                 metavar="L:B:W,…",
-                help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in L "
-                "add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5.",
+                help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
+                "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5.",
             ),
         ]
         if coiled:

@@ -204,9 +204,7 @@ class Problem:
 
     @property
     def given_more(self) -> dict[str, float | list[float]]:
-        """What was given besides, by name, for what lists the data of a problem: C/B where it does not follow from ν,
-        and each column of the sections.
-        """
+        """What was given besides, by name: C/B where it does not follow from ν, and each column of the sections."""
         out: dict[str, float | list[float]] = {} if self.torsion is None else {"torsion": self.torsion}
         if self.sections:
             columns = zip(*self.sections, strict=True)

@@ -100,8 +100,7 @@ def uses(case: Case) -> tuple[Use, ...]:
     """The strengths that a case tells of."""
     out, rod, scales = [], rod_section(case), case.scales
     if rod is not None and rod.strength is not None:
-        strength = rod.strength
-        out.append(Use(YIELDS, lambda mesh, n: mesh.largest(lambda f: rod.von_mises(f) / strength, n)))
+        out.append(Use(YIELDS, lambda mesh, n: mesh.largest(rod.used, n)))
     if case.cylinder is not None and scales is not None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
