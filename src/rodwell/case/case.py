@@ -22,11 +22,12 @@ from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
+from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.string import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
-from rodwell.errors import InputError, printable
+from rodwell.errors import InputError
 from rodwell.faces import Shown
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
@@ -37,20 +38,6 @@ __all__ = ["SECTIONS", "Case", "CaseError"]
 
 LONGEST_TITLE = 300
 """Characters that a title may have: it stands above figures and on every page."""
-
-MOST_LINES = 25
-"""Problems that one message tells."""
-
-
-class CaseError(InputError):
-    """A case that cannot be used: all that is wrong with it, one problem a line."""
-
-    def __init__(self, source: str, problems: list[tuple[str, object, str]]) -> None:
-        self.problems = problems
-        super().__init__(*problems[0])
-        lines = [str(InputError(*problem)) for problem in problems[:MOST_LINES]]
-        lines += [f"and {len(problems) - MOST_LINES} more"] if len(problems) > MOST_LINES else []
-        self.args = (f"{printable(source)}: " + (lines[0] if len(lines) == 1 else "\n  " + "\n  ".join(lines)),)
 
 
 @dataclass(frozen=True)
@@ -193,21 +180,12 @@ class Case(Shown):
         try:
             parsed = schema.CaseFile.model_validate(whole)
         except ValidationError as error:
-            raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
+            raise CaseError(source, [*explain(error, data.get("study") is True), *load_problems(data)]) from None
         if parsed.string is not None:
-            string_rod = _string_rod(beside, source)
+            string_rod = string_rod_of(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
         return _assemble(parsed, data, source, text, catalogue, string_rod)
-
-
-def _string_rod(given: Any, source: str) -> schema.StringRod:
-    """[rod] beside [[string]]."""
-    try:
-        return schema.StringRod.model_validate(given)
-    except ValidationError as error:
-        problems = [(f"rod.{key}", value, what) for key, value, what in explain(error, within=("rod",))]
-        raise CaseError(source, problems) from None
 
 
 def _uncertain(
@@ -248,12 +226,12 @@ def _assemble(
         raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
     if not with_dimensions:
         check_sections(parsed)
-    load = _load(parsed.load, with_dimensions, source)
+    load = load_of(parsed.load, with_dimensions, source)
     case: Case
     common = {
         "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
-        "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
+        "rtol": named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
         "given": _given(data),
         "source": source,
         "text": text,
@@ -300,34 +278,3 @@ def _plausible(
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
     return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)
-
-
-def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.LoadInput | schema.DimensionlessLoad:
-    """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
-    model = schema.LoadInput if with_dimensions else schema.DimensionlessLoad
-    try:
-        return model.model_validate(given)
-    except ValidationError as error:
-        explained = explain(error, within=("load",))
-        problems = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
-        raise CaseError(source, problems) from None
-
-
-def _load_problems(data: Mapping[str, Any]) -> list[tuple[str, object, str]]:
-    """What is wrong in [load] of a file in which something else is wrong already."""
-    given = data.get("load", {})
-    if not isinstance(given, Mapping):
-        return []
-    try:
-        _load(given, "dimensionless" not in data or "rod" in data or "hole" in data, "")
-    except CaseError as error:
-        return error.problems
-    return []
-
-
-def _named(field: str, compute: Any) -> Any:
-    """Run a check and give its error the name that the user wrote."""
-    try:
-        return compute()
-    except InputError as error:
-        raise InputError(field, error.value, error.reason) from None

@@ -11,8 +11,9 @@ from rodwell.analysis.discrete.family import family as equilibria
 from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.minimise import minimise
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray

@@ -50,6 +50,8 @@ def linear_space(problem: Problem, count: int) -> SplineSpace:
     """Return a spline space for the first ``count`` critical loads."""
     if problem.sections:
         return sectioned.linear_space(problem, count + SPARE_MODES)
+    if problem.axial_weight < 0.0:
+        return _mirrored(linear_space(problem.turned_round, count))
     load = wkb_load(problem, count + SPARE_MODES)
     places = _places(problem, load)
     mesh = graded_mesh(resolved(problem, places, load) + LEAST_WAVENUMBER, places, LINEAR_ELEMENTS_PER_RADIAN)
@@ -74,6 +76,9 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     """
     if problem.sections:
         return sectioned.first_space(problem, compression, tension)
+    if problem.axial_weight < 0.0:
+        ends = (force - problem.axial_weight for force in (compression, tension))
+        return _mirrored(first_space(problem.turned_round, *ends))
     load = -compression
     s = _places(problem, load)
     weight = problem.axial_weight * (s - 1.0)
@@ -88,6 +93,11 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
 
 
+def _mirrored(space: SplineSpace) -> SplineSpace:
+    """The space of a rod seen from its other end: what follows takes the lower end to be s = 0."""
+    return SplineSpace(1.0 - space.breaks[::-1], space.degree, space.per_element)
+
+
 def _waves(problem: Problem, load: float) -> bool:
     """Whether frozen coefficients have waves at the lower end: then the rest of a long rod may stay straight."""
     b = problem.foundation / problem.clearance
@@ -98,6 +108,8 @@ def wkb_load(problem: Problem, number: float) -> float:
     """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
     if problem.sections:
         return sectioned.wkb_load(problem, number)
+    if problem.axial_weight < 0.0:
+        return wkb_load(problem.turned_round, number) - problem.axial_weight
     b, weight, whole = problem.foundation / problem.clearance, problem.axial_weight, number * np.pi
     if b < 0.0:  # on top: the whole rod is in waves of k₃, the other root is imaginary
         s = np.linspace(0.0, 1.0, PLACES)
@@ -180,6 +192,8 @@ def free_space(problem: Problem, count: int) -> SplineSpace:
     """Spline space for the first ``count`` critical loads without a wall: modes turn with the twist along s as well."""
     if problem.sections:
         return sectioned.free_space(problem, count + SPARE_MODES)
+    if problem.axial_weight < 0.0:
+        return _mirrored(free_space(problem.turned_round, count))
     upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)
     load = wkb_load(upright, count + SPARE_MODES)
     places = _places(upright, load)

@@ -89,7 +89,8 @@ def linear_space(problem: Problem, count: int) -> SplineSpace:
 
 def free_space(problem: Problem, count: int) -> SplineSpace:
     """The same without a wall: modes turn with the twist along s as well."""
-    upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)
+    weight, alpha = abs(problem.axial_weight), 0.0 if problem.axial_weight >= 0.0 else 180.0
+    upright = problem.but(weight=weight, alpha=alpha, twist=0.0, on_top=False)
     load = wkb_load(upright, count)
     least = LEAST_WAVENUMBER + abs(problem.twist) / min(section[1] for section in problem.sections)
     return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, None)

@@ -65,6 +65,9 @@ class Mode:
     coefficients: FloatArray
     coarse: tuple[SplineSpace, FloatArray]
 
+    def __repr__(self) -> str:
+        return f"<Mode {self.number} at F = {self.force:.10g} B/L², {self.wavenumber / np.pi:.3g} half waves>"
+
     @property
     def force(self) -> float:
         """Critical end force F at s = 1 in B/L², tension positive."""
@@ -213,7 +216,7 @@ def _solve(
         return space.grams(factors, full(block))
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
-    below = -problem.hung_weight + 4.0 * float(min(np.min(factors[0]), 0.0)) / np.pi**2 - 1.0
+    below = -problem.heaviest + 4.0 * float(min(np.min(factors[0]), 0.0)) / np.pi**2 - 1.0
     guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
     try:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)

@@ -14,10 +14,10 @@ EULER = 4.0 * np.pi**2
 
 
 def load_scale(problem: Problem) -> float:
-    """γ cos α + 4π², of a rod that is kept on the wall; of sections, their axial weight and softness count."""
+    """γ |cos α| + 4π², of a rod that is kept on the wall; of sections, their axial weight and softness count."""
     if problem.sections:
-        return problem.hung_weight + EULER / problem.rod.compliance
-    return problem.axial_weight + EULER
+        return abs(problem.hung_weight) + EULER / problem.rod.compliance
+    return abs(problem.axial_weight) + EULER
 
 
 def twisted_load_scale(problem: Problem) -> float:

@@ -55,7 +55,7 @@ def _row(
     rod = one.rod
     row = [
         one.name,
-        *(system.text(part * length, "length", 4) for part in span),
+        *(system.text(part * length, "length", 4) if part > 0.0 else "0" for part in span),
         "–" if rod.outer_diameter is None else system.text(rod.outer_diameter, "length", 4),
         system.text(rod.inner_diameter, "length", 4) if rod.inner_diameter > 0.0 else "none" if rod.bore_known else "–",
         system.text(rod.stiffness, "stiffness", 4),
