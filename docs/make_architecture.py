@@ -34,6 +34,7 @@ PURPOSE = {
     "studies/well": "a survey, station\nby station",
     "studies/audit": "formulas beside\nexact loads",
     "studies/paper": "every number,\nrecomputed",
+    "studies/maps": "one number of\nmany problems",
     "answers": "",
     "answers/data": "as tables and plain data",
     "answers/words": "what it means, in sentences",

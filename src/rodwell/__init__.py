@@ -35,6 +35,7 @@ _HOME = {
     "Diagram": "rodwell.analysis.branch.diagram",
     "InputError": "rodwell.errors",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
+    "Map": "rodwell.studies.maps.result",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
     "Problem": "rodwell.problem.problem",
@@ -61,6 +62,7 @@ _HOME = {
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
+    "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
     "paper_values": "rodwell.analysis.proof.paper_values",
@@ -100,7 +102,9 @@ if TYPE_CHECKING:
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.export import export
+    from rodwell.store.mapping import map  # noqa: A004
     from rodwell.studies.audit.audit import Audit, audit
+    from rodwell.studies.maps.result import Map
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
     from rodwell.studies.well.survey import Survey, read_surveys

@@ -21,6 +21,7 @@ from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
 from rodwell.cli.init import init
 from rodwell.cli.keys import keys
+from rodwell.cli.mapping import map_command
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.paper import paper
 from rodwell.cli.quick import liftoff, sensitivity, twist
@@ -45,7 +46,7 @@ def cli() -> None:
 
 for command in (
     *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, init, keys, catalogue, paper),
+    *(diagram, curve, map_command, twist, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 
@@ -103,7 +104,8 @@ def _interrupted(cause: BaseException | None) -> None:
     what, code = ("interrupted", INTERRUPTED)
     if isinstance(cause, Terminated):
         what, code = f"ended by {cause.name}", cause.exit_code
-    click.echo(f"rodwell: {what}; nothing was written", err=True)
+    kept = getattr(cause, "kept", "nothing was written")
+    click.echo(f"rodwell: {what}; {kept}", err=True)
     sys.exit(code)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import tempfile
@@ -55,6 +56,35 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
         raise _unwritable(out, error, option) from None
 
 
+@contextmanager
+def appearing(out: Path, option: str = "--out", home: Path | None = None) -> Iterator[Path]:
+    """Yield a temporary folder that becomes ``out``, which is not there yet, or empty, when the block ends well.
+
+    Where another run was first, its folder stays. ``home`` is where the folder waits; beside ``out`` if not given.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written.
+    """
+    out = out.absolute()
+    try:
+        target = out.resolve()
+        place = _nearest_folder(out.parent, option) if home is None else home
+        with staged(target, place, _undisturbed) as new:
+            yield new
+            with _undisturbed():
+                new.chmod(0o777 & ~_mask())
+                target.parent.mkdir(parents=True, exist_ok=True)
+                try:
+                    new.rename(target)
+                except OSError as error:
+                    if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                        raise
+    except OSError as error:
+        raise _unwritable(out, error, option) from None
+
+
 def _home(out: Path, target: Path, option: str) -> Path:
     """Where results are kept until they are whole: beside ``out``, so that one folder can replace another, or in it."""
     nearest = _nearest_folder(out, option)
@@ -85,10 +115,16 @@ def _check_free(new: Path, out: Path, option: str) -> None:
 
 def _open_to_others(new: Path) -> None:
     """Give result files the permissions of ordinary new files."""
-    mask = os.umask(0)
-    os.umask(mask)
+    mask = _mask()
     for file in new.iterdir():
         file.chmod(0o666 & ~mask)
+
+
+def _mask() -> int:
+    """What this process takes from the permissions of new files."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
 
 
 @contextmanager

@@ -9,6 +9,8 @@ from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.result.answer import Answer
 from rodwell.studies.audit.audit import Audit
 from rodwell.studies.audit.plain import audit_dict
+from rodwell.studies.maps.plain import map_dict
+from rodwell.studies.maps.result import Map
 from rodwell.studies.sweep.plain import study_dict
 from rodwell.studies.sweep.study import Study
 
@@ -32,3 +34,8 @@ def _(result: Study) -> dict[str, Any]:
 @plain.register
 def _(result: Audit) -> dict[str, Any]:
     return audit_dict(result)
+
+
+@plain.register
+def _(result: Map) -> dict[str, Any]:
+    return map_dict(result)

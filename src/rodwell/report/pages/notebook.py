@@ -21,6 +21,9 @@ from rodwell.report.pages.templates import template
 from rodwell.report.reports.case import key_numbers
 from rodwell.report.reports.content import Grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
+from rodwell.studies.maps.result import Map
+from rodwell.studies.maps.words import sentences as map_sentences
+from rodwell.studies.maps.words import title as map_title
 
 FORCE = "F is the end force at s = 1, tension positive; units B = L = 1 where no other stand."
 
@@ -130,3 +133,8 @@ def _converged(met: bool) -> str:
 
 def _plain(value: float) -> str:
     return minus(f"{value:.8g}")
+
+
+@card.register
+def _(result: Map) -> Card:
+    return Card(map_title(result), tuple(map_sentences(result)), ())
