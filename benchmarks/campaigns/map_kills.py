@@ -2,8 +2,8 @@
 
     python benchmarks/campaigns/map_kills.py [--kills 100] [--seed 25]
 
-A map of 128 lift-off loads, 8 chunks, and its jumps, is computed by a process alone or on a cluster of a scheduler and two workers,
-and one of these processes is killed after a random time, not longer than an undisturbed map takes. Then
+A map of 128 lift-off loads, 8 chunks, and its jumps, is computed by a process alone or on a cluster of a scheduler and
+two workers, and one of these processes is killed after a random time, not longer than an undisturbed map takes. Then
 
 - every chunk of the store must be absent, or whole and that of an undisturbed run, byte for byte;
 - the same question again must end the map, equal to the undisturbed one byte for byte in all chunks;

@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.collections import QuadMesh
 
 import rodwell
 from rodwell.cli.mapping import QUANTITIES
 from rodwell.errors import InputError
+from rodwell.plots.style import new_axes
 from rodwell.quantities.value import Value
 from rodwell.studies.maps import cells, jumps
 from rodwell.studies.maps.axes import Axis, Distribution, drawn, read
@@ -295,3 +297,29 @@ def test_words_and_registry() -> None:
     assert "known to the tolerance" in html
     assert found.complete
     assert found.as_dict()["largest"]["at"] == {"weight": 15.0}
+
+
+def test_figures_show_what_the_map_holds() -> None:
+    plane = rodwell.map(FLAT, "lift-off", over={"weight": "50..75 in 4", "alpha": [60.0, 90.0]})
+    ax = plane.plot(new_axes(), load=-200.0)
+    mesh = next(one for one in ax.collections if isinstance(one, QuadMesh) and one.get_array().size == 8)
+    assert np.allclose(mesh.get_array().reshape(2, 4), -plane.values.T), "compression, positive"
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert any("unsafe under −F = 200" in label for label in labels)
+    assert "the mode changes" in labels
+    assert "α from the vertical" in ax.get_ylabel()
+    line = plane.plot(new_axes(), at={"alpha": 1}, load=-200.0)
+    assert np.allclose(line.lines[0].get_ydata(), -plane.values[:, 1])
+    for show in ("place", "half-waves", "error"):
+        assert plane.plot(new_axes(), show=show)
+    load = rodwell.map(FLAT, "contact", over={"load": [-20.0, -118.0, -130.0], "weight": [14.0, 15.0]}, halvings=2)
+    shown = load.plot(new_axes())
+    assert "has left the wall" in [text.get_text() for text in shown.get_legend().get_texts()]
+    drawn_ones = rodwell.map(FLAT, "critical", over={"weight": "normal(15, 1)"}, samples=8)
+    steps = drawn_ones.plot(new_axes()).lines[0].get_xydata()
+    assert steps[-1] == pytest.approx([-drawn_ones.values.min(), 1.0])
+    for wrong, options in (("show", {"show": "colour"}), ("at", {"at": {"weight": 9}}), ("load", {"load": math.nan})):
+        with pytest.raises(InputError, match=wrong):
+            plane.plot(new_axes(), **options)
+    with pytest.raises(InputError, match="goes with maps of loads"):
+        load.plot(new_axes(), load=-100.0)

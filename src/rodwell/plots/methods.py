@@ -19,9 +19,11 @@ from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.fields import plot_field
+from rodwell.plots.maps import plot_map
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
+from rodwell.studies.maps.result import Map
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
@@ -87,6 +89,11 @@ def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
 @_plot.register
 def _(result: Curve, axes: Any) -> Any:
     return plot_curves([result], ax=axes)
+
+
+@_plot.register
+def _(result: Map, axes: Any, **options: Any) -> Any:
+    return plot_map(result, axes, **options)
 
 
 @_plot.register

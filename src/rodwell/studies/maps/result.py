@@ -119,8 +119,8 @@ class Map(Shown):
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw a map over two parameters as contours, over one as a curve, of samples as their distribution.
 
-        ``ax`` as for :meth:`rodwell.Branch.plot`. ``load``: an end force at s = 1 against which safe and unsafe are
-        told apart, for maps of loads.
+        ``ax`` as for :meth:`rodwell.Branch.plot`; ``options``: ``show`` ("value", "place",
+        "half-waves", "error"), ``at``, which holds further parameters, and ``load``, which tells safe and unsafe apart.
         """
         return drawn(self, ax, **options)
 
