@@ -93,7 +93,7 @@ def map_command(
 
     of, over = _asked(case, vary, given)
     options = {name: given[name] for name in _OPTIONS}
-    with _kept_in(out), progress_bar(not quiet and not as_json, "workers start") as tell:
+    with _told(out), progress_bar(not quiet and not as_json, "workers start") as tell:
         result = compute(of, over=over, out=out, progress=tell, started=_telling(quiet or as_json), **options)
     if as_json:
         print_json(result.as_dict(), indent=2)
@@ -147,10 +147,14 @@ def _telling(silent: bool) -> Callable[[Workers], None]:
 
 
 @contextmanager
-def _kept_in(out: str) -> Iterator[None]:
-    """Let an interrupt say that what was done is kept."""
+def _told(out: str) -> Iterator[None]:
+    """Name inputs as the options that they are; let an interrupt say that what was done is kept."""
     try:
         yield
+    except InputError as error:
+        if hasattr(error, "problems") or error.field not in (*PARAMETERS, *FLAGS, *_OPTIONS, "out"):
+            raise
+        raise InputError(f"--{error.field.replace('_', '-')}", error.value, error.reason) from None
     except KeyboardInterrupt as interrupt:
         interrupt.kept = f"what was done is kept in {printable(out)}; the same command goes on"  # type: ignore[attr-defined]
         raise

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rodwell.errors import InputError
-from rodwell.store.staging import PREFIX, finish_leftovers, staged
+from rodwell.store.staging import PREFIX, finish_leftovers, one_at_a_time, staged
 from rodwell.store.swap import put_in_place
 
 
@@ -22,9 +22,12 @@ def check_writable(out: Path, option: str = "--out") -> None:
     What a killed run left behind for ``out`` is tidied away.
     """
     try:
-        home = _nearest_folder(out, option)
+        target = out.resolve()
+        home = _home(out.absolute(), target, option)
         with tempfile.TemporaryDirectory(dir=home, prefix=PREFIX):
             pass
+        if target.exists() and not os.access(target, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     except OSError as error:
         raise _unwritable(out, error, option) from None
     finish_leftovers(out.resolve())
@@ -48,7 +51,7 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
         target = out.resolve()
         with staged(target, _home(out, target, option), _undisturbed) as new:
             yield new
-            with _undisturbed():
+            with _undisturbed(), one_at_a_time(target):
                 _check_free(new, out, option)
                 _open_to_others(new)
                 put_in_place(new, target)
