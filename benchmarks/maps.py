@@ -176,7 +176,7 @@ def main() -> None:
         "", "Stores, with digits that do not compress:", "",
         "| Cells of the map | Cells a chunk | Bytes a cell | Writing a chunk, s of processor time |",
         "| --- | --- | --- | --- |",
-        *(f"| {n * n:.0e} | {min(max(n * n // 256, 16), 4096)} | {size:.1f} | {seconds:.3f} |"
+        *(f"| {n * n:.0e} | {min(n * n // 256, 4096)} | {size:.1f} | {seconds:.3f} |"
           for n, (size, seconds, _) in whole.items()),
         "",
     ]  # fmt: skip

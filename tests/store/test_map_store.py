@@ -237,8 +237,10 @@ def test_the_command_with_a_case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         (("x.toml", "--weight", "1, 2", "--out", "x.zarr"), "--weight = '1, 2': belongs to a problem"),
         (
             ("--weight", "1, 2", "--alpha", "90", "--scheduler", "tcp://127.0.0.1:9", "--out", "x.zarr"),
-            "does not answer",
+            "--scheduler = 'tcp://127.0.0.1:9': does not answer",
         ),
+        (("--weight", "1..2", "--alpha", "90", "--out", "x.zarr"), "--weight = '1..2': does not say how many values"),
+        (("--weight", "1, 2", "--alpha", "90", "--out", "/proc/x.zarr"), "--out = '/proc/x.zarr': cannot be written"),
     ],
 )
 def test_wrong_use_of_the_command(

@@ -29,8 +29,11 @@ MOST_SAMPLES = 10**7
 SAMPLE = "sample"
 """Dimension of samples."""
 
-SMALLEST_CHUNK, LARGEST_CHUNK, CHUNKS = 16, 4096, 256
-"""Cells in a chunk, and how many chunks a map has at least, if these allow."""
+LARGEST_CHUNK, CHUNKS = 4096, 256
+"""Cells of a chunk at most, and how many chunks a large map has at least."""
+
+WORTHWHILE, FEWEST = 64, 8
+"""Cells that are worth the 20 ms of giving out and writing a chunk; a small map has this many chunks all the same."""
 
 SAMPLINGS = ("sobol", "random")
 
@@ -86,7 +89,7 @@ class Question:
     @cached_property
     def chunk_shape(self) -> tuple[int, ...]:
         """Cells of a chunk in each dimension; it depends on the grid only, so that any machine can go on with a map."""
-        wanted = min(max(self.size // CHUNKS, SMALLEST_CHUNK), LARGEST_CHUNK)
+        wanted = min(max(self.size // CHUNKS, min(WORTHWHILE, self.size // FEWEST), 1), LARGEST_CHUNK)
         out = list(self.shape)
         while math.prod(out) > wanted:
             longest = max(range(len(out)), key=out.__getitem__)

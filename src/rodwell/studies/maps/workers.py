@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import re
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
@@ -18,6 +19,12 @@ MOST_WORKERS = 1000
 
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"), "1")
 """Environment of a worker: threads slow small banded systems, and workers share the processors already."""
+
+QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "1s"}
+"""What Dask does beside the work, seldom: its profiler looks at every worker a hundred times a second otherwise."""
+
+ADDRESS = re.compile(r"(?:(?:tcp|tls|ws|wss)://)?(?:[A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\]):\d{1,5}/?")
+"""An address of a scheduler: host and port."""
 
 TIMEOUT = 20.0
 """Seconds for which a scheduler is waited for."""
@@ -67,9 +74,10 @@ def needs_extra(field: str, value: object, package: str) -> None:
 
 @contextmanager
 def _local(workers: int) -> Iterator[Workers]:
+    import dask  # noqa: PLC0415
     from distributed import Client, LocalCluster  # noqa: PLC0415
 
-    with _in_one_thread(), _quiet():
+    with _in_one_thread(), _quiet(), dask.config.set(QUIET):
         cluster = LocalCluster(
             n_workers=workers, threads_per_worker=1, processes=True, memory_limit="auto", dashboard_address=":0",
             env=ONE_THREAD, silence_logs=50,
@@ -82,13 +90,13 @@ def _local(workers: int) -> Iterator[Workers]:
 def _distant(address: str) -> Iterator[Workers]:
     from distributed import Client  # noqa: PLC0415
 
+    if not ADDRESS.fullmatch(address):
+        raise InputError("scheduler", address, 'is no address of a scheduler; write for example "tcp://host:8786"')
     try:
         client = Client(address, timeout=TIMEOUT)
-    except (OSError, TimeoutError, ValueError, ImportError) as error:
+    except Exception as error:  # Dask raises many kinds for what does not answer
         why = str(error) or "no answer"
-        raise InputError(
-            "scheduler", address, f'does not answer ({why}); write for example "tcp://host:8786"'
-        ) from None
+        raise InputError("scheduler", address, f"does not answer ({why}); is it running, and its port open?") from None
     with client, _quiet():
         try:
             client.wait_for_workers(1, timeout=TIMEOUT)
