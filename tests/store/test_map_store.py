@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 import warnings
 from pathlib import Path
 from typing import Any
@@ -262,6 +263,7 @@ def test_a_cluster_loses_a_worker_and_the_store_is_that_of_one_process(whole: Pa
     with subprocess.Popen([*command, "--workers", "2"], stderr=subprocess.PIPE, text=True) as client:
         killed = 0
         while client.poll() is None and not killed:
+            time.sleep(0.05)
             for worker in _children(client.pid):
                 if (out / "outcome" / "c").exists():
                     os.kill(worker, signal.SIGKILL)

@@ -150,7 +150,8 @@ def _owned(path: Path, field: str) -> Iterator[None]:
     if sys.platform == "win32":
         yield
         return
-    folder = os.open(path, os.O_RDONLY)
+    stays = path / LAST  # not the store itself, which is locked for the moment in which the jumps' group appears
+    folder = os.open(stays if stays.is_dir() else path, os.O_RDONLY)
     try:
         try:
             fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
