@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rodwell import Branch, InputError, Problem, Solution, critical_loads, equilibrium, follow
 from rodwell.analysis.discrete.measures import Measured, measure
-from rodwell.numerics.equilibria.family import Outcome
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.splines.spaces import SplineSpace
 
 

@@ -52,7 +52,7 @@ class Staircase:
 def test_every_change_of_the_index_is_resolved(jumps: dict[float, int]) -> None:
     segment = Staircase(jumps)
     found = _bisect(segment, 0.0, 1.0, segment(0.0).index, segment(1.0).index)  # type: ignore[arg-type, attr-defined]
-    changes = {round(low, 9): after - before for low, _, before, after in found}
+    changes = {round(bracket.low, 9): bracket.after - bracket.before for bracket in found}
     total = sum(jumps.values())
     assert sum(changes.values()) == total
     if len({by > 0 for by in jumps.values()}) == 1:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -12,15 +14,18 @@ from rodwell.analysis.discrete.pressures import (
     balanced_pressures,
     derivative,
     free_ends,
+    tabulated,
     totals,
 )
 from rodwell.compiling.kernels import direct, kernel
 from rodwell.compiling.second_process import wait_for
+from rodwell.errors import unknown_name
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.basis import combine
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
 from rodwell.quantities.arrays import FloatArray
 
@@ -50,6 +55,35 @@ class Measured(IntEnum):
     TORQUE_0 = 6  # T₂(0), (33): what the support of the cylinder at s = 0 must provide
 
 
+MEASURES = {
+    Measured.P_MAX: "largest_pressure",
+    Measured.ENERGY: "energy",
+    Measured.SHORTENING: "end_shortening",
+    Measured.OMEGA2_0: "omega2_at_0",
+    Measured.OMEGA2_1: "omega2_at_1",
+    Measured.ANGLE_MID: "angle_at_middle",
+    Measured.TORQUE_0: "support_torque",
+}
+"""Names of the measured numbers, as in the nomenclature."""
+
+_NAMED = {name: which for which, name in MEASURES.items()}
+
+
+def measured(which: Measured | str) -> Measured:
+    """Return the measured number of a name in the nomenclature.
+
+    Raises
+    ------
+    InputError
+        If no measured number has that name.
+    """
+    if isinstance(which, int):
+        return Measured(which)
+    if which not in _NAMED:
+        raise unknown_name("number", which, _NAMED)
+    return _NAMED[which]
+
+
 STEEPEST = len(Measured)
 """Position, after the measured numbers, of max |sin η| over the quadrature points: a guard, not reported."""
 
@@ -65,20 +99,22 @@ PROBES = (0.21, 0.46, 0.5, 0.78)
 
 
 @kernel
-def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, sizes, lowest):
+def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, places, sizes, lowest):
     """Rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
-    ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,);
+    ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,),
+    ``probes`` what is :func:`tabulated` at the PROBES;
     ``places`` (k,) are those of maxima of the contact pressure, ``sizes`` (k,) what the spline has there, ``lowest`` is
     the least of that.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
-    count, looked_at = places.size, np.concatenate((places, np.array(PROBES)))
-    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(looked_at.size), np.empty(looked_at.size)
+    count = places.size
+    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(count + len(PROBES)), np.empty(count + len(PROBES))
     shortening, torque, bending, torque_size, push, lever, sharpest, widest, steepest = totals(
         mesh, c, parameters, shear
     )
-    balanced(mesh, knots, c, parameters, push, lever, shear, looked_at, values, left)
+    tables = tabulated(knots, len(mesh.local) - 1, mesh.points, places), probes
+    balanced(mesh, knots, landmarks, c, parameters, push, lever, shear, tables, values, left)
     highest = np.max(values[:count])
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
@@ -113,7 +149,10 @@ def _numbers(mesh, knots, landmarks, marks, c, parameters, energy, places, sizes
     return out
 
 
-_quick_numbers, _quick_maxima = direct(_numbers), direct(maxima)
+_quick_numbers, _quick_maxima, _quick_pressures = direct(_numbers), direct(maxima), direct(balanced_pressures)
+
+_probed: WeakKeyDictionary[SplineSpace, Any] = WeakKeyDictionary()
+"""What is tabulated at the :data:`PROBES`, for each space: the states of a branch are all measured on a few."""
 
 LINKS = tuple((int(Measured.P_MAX), PROBED + i) for i in range(len(PROBES)))
 """The error of the largest contact pressure is not much below that of the pressure at some places that stay
@@ -147,7 +186,10 @@ def measure(family: Family, state: State) -> FloatArray:
     space, p = state.space, family.parameters(state.lam)
     wait_for("maxima")
     found = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
-    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, state.c, p, state.energy, *found)
+    probes = _probed.get(space)
+    if probes is None:
+        probes = _probed[space] = tabulated(space.knots, space.degree, space.points, np.array(PROBES))
+    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
     return np.asarray(numbers)
 
 
@@ -158,4 +200,5 @@ def pressure_maxima(
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     wait_for("maxima")
     places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
-    return places, np.asarray(balanced_pressures(family.mesh, space.knots, state.c, p, places)), float(lowest)
+    values = _quick_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
+    return places, np.asarray(values), float(lowest)

@@ -111,14 +111,14 @@ def free_ends(mesh):
 
 
 @formula
-def _balance(mesh, knots, c, parameters, push, lever, basis, shear):
+def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
     """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there."""
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
-    count, degree = shear.size, len(mesh.local) - 1
+    count, local = shear.size, len(mesh.local)
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
         for i in range(count):
-            if knots[degree + i] > 0.5:
+            if knots[local - 1 + i] > 0.5:
                 shear[i] -= whole
         return
     start = 0.0
@@ -126,34 +126,64 @@ def _balance(mesh, knots, c, parameters, push, lever, basis, shear):
         start = -whole
     elif not loose_0:
         start = push - lever
-        for end, turns, sign in ((0.0, turns_0, 1.0), (1.0, turns_1, -1.0)):
+        for basis, first, turns, sign in (
+            (ends[0], mesh.starts[0], turns_0, 1.0), (ends[-1], mesh.starts[-1], turns_1, -1.0),
+        ):  # fmt: skip
             if not turns:
-                span = find_span(knots, degree, end)
-                basis_derivatives(knots, span, degree, end, basis)
                 slope, bend = parameters[RAMP], 0.0
-                for a in range(degree + 1):
-                    slope += basis[1, a] * c[span - degree + a]
-                    bend += basis[2, a] * c[span - degree + a]
+                for a in range(local):
+                    slope += basis[1, a] * c[first + a]
+                    bend += basis[2, a] * c[first + a]
                 start += sign * bend / (1.0 - slope * slope)
     for i in range(count):
         shear[i] += start
 
 
+@kernel
+def tabulated(knots, degree, points, places):
+    """Everything at ``places`` (k,) that does not depend on a state.
+
+    ``points`` are the Gauss points of all elements: those of a place's element are moved to where only the part of it
+    before the place is integrated over.
+
+    Returns
+    -------
+    places
+        As given, (k,).
+    elements, shares
+        The element of each place, (k,), and the part of it that lies before the place, (k,).
+    basis
+        Basis functions and two derivatives at the places, (k, 3, p+1).
+    inner
+        Basis functions at the moved Gauss points, (k, points of an element, 1, p+1).
+    """
+    per_element = points.size // (knots.size - 2 * degree - 1)
+    elements, shares = np.empty(places.size, np.int64), np.empty(places.size)
+    basis = np.empty((places.size, 3, degree + 1))
+    inner = np.empty((places.size, per_element, 1, degree + 1))
+    for k in range(places.size):
+        span = find_span(knots, degree, places[k])
+        basis_derivatives(knots, span, degree, places[k], basis[k])
+        low, width = knots[span], knots[span + 1] - knots[span]
+        elements[k], shares[k] = span - degree, (places[k] - low) / width
+        if 0.0 < shares[k] < 1.0:
+            for i in range(per_element):
+                point = low + (points[elements[k] * per_element + i] - low) * shares[k]
+                basis_derivatives(knots, span, degree, point, inner[k, i])
+    return places, elements, shares, basis, inner
+
+
 @formula
-def _shear_at(mesh, knots, c, parameters, shear, span, s, basis):
-    """V at a place: ∂e/∂y is integrated from the last mesh point, with the Gauss points of the element moved there."""
+def _shear_at(mesh, knots, c, parameters, shear, element, share, inner):
+    """V at a place: ∂e/∂y is integrated from the last mesh point, over a part ``share`` of the element."""
     degree, count = len(mesh.local) - 1, len(mesh.per_element)
-    element = span - degree
-    low, width = knots[span], knots[span + 1] - knots[span]
-    share, total = (s - low) / width, shear[element]
     if share == 1.0:
         return shear[element + 1]
+    total, low = shear[element], knots[degree + element]
     for i in range(count if share > 0.0 else 0):
-        place = low + (mesh.points[element * count + i] - low) * share
-        basis_derivatives(knots, span, degree, place, basis)
-        y = parameters[RAMP] * place
+        y = parameters[RAMP] * (low + (mesh.points[element * count + i] - low) * share)
         for a in range(degree + 1):
-            y += basis[0, a] * c[element + a]
+            y += inner[i, 0, a] * c[mesh.starts[element] + a]
         rate = parameters[LATERAL_WEIGHT] * np.sin(y / parameters[CLEARANCE])
         total += mesh.weights[element * count + i] * share * rate
     return total
@@ -173,47 +203,49 @@ def derivative(basis, order, c, first):
 
 
 @formula
-def balanced(mesh, knots, c, parameters, push, lever, shear, places, values, noise):
-    """Write to ``values`` (k,) the contact pressure at ``places`` (k,), and to ``noise`` (k,) what round-off leaves.
+def balanced(mesh, knots, ends, c, parameters, push, lever, shear, tables, values, noise):
+    """Write to ``values`` the contact pressure at the places of some tables, and to ``noise`` what round-off leaves.
 
     ``shear`` are the integrals of ∂e/∂y up to mesh points that :func:`totals` writes, ``push`` and ``lever`` the
-    integrals that it returns; V takes the place of the former.
+    integrals that it returns; V takes the place of the former. ``ends`` has the basis functions at both ends, first and
+    last; ``tables`` is a tuple of what :func:`tabulated` returns.
     """
-    degree = len(mesh.local) - 1
-    basis, known, out = np.empty((3, len(mesh.local))), np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
-    uniforms = (parameters,)
-    _balance(mesh, knots, c, parameters, push, lever, basis, shear)
+    known, out = np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
+    uniforms, done = (parameters,), 0
+    _balance(mesh, knots, ends, c, parameters, push, lever, shear)
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
-    for i in range(places.size):
-        s = places[i]
-        span = find_span(knots, degree, s)
-        force = _shear_at(mesh, knots, c, parameters, shear, span, s, basis)
-        basis_derivatives(knots, span, degree, s, basis)
-        y = 0.0
-        for a in range(degree + 1):
-            y += basis[0, a] * c[span - degree + a]
-        slope, size_1 = derivative(basis, 1, c, span - degree)
-        bend, size_2 = derivative(basis, 2, c, span - degree)
-        if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
-            bend = size_2 = 0.0
-        elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
-            slope = size_1 = 0.0
-        for k in range(5):
-            known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force
-            known[2, k], known[3, k] = slope + parameters[RAMP], bend
-        known[2, 1] -= CHANGE * size_1
-        known[2, 2] += CHANGE * size_1
-        known[3, 3] -= CHANGE * size_2
-        known[3, 4] += CHANGE * size_2
-        _pressure(mesh.model, CHANGED, known, uniforms, out)
-        values[i] = out[0, 0]
-        noise[i] = COEFFICIENT_NOISE / (2.0 * CHANGE) * (abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3]))
+    for places, elements, shares, basis, inner in tables:
+        for i in range(places.size):
+            s, first = places[i], mesh.starts[elements[i]]
+            force = _shear_at(mesh, knots, c, parameters, shear, elements[i], shares[i], inner[i])
+            y = 0.0
+            for a in range(len(mesh.local)):
+                y += basis[i, 0, a] * c[first + a]
+            slope, size_1 = derivative(basis[i], 1, c, first)
+            bend, size_2 = derivative(basis[i], 2, c, first)
+            if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
+                bend = size_2 = 0.0
+            elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
+                slope = size_1 = 0.0
+            for k in range(5):
+                known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force
+                known[2, k], known[3, k] = slope + parameters[RAMP], bend
+            known[2, 1] -= CHANGE * size_1
+            known[2, 2] += CHANGE * size_1
+            known[3, 3] -= CHANGE * size_2
+            known[3, 4] += CHANGE * size_2
+            _pressure(mesh.model, CHANGED, known, uniforms, out)
+            values[done] = out[0, 0]
+            spread = abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3])
+            noise[done] = COEFFICIENT_NOISE / (2.0 * CHANGE) * spread
+            done += 1
 
 
 @kernel
-def balanced_pressures(mesh, knots, c, parameters, places):
-    """Contact pressure (k,) at ``places`` (k,)."""
+def balanced_pressures(mesh, knots, ends, c, parameters, places):
+    """Contact pressure (k,) at ``places`` (k,); ``ends`` has the basis functions at both ends, first and last."""
     shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
     found = totals(mesh, c, parameters, shear)
-    balanced(mesh, knots, c, parameters, found[4], found[5], shear, places, values, noise)
+    tables = (tabulated(knots, len(mesh.local) - 1, mesh.points, places),)
+    balanced(mesh, knots, ends, c, parameters, found[4], found[5], shear, tables, values, noise)
     return values

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -17,6 +18,7 @@ from rodwell.numerics.continuation.location import (
     bracketed_root,
     near_root,
 )
+from rodwell.quantities.arrays import FloatArray
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ def index_crossings(
     brackets = []
     for low, high in pairwise(cuts):
         brackets += _bisect(fine, low, high, fine(low).index, fine(high).index)
-    return [_located(coarse, fine, turns, *bracket, doubted=doubted) for bracket in brackets]
+    return [_located(coarse, fine, turns, bracket, doubted=doubted) for bracket in brackets]
 
 
 ALONE = 0.1
@@ -75,18 +77,32 @@ CUTS = (0.5, 0.37, 0.64)
 """Where an interval is cut, in the order in which they are tried: at one of them a singular point may lie."""
 
 
-def _bisect(
-    segment: Segment, low: float, high: float, at_low: int, at_high: int
-) -> list[tuple[float, float, int, int]]:
-    """Brackets of the changes of the index in [low, high]: (low, high, before, after)."""
+@dataclass(frozen=True)
+class _Bracket:
+    """Where a change of the index from ``before`` to ``after`` lies: one of no width is the place.
+
+    ``softest`` is the eigenvalue nearest to zero at ``low``, if it was looked at.
+    """
+
+    low: float
+    high: float
+    before: int
+    after: int
+    softest: _Eigenvalue | None = None
+
+
+def _bisect(segment: Segment, low: float, high: float, at_low: int, at_high: int) -> list[_Bracket]:
+    """Brackets of the changes of the index in [low, high]."""
     if at_low == at_high:
         return []
     width = high - low
     if width < PLACE_TOLERANCE:
         middle = 0.5 * (low + high)
-        return [(middle, middle, at_low, at_high)]
-    if abs(at_high - at_low) == 1 and width < ALONE and _changes_sign(segment, low, high):
-        return [(low, high, at_low, at_high)]
+        return [_Bracket(middle, middle, at_low, at_high)]
+    if abs(at_high - at_low) == 1 and width < ALONE:
+        softest = _Eigenvalue(segment, low)
+        if softest.value * softest.on(segment)(high) < 0.0:
+            return [_Bracket(low, high, at_low, at_high, softest)]
     middle, here = _cut(segment, low, high)
     return _bisect(segment, low, middle, at_low, here) + _bisect(segment, middle, high, here, at_high)
 
@@ -103,23 +119,9 @@ def _cut(segment: Segment, low: float, high: float) -> tuple[float, int]:
     raise AssertionError
 
 
-def _changes_sign(segment: Segment, low: float, high: float) -> bool:
-    eigenvalue = _Eigenvalue(segment, low)
-    return eigenvalue(low) * eigenvalue(high) < 0.0
-
-
-def _located(
-    coarse: Segment,
-    fine: Segment,
-    turns: Sequence[float],
-    low: float,
-    high: float,
-    before: int,
-    after: int,
-    *,
-    doubted: bool,
-) -> Crossing:
-    """The zero of the eigenvalue in a bracket, on both meshes; a bracket of no width is the place."""
+def _located(coarse: Segment, fine: Segment, turns: Sequence[float], bracket: _Bracket, *, doubted: bool) -> Crossing:
+    """The zero of the eigenvalue in a bracket, on both meshes."""
+    low, high, before, after = bracket.low, bracket.high, bracket.before, bracket.after
     fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
     if not fold and not fine.family.may_branch(fine(low), fine(high)):
         if doubted or _drowned(fine, low, high):
@@ -127,13 +129,15 @@ def _located(
         raise LeftTheBranchError("the stability index changes where nothing may branch: the step has left the branch")
     if low == high:
         return Crossing(LocatedZero(low, coarse(low), fine(low)), low, before, after, fold=False)
-    steady = not fold and _wanders(fine, low)
+    softest = bracket.softest or _Eigenvalue(fine, low)
+    steady = not fold and _wanders(fine.family.parity, softest.vector)
     if steady:
         low, high = _shrunk(fine, low, high, before)
+        softest = softest if low == bracket.low else _Eigenvalue(fine, low)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
-    if steady:
-        parts = tuple(_steadied(part) for part in parts)  # type: ignore[assignment]
-    eigenvalue = _Eigenvalue(parts[0], 0.0)
+    if steady:  # Newton's method is kept off the direction in which the Hessian becomes singular
+        parts = replace(parts[0], frozen=softest.vector), replace(parts[1], frozen=_Eigenvalue(parts[1], 0.0).vector)
+    eigenvalue = softest.on(parts[0])
     ends = eigenvalue(0.0), eigenvalue(1.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
@@ -153,20 +157,15 @@ def _located(
 
 def _drowned(fine: Segment, low: float, high: float) -> bool:
     """Whether the eigenvalue that changes its sign between two places is round-off."""
-    for place in (low, high):
-        eigenvalue = _Eigenvalue(fine, place)
-        if abs(eigenvalue(place)) <= DROWNED * eigenvalue.noise:
-            return True
-    return False
+    ends = (_Eigenvalue(fine, place) for place in (low, high))
+    return any(abs(end(place)) <= DROWNED * end.noise for end, place in zip(ends, (low, high), strict=True))
 
 
-def _wanders(segment: Segment, place: float) -> bool:
+def _wanders(parity: int, vector: FloatArray) -> bool:
     """Whether Newton's method moves along the direction in which the Hessian becomes singular: symmetry may forbid it.
 
     States that are periodic beyond their ends branch into others of the same parity.
     """
-    parity = segment.family.parity
-    vector = _Eigenvalue(segment, place).vector
     kept = vector + parity * vector[::-1]
     return parity == 0 or bool(np.linalg.norm(kept) > np.linalg.norm(vector))
 
@@ -179,20 +178,23 @@ def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[flo
     return low, high
 
 
-def _steadied(segment: Segment) -> Segment:
-    """The segment with Newton's method kept off the direction in which the Hessian becomes singular."""
-    eigenvalue = _Eigenvalue(segment, 0.0)
-    return replace(segment, frozen=eigenvalue.vector)
-
-
 class _Eigenvalue:
-    """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``."""
+    """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``.
+
+    ``value`` and ``noise`` are what it is there, and what round-off leaves in it.
+    """
 
     def __init__(self, segment: Segment, near: float) -> None:
         self.segment = segment
         state = segment(near)
         self.vector = np.random.default_rng(0).standard_normal(state.c.size)
-        _, self.noise = segment.family.nearest_curvature(state, self.vector, 8)
+        self.value, self.noise = segment.family.nearest_curvature(state, self.vector, 8)
+
+    def on(self, segment: Segment) -> _Eigenvalue:
+        """Return the same on another segment through the same place."""
+        other = copy(self)
+        other.segment, other.vector = segment, self.vector.copy()
+        return other
 
     def __call__(self, t: float) -> float:
         return self.segment.family.nearest_curvature(self.segment(t), self.vector, 3)[0]

@@ -48,11 +48,18 @@ class Segment:
             return a
         if t == 1.0:
             return b
-        target = float(a.row @ a.c) + a.row_lam * a.lam + t * self._length
-        outcome, state, _ = self.family.correct(*self._interpolant(t), a.row, a.row_lam, target, self.frozen)
-        if state is None:
-            raise LocationError(f"no equilibrium found while locating an event: {self.family.advice(outcome)}")
-        return state
+        if t not in self._known:
+            target = float(a.row @ a.c) + a.row_lam * a.lam + t * self._length
+            outcome, state, _ = self.family.correct(*self._interpolant(t), a.row, a.row_lam, target, self.frozen)
+            if state is None:
+                raise LocationError(f"no equilibrium found while locating an event: {self.family.advice(outcome)}")
+            self._known[t] = state
+        return self._known[t]
+
+    @cached_property
+    def _known(self) -> dict[float, State]:
+        """States that were solved, by their places."""
+        return {}
 
     @cached_property
     def _length(self) -> float:

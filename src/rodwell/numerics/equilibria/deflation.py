@@ -11,7 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
 from rodwell.quantities.arrays import FloatArray

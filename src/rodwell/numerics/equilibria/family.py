@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from enum import Enum
 from functools import cached_property
 from typing import Any
 
@@ -22,22 +21,13 @@ from rodwell.compiling.kernels import direct
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
 from rodwell.numerics.equilibria.newton import Tolerances
+from rodwell.numerics.equilibria.outcome import OUTCOMES, Outcome
 from rodwell.numerics.equilibria.state import State, _part
 from rodwell.numerics.splines import assembly, banded
 from rodwell.numerics.splines.held import Ends, Held, gather, spread
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
-
-
-class Outcome(Enum):
-    """What came of a solve; the value says what to do about it."""
-
-    CONVERGED = "converged"
-    NOT_CONVERGED = "Newton's method did not settle: start nearer, or take a smaller step"
-    DIVERGED = "Newton's method diverged: start nearer, or take a smaller step"
-    OUT_OF_RANGE = "the state left the range of the model"
-
 
 EIGENVALUE_NOISE = 8.0 * float(np.finfo(float).eps)
 """Round-off left in a second variation, as a part of the size of its terms."""
@@ -50,9 +40,8 @@ ALL_REFLECTIONS = MIRROR, (1, True), (-1, True)
 """u → −u(s), u(1 − s), −u(1 − s)."""
 
 _NOTHING = np.empty(0)
-_newton = direct(newton.newton)
-
-_OUTCOMES = (Outcome.CONVERGED, Outcome.NOT_CONVERGED, Outcome.DIVERGED, Outcome.OUT_OF_RANGE)
+_newton, _inverse_iteration = direct(newton.newton), direct(newton.inverse_iteration)
+_assemble, _variation = direct(assembly.assemble), direct(assembly.variation)
 
 
 @dataclass(frozen=True)
@@ -127,6 +116,10 @@ class Family:
         sizes = float(self.scale_c), float(self.lam_scale), float(self.slope_scale)
         return Tolerances(self.tolerance, self.most_steps, self.extra_steps, *sizes)
 
+    def _tolerances(self, step: float) -> Tolerances:
+        """The same with another tolerance of the steps."""
+        return self.tolerances if step == self.tolerance else self.tolerances._replace(step=step)
+
     @property
     def _metric(self) -> tuple[float, float]:
         return self.slope_scale**-2, self.lam_scale**-2
@@ -188,11 +181,11 @@ class Family:
         direction, covector = (_NOTHING, _NOTHING) if frozen is None else self._normalised(frozen)
         wait_for("newton")
         status, lam, tangent_lam, new_row_lam, index, energy, steps, factors = _newton(
-            self.mesh, self.tolerances._replace(step=tolerance), self.path, row, row_lam, target, direction, covector,
+            self.mesh, self._tolerances(tolerance), self.path, row, row_lam, target, direction, covector,
             c, lam, tangent, new_row,
         )  # fmt: skip
         if status != newton.CONVERGED:
-            return _OUTCOMES[status], None, steps, factors
+            return OUTCOMES[status], None, steps, factors
         state = State(self.space, c, lam, tangent, tangent_lam, new_row, new_row_lam, index, energy)
         return Outcome.CONVERGED, state, steps, factors
 
@@ -207,7 +200,7 @@ class Family:
         """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""
         space = self.space
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
-        energy, _ = assembly.assemble(self.mesh, c, *self._on_path(lam), gradient, mixed, band)
+        energy, _ = _assemble(self.mesh, np.ascontiguousarray(c), *self._on_path(lam), gradient, mixed, band)
         return energy, gradient, band
 
     def end_reactions(self, state: State) -> tuple[float, float]:
@@ -230,8 +223,8 @@ class Family:
         """
         factors = self.held.restrict(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
-        newton.inverse_iteration(self.mesh, factors, iterations, vector)
-        above, size, below = assembly.variation(self.mesh, state.c, *self._on_path(state.lam), vector)
+        _inverse_iteration(self.mesh, factors, iterations, vector)
+        above, size, below = _variation(self.mesh, state.c, *self._on_path(state.lam), vector)
         return float(above / below), float(EIGENVALUE_NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from rodwell.numerics.equilibria import newton
-from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.splines import banded
 from rodwell.quantities.arrays import FloatArray
 

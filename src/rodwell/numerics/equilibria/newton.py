@@ -25,9 +25,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.compiling.kernels import kernel
+from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.splines.assembly import assemble
-from rodwell.numerics.splines.banded import factorise, multiply, solve
+from rodwell.numerics.splines.banded import factorise, multiply, solve, solve_both
 from rodwell.numerics.splines.held import gather, restrict, spread
 
 DEGREE = np.pi / 180.0
@@ -81,9 +81,25 @@ def solve_within(mesh, factors, x, frozen, covector):
     """Solve H x = b in place for the unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
     solve(factors, x)
+    _keep_within(mesh, x, frozen, covector)  # ... and out of the solution
+
+
+@formula
+def _solve_both_within(mesh, factors, x, y, frozen, covector):
+    """Solve for two right-hand sides as :func:`solve_within` does."""
+    deflate(x, covector, frozen)
+    deflate(y, covector, frozen)
+    solve_both(factors, x, y)
+    _keep_within(mesh, x, frozen, covector)
+    _keep_within(mesh, y, frozen, covector)
+
+
+@formula
+def _keep_within(mesh, x, frozen, covector):
+    """Let what is held follow, and keep ``x`` (n,) within the symmetry and off the frozen direction, in place."""
     spread(x, mesh.held, mesh.follows)
     symmetrise(x, mesh.parity)
-    deflate(x, frozen, covector)  # ... and out of the solution
+    deflate(x, frozen, covector)
 
 
 @kernel
@@ -173,8 +189,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         for i in range(n):
             b[i], w[i] = mixed[i], row[i]
         gather(w, mesh.held, mesh.follows)
-        solve_within(mesh, band, b, frozen, covector)
-        solve_within(mesh, band, w, frozen, covector)
+        _solve_both_within(mesh, band, b, w, frozen, covector)
         first_dlam, lever = gap, row_lam
         for i in range(n):
             first_dlam += w[i] * gradient[i]

@@ -35,6 +35,9 @@ class State:
     index: int
     energy: float
 
+    def __repr__(self) -> str:
+        return f"<State at {self.lam:.10g} on {self.space.elements} elements, index {self.index}>"
+
     @property
     def symmetry(self) -> int:
         """1 if the state is even about the middle, −1 if odd (up to a constant: a coil), 0 if neither."""
@@ -42,9 +45,12 @@ class State:
 
     def symmetry_within(self, tolerance: float) -> int:
         """Symmetry up to a part ``tolerance`` of the largest coefficient; the mesh must be symmetric."""
-        size = tolerance * float(np.max(np.abs(self.c))) + EQUAL_COEFFICIENTS
+        sizes = np.abs(self.c)
+        largest = sizes.argmax()
+        size = tolerance * float(sizes[largest]) + EQUAL_COEFFICIENTS
         for parity in (1, -1):
-            if np.max(np.abs(self.c - self.symmetrised(parity))) <= 0.5 * size:
+            apart = self.c - self.symmetrised(parity)
+            if abs(apart[largest]) <= 0.5 * size and np.abs(apart).max() <= 0.5 * size:  # mostly, one tells enough
                 return parity
         return 0
 

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error
-from rodwell.numerics.equilibria.family import Family, Outcome
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
@@ -87,6 +88,10 @@ class MeshedState:
     error: FloatArray
     excess: float
 
+    def __repr__(self) -> str:
+        sizes = f"{self.coarse.space.elements} and {self.fine.space.elements} elements"
+        return f"<MeshedState at {self.lam:.10g} on {sizes}, index {self.fine.index}>"
+
     @property
     def lam(self) -> float:
         """Parameter λ, from the finer mesh."""
@@ -148,7 +153,7 @@ class TwoMeshes:
     def on_path(self, path: FloatArray, ends: Ends, parity: int) -> TwoMeshes:
         """Return the same meshes for another path in the parameters and a parity to keep."""
         other = copy(self)
-        other.coarse, other.fine = (replace(f, path=path, ends=ends, parity=parity) for f in (self.coarse, self.fine))
+        other.coarse, other.fine = (_along(f, path, ends, parity) for f in (self.coarse, self.fine))
         return other
 
     def lift(self, coarse: State, *, exact: bool = False) -> tuple[Outcome, State | None]:
@@ -219,6 +224,16 @@ class TwoMeshes:
         finer = TwoMeshes(self.coarse.on(space), self.measure, self.rtol, self.most_elements, *kinds)
         finer.floor = self.floor
         return finer
+
+
+def _along(family: Family, path: FloatArray, ends: Ends, parity: int) -> Family:
+    """The same family along another path in the parameters, with ends and a parity to keep."""
+    if (ends, parity) != (family.ends, family.parity):
+        return replace(family, path=path, ends=ends, parity=parity)
+    other = copy(family)  # with the record of its mesh: each point of a curve takes dozens of families
+    other.__dict__["path"] = path
+    other.__dict__.pop("_with_extra_steps", None)
+    return other
 
 
 def _carry(state: State, up: Prolongation, family: Family) -> tuple[Outcome, State | None]:

@@ -25,7 +25,7 @@ import numpy as np
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.lanes import on_lanes
-from rodwell.numerics.splines.products import HESSIAN_OF_ONE, ROWS_OF_ONE, congruence, dots
+from rodwell.numerics.splines.products import HESSIAN_OF_ONE, ROWS_OF_ONE, add_element, congruence, dots
 
 
 def _weighted(model: Any) -> Callable[..., Sequence[Any]]:
@@ -102,6 +102,9 @@ def at_points(mesh, c, element, known):
 def _scatter(model, tags, product, start, e, f, gradient, mixed, band):
     """Add the block of fields ``e`` and ``f`` of an element to gradient, mixed derivatives and lower band."""
     fields, local = len(model), len(tags[0])
+    if fields == 1:
+        add_element(tags, product, start, gradient, mixed, band)
+        return
     for b in range(local):
         j = start + b * fields + e
         if e == f:

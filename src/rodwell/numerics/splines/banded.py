@@ -67,13 +67,33 @@ def solve(factors, x):
 
 
 @kernel
+def solve_both(factors, x, y):
+    """Solve A x = b and A y = d in place, as :func:`solve` does: each waits for its own sums only."""
+    n, width = factors.shape
+    for j in range(n):
+        xj, yj = x[j], y[j]
+        for k in range(1, min(width, n - j)):
+            x[j + k] -= factors[j, k] * xj
+            y[j + k] -= factors[j, k] * yj
+    for j in range(n - 1, -1, -1):
+        first, second = x[j] / factors[j, 0], y[j] / factors[j, 0]
+        for k in range(1, min(width, n - j)):
+            first -= factors[j, k] * x[j + k]
+            second -= factors[j, k] * y[j + k]
+        x[j], y[j] = first, second
+
+
+@kernel
 def multiply(band, x):
     """Return A x."""
     n, width = band.shape
     out = np.zeros(n)
-    for j in range(n):
-        out[j] += band[j, 0] * x[j]
-        for k in range(1, min(width, n - j)):
-            out[j + k] += band[j, k] * x[j]
-            out[j] += band[j, k] * x[j + k]
+    for j in range(n):  # row j from the diagonal on, then the column below it: two loops, which registers hold apart
+        xj, reach = x[j], min(width, n - j)
+        total = out[j] + band[j, 0] * xj
+        for k in range(1, reach):
+            total += band[j, k] * x[j + k]
+        out[j] = total
+        for k in range(1, reach):
+            out[j + k] += band[j, k] * xj
     return out

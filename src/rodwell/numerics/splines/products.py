@@ -93,6 +93,11 @@ class _Writer:
         return self.builder.fadd(self.builder.fmul(x, y, flags=CONTRACT), total, flags=CONTRACT)
 
 
+def _pointers(context: Any, builder: Any, signature: Any, arguments: Any) -> Callable[[int], Any]:
+    """Return what gives the pointer to the numbers of an argument that is an array."""
+    return lambda i: context.make_array(signature.args[i])(context, builder, arguments[i]).data
+
+
 @intrinsic
 def dots(typingctx, model, local_tag, count_tag, table, row, step, c, start, out, at):
     """Write Σ_a T[row + k step, a] c[start + a nf] to ``out.flat[at + k]``, for k below the length of ``count_tag``.
@@ -104,9 +109,7 @@ def dots(typingctx, model, local_tag, count_tag, table, row, step, c, start, out
     signature = types.void(model, local_tag, count_tag, table, row, step, c, start, out, at)
 
     def write(context, builder, signature, arguments):
-        def data(i: int) -> Any:
-            return context.make_array(signature.args[i])(context, builder, arguments[i]).data
-
+        data = _pointers(context, builder, signature, arguments)
         writer = _Writer(builder)
         base = writer.at(data(3), builder.mul(arguments[4], index(local)))
         step, out = builder.mul(arguments[5], index(local)), writer.at(data(8), arguments[9])
@@ -174,9 +177,7 @@ def congruence(typingctx, model, tags, table, start, terms, e, f, product):
     signature = types.void(model, tags, table, start, terms, e, f, product)
 
     def write(context, builder, signature, arguments):
-        def data(i: int) -> Any:
-            return context.make_array(signature.args[i])(context, builder, arguments[i]).data
-
+        data = _pointers(context, builder, signature, arguments)
         writer = _Writer(builder)
         start, (e, f) = arguments[3], arguments[5:7]
         basis = writer.at(data(2), builder.mul(start, index(3 * local)))
@@ -239,14 +240,37 @@ def congruence(typingctx, model, tags, table, start, terms, e, f, product):
 
 
 @intrinsic
+def add_element(typingctx, tags, product, start, gradient, mixed, band):
+    """Add what :func:`congruence` wrote for an element to gradient, mixed derivatives and band; for one field.
+
+    ``start`` is the first function of the element, ``band`` (n, local). All arrays are contiguous.
+    """
+    local = tags.types[0].count
+    signature = types.void(tags, product, start, gradient, mixed, band)
+
+    def write(context, builder, signature, arguments):
+        data = _pointers(context, builder, signature, arguments)
+        writer, start = _Writer(builder), arguments[2]
+        own = writer.at(data(5), builder.mul(start, index(local)))
+        rows = [(b * local + b, writer.at(own, b * local), local - b) for b in range(local)]
+        rows += [((local + i) * local, writer.at(data(3 + i), start), local) for i in range(2)]
+        for source, to, count in rows:
+            for first, kind in _chunks(0, count):
+                place = writer.at(to, first)
+                more = writer.load(writer.at(data(1), source + first), kind)
+                writer.store(builder.fadd(writer.load(place, kind), more), place)
+        return context.get_dummy_value()
+
+    return signature, write
+
+
+@intrinsic
 def subtract(typingctx, out, at, scale, x, start, count):
     """Subtract ``scale x.flat[start + k]`` from ``out.flat[at + k]``, for k below ``count``; they do not overlap."""
     signature = types.void(out, at, scale, x, start, count)
 
     def write(context, builder, signature, arguments):
-        def data(i: int) -> Any:
-            return context.make_array(signature.args[i])(context, builder, arguments[i]).data
-
+        data = _pointers(context, builder, signature, arguments)
         writer = _Writer(builder)
         to, source = writer.at(data(0), arguments[1]), writer.at(data(3), arguments[4])
         scale = builder.fneg(arguments[2])
