@@ -193,7 +193,6 @@ def main() -> None:
 
     whole = {n: store_size((n, n), 40_000) for n in (400, 1000, 10_000)}
     lines = [
-        "# Maps beside a plain loop", "",
         f"`python benchmarks/maps.py`, {datetime.date.today().isoformat()}, rodwell {rodwell.__version__}, "
         f"{platform.machine()}, {os.cpu_count()} cores shared with other work, Python {platform.python_version()}. "
         f"{given.rounds} rounds of {given.cells} lift-off loads (γ 5 to 200, α 30° to 90°); median, least, largest.",

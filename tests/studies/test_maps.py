@@ -147,6 +147,13 @@ def test_secondary_load_is_that_of_the_paper_and_is_not_defined_where_nothing_is
     assert "no branch has a symmetry" in found.cells["reason"][1]
 
 
+def test_a_number_that_a_problem_does_not_have_is_not_defined() -> None:
+    """A rod that its weight lifts off has no lift-off load."""
+    found = rodwell.map(rodwell.Problem(15.0, 90.0, on_top=True), "lift-off", over={"weight": [5.0, 15.0]}, halvings=0)
+    assert found.counts == {"not_defined": 2}
+    assert "there is no lift-off" in found.cells["reason"][0]
+
+
 def test_vertical_rod_lifts_off_where_it_buckles() -> None:
     both = [rodwell.map(rodwell.Problem(15.0, 0.0), name, over={"weight": [5.0, 15.0]}, halvings=0) for name in
             ("critical", "lift-off")]  # fmt: skip
@@ -236,6 +243,7 @@ def test_no_more_pieces_are_out_than_a_few_for_each_worker() -> None:
         ("critical", {"weight": 3.0}, {}, "over: nothing varies"),
         ("critical", {"wait": [1.0, 2.0]}, {}, "wait: is no parameter"),
         ("contact", {"weight": [1.0, 2.0]}, {}, "load: contact belongs to a load"),
+        ("critical", {"weight": [1.0, 2.0]}, {"load": -5.0}, "load = -5.0: goes with contact, contact-total"),
         ("critical", {"weight": "normal(10, 1)"}, {}, "samples = 0: must be given"),
         ("critical", {"weight": [1.0, 2.0]}, {"samples": 5}, "samples = 5: draws nothing"),
         ("critical", {"weight": [-1.0, -2.0]}, {}, "weight = -1.0: must be from 0"),

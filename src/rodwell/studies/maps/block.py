@@ -9,7 +9,16 @@ from typing import Any
 import numpy as np
 
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.studies.maps.cells import CONVERGED, FAILED, IMPOSSIBLE, WITH_VALUE, Found, MappedRod, NoSuchNumber
+from rodwell.studies.maps.cells import (
+    CONVERGED,
+    FAILED,
+    IMPOSSIBLE,
+    NOT_DEFINED,
+    WITH_VALUE,
+    Found,
+    MappedRod,
+    NoSuchNumber,
+)
 from rodwell.studies.maps.rods import Rods
 
 Block = dict[str, np.ndarray]
@@ -84,7 +93,9 @@ def _attempt(rods: Rods, rod: MappedRod) -> Found:
         return rods.number.of(rod)
     except NoSuchNumber as outcome:
         return outcome.found
-    except (InputError, NotConvergedError) as error:
+    except InputError as error:  # the problem is one, but does not have this number
+        return Found(NOT_DEFINED, reason=str(error))
+    except NotConvergedError as error:
         return Found(FAILED, reason=str(error))
     except Exception as error:  # what nobody foresaw must not end a map of a million cells
         return Found(FAILED, reason=f"{type(error).__name__}: {error}")

@@ -190,6 +190,9 @@ def asked(
     fixed = {name: over[name] for name, axis in read_over.items() if axis is None}
     if load is not None:
         fixed[LOAD] = checked_number(LOAD, load, -LARGEST_FORCE, LARGEST_FORCE, "an end force in B/L²")
+    if not NUMBERS[quantity].at_load and (LOAD in fixed or LOAD in read_over):
+        loads = ", ".join(name for name, number in NUMBERS.items() if number.at_load)
+        raise InputError(LOAD, fixed.get(LOAD), f"goes with {loads}; {quantity} depends on no load: leave it out")
     axes = tuple(axis for axis in read_over.values() if isinstance(axis, Axis))
     drawn_ones = tuple(axis for axis in read_over.values() if isinstance(axis, Distribution))
     names = (*(axis.name for axis in axes), *(one.name for one in drawn_ones))
