@@ -96,6 +96,45 @@ def test_broken_off_at_every_chunk_it_goes_on_and_ends_as_if_undisturbed(
     assert len(counted) == done, "a finished map is computed again"
 
 
+class Breaking:
+    """A group whose arrays are written to a number of times only."""
+
+    def __init__(self, group: Any, left: list[int], name: str = "") -> None:
+        self.group, self.left, self.name = group, left, name
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.group[key] if self.name else Breaking(self.group[key], self.left, key)
+
+    def __setitem__(self, region: Any, values: Any) -> None:
+        if self.left[0] == 0:
+            raise KeyboardInterrupt
+        self.left[0] -= 1
+        self.group[region] = values
+
+
+def test_broken_off_within_a_chunk_what_counts_as_there_is_whole(
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At any time, a cell with an outcome has the value that an undisturbed map has."""
+    out, right = tmp_path / "map.zarr", xr.open_zarr(whole).load()
+    init = chunked.Kept.__init__
+    for count in (1, 5, 6, 9, 11, 13):
+        left = [count]
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(
+                chunked.Kept, "__init__", lambda self, group, *more, left=left: init(self, Breaking(group, left), *more)
+            )
+            with pytest.raises(KeyboardInterrupt):
+                made(out)
+        found = xr.open_zarr(out).load()
+        there = found.outcome.values > 0
+        for name in ("value", "error", "wavenumber"):
+            assert np.array_equal(found[name].values[there], right[name].values[there])
+    assert there.sum() > 0
+    made(out)
+    assert data(out) == data(whole)
+
+
 @pytest.mark.parametrize("column", list(block.COLUMNS))
 def test_a_chunk_without_one_of_its_columns_or_damaged_is_computed_again(
     whole: Path, tmp_path: Path, column: str
