@@ -250,7 +250,11 @@ def test_the_command(tmp_path: Path, whole: Path, monkeypatch: pytest.MonkeyPatc
     assert found["outcomes"] == {"converged": {"cells": 32, "meaning": "known to the tolerance"}}
     assert found["least"]["at"] == {"weight": 80.0, "alpha": 90.0}
     assert (found["unit"], found["complete"], found["store"]) == ("B/L^2", True, "map.zarr")
-    assert run(*asked, "--quiet").output == ""
+    assert run(*asked, "--quiet", "--picture", "map.png").output == ""
+    assert Path("map.png").read_bytes().startswith(b"\x89PNG")
+    assert "must end in .png, .svg, .pdf" in str(run(*asked, "--picture", "map.bmp").exception)
+    assert "cannot be written" in str(run(*asked, "--picture", "nowhere/map.png").exception)
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["map.png", "map.zarr"]
 
 
 def test_the_command_with_a_case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

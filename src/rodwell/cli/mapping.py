@@ -23,7 +23,10 @@ QUANTITIES = ("critical", "lift-off", "limit", "secondary", "contact", "contact-
 PARAMETERS = ("weight", "alpha", "clearance", "twist", "poisson", "torsion", "ends", "load")
 FLAGS = ("on_top", "outside")
 
-VALUES = '"5..200 in 40", "1..300 in 40 log", "5, 10, 20", "normal(100, 5)", or one value'
+PICTURES = (".png", ".svg", ".pdf")
+"""Kinds of files for pictures."""
+
+DPI = 150
 
 
 def _parameters(function: Any) -> Any:
@@ -46,14 +49,18 @@ def _parameters(function: Any) -> Any:
 
 
 class StorePath(click.ParamType):  # type: ignore[type-arg]
-    """Where a map is kept: a folder or the address of an object store; an empty name is refused."""
+    """Where a map is kept, a folder or the address of an object store, or its picture; an empty name is refused."""
 
-    name = "store"
+    def __init__(self, name: str = "store") -> None:
+        self.name = name
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the path."""
         if not str(value).strip():
-            raise InputError("--out", value, "is empty; name a folder, for example lift-off.zarr")
+            option = "--out" if param is None else param.opts[0]
+            raise InputError(option, value, "is empty; name it, for example lift-off.zarr, lift-off.png")
+        if self.name == "picture" and Path(value).suffix.lower() not in PICTURES:
+            raise InputError("--picture", value, f"must end in {', '.join(PICTURES)}")
         return str(value)
 
 
@@ -78,8 +85,15 @@ class StorePath(click.ParamType):  # type: ignore[type-arg]
     metavar="NAME.zarr",
     help="Zarr store that keeps the map; needs rodwell[map].",
 )
+@click.option("--picture", type=StorePath("picture"), metavar="FILE", help="Draw the map: PNG, SVG or PDF.")
 def map_command(
-    case: Path | None, vary: tuple[tuple[str, str], ...], as_json: bool, quiet: bool, out: str, **given: Any
+    case: Path | None,
+    vary: tuple[tuple[str, str], ...],
+    as_json: bool,
+    quiet: bool,
+    out: str,
+    picture: str | None,
+    **given: Any,
 ) -> None:
     """Map a number over one to four parameters of a problem, or of CASE, a TOML file.
 
@@ -95,6 +109,8 @@ def map_command(
     options = {name: given[name] for name in _OPTIONS}
     with _told(out), progress_bar(not quiet and not as_json, "workers start") as tell:
         result = compute(of, over=over, out=out, progress=tell, started=_telling(quiet or as_json), **options)
+    if picture is not None:
+        _draw(result, Path(picture))
     if as_json:
         print_json(result.as_dict(), indent=2)
     elif not quiet:
@@ -158,6 +174,20 @@ def _told(out: str) -> Iterator[None]:
     except KeyboardInterrupt as interrupt:
         interrupt.kept = f"what was done is kept in {printable(out)}; the same command goes on"  # type: ignore[attr-defined]
         raise
+
+
+def _draw(result: Map, picture: Path) -> None:
+    """Write the figure of a map, whole or not at all."""
+    from rodwell.plots.maps import plot_map  # noqa: PLC0415
+
+    part = picture.with_name(f".{picture.stem}.part{picture.suffix}")
+    try:
+        plot_map(result).figure.savefig(part, dpi=DPI)
+        part.replace(picture)
+    except OSError as error:
+        raise InputError("--picture", str(picture), f"cannot be written ({error.strerror})") from None
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _summary(result: Map, out: str) -> None:
