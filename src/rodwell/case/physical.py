@@ -67,6 +67,8 @@ def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalog
     problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
     facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
     facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
+    if parsed.packer is not None:
+        facts.append(Fact("packer", "as given", note="changes of length and the packer's force: `rodwell packer`"))
     until, applied, how = _end_force(load, parsed, problem, scales, rod, fluids)
     return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how))
 

@@ -178,7 +178,7 @@ def _told(out: str) -> Iterator[None]:
 
 def _draw(result: Map, picture: Path) -> None:
     """Write the figure of a map, whole or not at all."""
-    from rodwell.plots.maps import plot_map  # noqa: PLC0415
+    from rodwell.plots.maps.figure import plot_map  # noqa: PLC0415
 
     part = picture.with_name(f".{picture.stem}.part{picture.suffix}")
     try:
