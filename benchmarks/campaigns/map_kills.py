@@ -174,7 +174,7 @@ def trial(seed: int, whole: dict[str, bytes], seconds: dict[bool, float], cluste
         hidden = [entry.name for entry in Path(folder).iterdir() if entry.name != "map.zarr"]
         part = [name for name in now if name.endswith(".partial")]
     return {"seed": seed, "target": target, "after": after, "hangs": status is None, "ended_by_itself": status == 0,
-            "chunks_left": len(kept), "mixed": mixed(left, whole), "next_run": again, "equal": there == whole,
+            "seconds": [seconds[True], seconds[False]], "chunks_left": len(kept), "mixed": mixed(left, whole), "next_run": again, "equal": there == whole,
             "done_again": touched, "hidden": hidden, "partial": part}  # fmt: skip
 
 
@@ -212,7 +212,9 @@ def main() -> None:
     cluster = Cluster()
     try:
         with undisturbed() as whole, PART.open("a") as part:
-            seconds = {True: timed(None), False: timed(cluster.address)}
+            known = done[-1].get("seconds") if done else None
+            alone, shared = known or (timed(None), timed(cluster.address))
+            seconds = {True: alone, False: shared}
             for number in range(len(done), given.kills):
                 done.append(trial(given.seed * 1_000_000 + number, whole, seconds, cluster))
                 part.write(json.dumps(done[-1]) + "\n")
