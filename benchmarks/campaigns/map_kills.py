@@ -173,9 +173,21 @@ def trial(seed: int, whole: dict[str, bytes], seconds: dict[bool, float], cluste
                    and not name.endswith(".partial") and now[name].stat().st_mtime_ns != before[name]]  # fmt: skip
         hidden = [entry.name for entry in Path(folder).iterdir() if entry.name != "map.zarr"]
         part = [name for name in now if name.endswith(".partial")]
-    return {"seed": seed, "target": target, "after": after, "hangs": status is None, "ended_by_itself": status == 0,
-            "seconds": [seconds[True], seconds[False]], "chunks_left": len(kept), "mixed": mixed(left, whole), "next_run": again, "equal": there == whole,
-            "done_again": touched, "hidden": hidden, "partial": part}  # fmt: skip
+    return {
+        "seed": seed,
+        "target": target,
+        "after": after,
+        "seconds": [seconds[True], seconds[False]],
+        "hangs": status is None,
+        "ended_by_itself": status == 0,
+        "chunks_left": len(kept),
+        "mixed": mixed(left, whole),
+        "next_run": again,
+        "equal": there == whole,
+        "done_again": touched,
+        "hidden": hidden,
+        "partial": part,
+    }
 
 
 def fault(one: dict[str, Any]) -> bool:
