@@ -70,11 +70,15 @@ def run(out: Path, scheduler: str | None) -> int:
 def ended(pid: int) -> int | None:
     """How a process ended; None if it does not."""
     until = time.monotonic() + PATIENCE
-    while time.monotonic() < until:
-        done, status = os.waitpid(pid, os.WNOHANG)
-        if done:
-            return status
-        time.sleep(0.02)
+    try:
+        while time.monotonic() < until:
+            done, status = os.waitpid(pid, os.WNOHANG)
+            if done:
+                return status
+            time.sleep(0.02)
+    except KeyboardInterrupt:
+        os.kill(pid, signal.SIGKILL)
+        raise
     os.kill(pid, signal.SIGKILL)
     os.waitpid(pid, 0)
     return None
@@ -101,8 +105,12 @@ class Cluster:
             subprocess.Popen([*python, f"distributed.cli.{name}", *options, "--no-dashboard"], **quiet)
             for name, *options in commands
         ]
-        if ended(run(Path(place) / "warm.zarr", self.address)) != 0:
-            raise RuntimeError("the cluster computes nothing")
+        try:
+            if ended(run(Path(place) / "warm.zarr", self.address)) != 0:
+                raise RuntimeError("the cluster computes nothing")
+        except BaseException:
+            self.stop()
+            raise
 
     def workers(self) -> list[int]:
         """Processes that compute: children of the one that watches over them."""
