@@ -30,9 +30,12 @@ LONG = 257
 ABOUT = 1e-6
 LEAST_ELEMENTS = 8
 
-LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {False: ((0.04, 7), (0.015, 5)), True: ((0.12, 7), (0.015, 5))}
-"""Degrees where the shortest section is short against the waves of the string: below so many radians of the mean wavenumber,
-so high a degree; of critical loads, and of branches. Round-off in the last digits of the coefficients is enlarged by the
+LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {
+    False: ((0.04, 7), (0.015, 5)),
+    True: ((0.12, 7), (0.015, 5)),
+}
+"""Degrees where the shortest section is short against the waves of the string: below so many radians of the mean
+wavenumber, so high a degree; of critical loads (False) and of branches. Round-off in the coefficients is enlarged by the
 fourth power of that ratio, and more the higher the degree, and in short elements a low degree resolves as much."""
 
 
@@ -109,9 +112,7 @@ def first_space(problem: Problem, compression: float, tension: float) -> SplineS
     return _space(problem, (-compression, -tension), least, ELEMENTS_PER_RADIAN, branch=True)
 
 
-def _space(
-    problem: Problem, loads: tuple[float, float], least: float, per_radian: float, branch: bool
-) -> SplineSpace:
+def _space(problem: Problem, loads: tuple[float, float], least: float, per_radian: float, branch: bool) -> SplineSpace:
     """Space that resolves √(|P|/b) + (a/b)^¼ and ``least`` at compressions −F from one load to the other."""
     places, section = _places(problem)
     stiffness, axial, foundation = _local(problem, places, section)
