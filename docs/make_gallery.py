@@ -16,7 +16,7 @@ ORDER = {
     "The rod in its hole": ("drill_string", "coil"),
     "Which load, which mode": ("envelope", "lift_off", "formulas", "well"),
     "After buckling": ("bifurcation_diagram", "broken_symmetry", "snap_to_coil", "column", "twist"),
-    "What the wall bears": ("guidewire", "wall_moments", "string", "helix"),
+    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "helix"),
 }
 
 CHECKED = {
@@ -33,7 +33,7 @@ CHECKED = {
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",
     "wall_moments": "T₂ from (33), integrated a second time",
-    "string": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
+    "heavy_weight": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
     "helix": "load to 1e-8 and push to 1e-7 of the closed form",
 }
 """What the tests hold each picture's numbers against."""

@@ -41,9 +41,9 @@ def drill_string() -> None:
     assert abs(found["push"]) < 1e-8
 
 
-def string() -> None:
-    """At the step the moment is continuous, the curvature jumps as the stiffness does; the wall bears the jump of M₃."""
-    problem, lift, step, sides = run("string")
+def heavy_weight() -> None:
+    """At the step the moment is continuous, the curvature jumps with the stiffness; the wall bears that of M₃."""
+    problem, lift, step, sides = run("heavy_weight")
     below, above = sides["omega2"]
     assert sides["rod_M2"][0] == pytest.approx(sides["rod_M2"][1], rel=1e-9)
     assert above / below == pytest.approx(1.0 / 0.534, rel=1e-9)
@@ -161,7 +161,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, helix, guidewire,
-        lift_off, envelope, formulas, twist, wall_moments, well, column,
+        lift_off, envelope, formulas, twist, wall_moments, heavy_weight, well, column,
     )
 }  # fmt: skip
 

@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.answers.data.along import Along
-from rodwell.plots.string import mark_steps
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem

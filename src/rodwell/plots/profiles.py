@@ -12,7 +12,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
-from rodwell.plots.string import mark_steps
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.quantities.scales import Scales

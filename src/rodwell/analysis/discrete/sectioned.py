@@ -35,8 +35,8 @@ LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {
     True: ((0.12, 7), (0.015, 5)),
 }
 """Degrees where the shortest section is short against the waves of the string: below so many radians of the mean
-wavenumber, so high a degree; of critical loads (False) and of branches. Round-off in the coefficients is enlarged by the
-fourth power of that ratio, and more the higher the degree, and in short elements a low degree resolves as much."""
+wavenumber, so high a degree; of critical loads (False) and of branches. Round-off in the coefficients is enlarged by
+the fourth power of that ratio, and more the higher the degree, and in short elements a low degree resolves as much."""
 
 
 def _places(problem: Problem) -> tuple[FloatArray, IntArray]:

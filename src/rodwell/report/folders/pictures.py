@@ -21,7 +21,7 @@ from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
-from rodwell.plots.string import name_sections, plot_string
+from rodwell.plots.sections import name_sections, plot_string
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
 

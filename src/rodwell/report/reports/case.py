@@ -15,8 +15,8 @@ from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
 from rodwell.quantities.text import minus
 from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
+from rodwell.report.reports.sections import string_section
 from rodwell.report.reports.strength import strength_sections
-from rodwell.report.reports.string import string_section
 from rodwell.report.reports.texts import (
     PLAIN_UNITS,
     certificate,

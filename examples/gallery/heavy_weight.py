@@ -44,4 +44,4 @@ def main():
 
 if __name__ == "__main__":
     figure, _ = main()
-    figure.savefig("string.png", dpi=150)
+    figure.savefig("heavy_weight.png", dpi=150)
