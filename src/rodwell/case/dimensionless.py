@@ -17,6 +17,7 @@ def check_sections(parsed: schema.CaseFile) -> None:
         "supports": "a dimensionless case has no capacities",
         "mud": "the weight of a dimensionless case is that in its fluids",
         "pressure": "the forces of a dimensionless case are effective ones",
+        "packer": "changes of length are those of a pipe",
         "catalogue": "a dimensionless case has no pipe",
         "units": "results of a dimensionless case are in units of B and L",
     }

@@ -84,6 +84,8 @@ def physical(
     else:
         facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
     facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
+    if parsed.packer is not None:
+        facts.append(Fact("packer", "as given", note="changes of length and the packer's force: `rodwell packer`"))
     at_end = rod if string is None else string.at_end(load.at == "bottom")
     until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids)
     return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string)

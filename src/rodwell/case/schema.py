@@ -16,6 +16,7 @@ from rodwell.case.kinds import (
     Density,
     End,
     Ends,
+    Expansion,
     FluidDensity,
     Force,
     ForceKind,
@@ -24,6 +25,7 @@ from rodwell.case.kinds import (
     InnerLength,
     Length,
     Moment,
+    Motion,
     Name,
     Number,
     Numbers,
@@ -32,6 +34,7 @@ from rodwell.case.kinds import (
     Pressure,
     Stiffness,
     Stress,
+    TemperatureChange,
     TorsionalStiffness,
     Units,
 )
@@ -172,6 +175,39 @@ class PressureAtEnd(SectionInput):
     outside: Pressure = _key(0.0, "around the rod at s = 1", "1500 psi", "10 MPa")
 
 
+class PackerInput(SectionInput):
+    """[packer]: tubing in a packer that goes from the state of [mud] and [pressure] to another."""
+
+    bore: Length = _key(REQUIRED, "diameter of the packer's bore, in which the seals slide", "3.25 in")
+    motion: Motion = _key(
+        REQUIRED, "how much of its motion the packer allows the tubing; `some` needs `up`, `down` or both", "all"
+    )
+    up: InnerLength | None = _key(None, "how far the seals may move up from where they were landed", "2.5 ft")
+    down: InnerLength | None = _key(None, "how far they may move down; `0 m`: landed on the packer", "0 m")
+    slack_off: PositiveForce | None = _key(
+        None, "weight set down on the packer when the tubing was landed, a compression without a sign", "20000 lbf"
+    )
+    pick_up: PositiveForce | None = _key(
+        None, "force with which the tubing pulled at the packer when it was landed, instead of `slack_off`", "50 kN"
+    )
+    inside: FluidDensity | None = _key(
+        None, "of the fluid in the tubing afterwards; that of `[mud]` if not given", "15 lb/gal"
+    )
+    outside: FluidDensity | None = _key(
+        None, "of the fluid around it afterwards; that of `[mud]` if not given", "1010 kg/m^3"
+    )
+    inside_pressure: Pressure | None = _key(
+        None, "in the tubing at the upper end afterwards; that of `[pressure]` if not given", "5000 psi"
+    )
+    outside_pressure: Pressure | None = _key(
+        None, "around it at the upper end afterwards; that of `[pressure]` if not given", "1000 psi"
+    )
+    temperature_change: TemperatureChange = _key(0.0, "of the tubing, the mean over its length", "-20 °F", "35 K")
+    thermal_expansion: Expansion | None = _key(
+        None, "coefficient of the tubing, needed with `temperature_change`", "6.9e-6 /°F", "12.4e-6 /K"
+    )
+
+
 class CatalogueFiles(SectionInput):
     """[catalogue]: the user's own pipes, materials and grades."""
 
@@ -246,6 +282,7 @@ class CaseFile(SectionInput):
     analysis: Analysis = Analysis()
     mud: Mud | None = None
     pressure: PressureAtEnd | None = None
+    packer: PackerInput | None = None
     catalogue: CatalogueFiles | None = None
     units: Units | None = _key(None, "units of the results; `si` if not given", "field")
     study: StrictBool | None = _key(

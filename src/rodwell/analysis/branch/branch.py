@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rodwell.analysis.branch.control import Controlled
 from rodwell.analysis.branch.functionals import Number, number_of
 from rodwell.analysis.branch.record import BranchRecord
 from rodwell.analysis.branch.special import END, LIFT_OFF, Origin, SpecialPoint
@@ -105,6 +106,14 @@ class Branch(BranchRecord, Shown):
         if label not in self.labels:
             raise unknown_name("label", label, self.labels)
         return self.labels[label]
+
+    def under(self, control: str) -> Controlled:
+        """Return the branch as it is under another control: "shortening" of a branch in the force, "rotation" in twist.
+
+        Its states are the same; stability index and folds are those where the approach of the ends or the rotation of
+        the end s = 1 is held in place of the load: see :class:`rodwell.analysis.branch.control.Controlled`.
+        """
+        return Controlled(self, control)
 
     @cached_property
     def certificates(self) -> FloatArray:

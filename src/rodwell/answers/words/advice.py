@@ -166,7 +166,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
         out.append(
             'Give inputs that are not known well with their uncertainty ("30 m ± 0.1 m"): the loads then get one too.'
         )
-    if case.scales is not None:
+    if case.scales is not None and not case.problem.sections:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
     else:
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")

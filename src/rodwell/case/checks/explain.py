@@ -22,6 +22,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "analysis": schema.Analysis,
     "mud": schema.Mud,
     "pressure": schema.PressureAtEnd,
+    "packer": schema.PackerInput,
     "catalogue": schema.CatalogueFiles,
 }
 """Sections of a case file."""

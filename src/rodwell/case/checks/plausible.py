@@ -65,6 +65,8 @@ _PRESSURE = Range(0.0, 4e8, "pressure", "pressures reach 400 MPa", (1e5, 2e8), o
 _FORCE = Range(0.0, 3e8, "force", "loads reach 300 MN (legs of platforms)", (1e-3, 5e6), or_zero=True)
 _MOMENT = Range(0.0, 1e8, "moment", "torques reach 100 MN m", (1e-6, 1e5), or_zero=True)
 
+_STROKE = Range(0.0, 500.0, "length", "seals slide up to 500 m", (0.01, 100.0), or_zero=True)
+
 _STIFFNESS = Range(
     1e-20, 1e13, "bending stiffness", "stiffnesses are from 1e-20 N m² (fibres) to 1e13 N m² (legs of platforms)",
     (1e-9, 1e9),
@@ -103,6 +105,21 @@ RANGES: dict[str, Range] = {
     "mud.outside": _FLUID,
     "pressure.inside": _PRESSURE,
     "pressure.outside": _PRESSURE,
+    "packer.bore": _HOLE,
+    "packer.up": _STROKE,
+    "packer.down": _STROKE,
+    "packer.slack_off": _FORCE,
+    "packer.pick_up": _FORCE,
+    "packer.inside": _FLUID,
+    "packer.outside": _FLUID,
+    "packer.inside_pressure": _PRESSURE,
+    "packer.outside_pressure": _PRESSURE,
+    "packer.temperature_change": Range(
+        0.0, 600.0, "temperature change", "tubing warms or cools by up to 600 K", (1.0, 300.0), or_zero=True
+    ),
+    "packer.thermal_expansion": Range(
+        1e-7, 5e-4, "thermal expansion", "materials expand by 1e-7 /K (Invar, glass) to 5e-4 /K (rubber)", (5e-6, 3e-5)
+    ),
     "load.until": _FORCE,
     "load.applied": _FORCE,
     "load.twist": _MOMENT,
@@ -123,6 +140,8 @@ UNITS: dict[str, tuple[str, ...]] = {
     "force per length": ("N/m", "lbf/ft", "mN/m", "N/mm"),
     "bending stiffness": ("N m^2", "N mm^2", "lbf in^2", "kN m^2", "N cm^2"),
     "acceleration": ("m/s^2", "ft/s^2", "cm/s^2"),
+    "temperature change": ("K", "°F", "°C"),
+    "thermal expansion": ("/K", "/°F", "/°C"),
 }
 """Units that may have been meant, the likeliest first."""
 

@@ -11,7 +11,7 @@ SECTIONS_ELSEWHERE = {
     "rod.youngs_modulus and the load as they are at that temperature",
     "thermal": "is out of scope in this version: thermal strain is not treated; leave it out",
     "well": "is out of scope in this version: a case is one rod in a straight hole; for a whole well take "
-    "`rodwell screen SURVEY --case CASE`",
+    "`rodwell screen SURVEY --case CASE`, for torque and drag `rodwell drag WELL`",
     "report": "is out of scope in this version: the report takes its heading from `title` at the top of the file",
     "survey": "is not part of a case file: give it on the command line, `rodwell screen SURVEY --case CASE`",
     "torque": "is not a section; the end twisting moment is load.twist",
