@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from rodwell.errors import InputError
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import refuse_sections
 
 
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
+    refuse_sections(
+        problem.sections,
+        "a rod of sections is followed on the wall only: its path off the wall is not computed; ask for its branches "
+        "and lift-off, or for the path of a uniform rod",
+    )
     if problem.outside:
         raise InputError(
             "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"

@@ -85,4 +85,5 @@ class Rods:
 def data_of(problem: Problem) -> dict[str, Any]:
     """A problem as plain data, by name."""
     names = ("weight", "alpha", "clearance", "twist", "poisson", "torsion", "turns", "on_top", "outside")
-    return {name: getattr(problem, name) for name in names} | {"ends": "-".join(problem.ends)}
+    sections = {"sections": [list(section) for section in problem.sections]} if problem.sections else {}
+    return {name: getattr(problem, name) for name in names} | {"ends": "-".join(problem.ends), **sections}
