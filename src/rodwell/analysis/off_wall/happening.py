@@ -9,7 +9,7 @@ from rodwell.analysis.off_wall.conditions import Condition, PatternedState, cond
 from rodwell.numerics.stretches.newton import Solved
 from rodwell.numerics.stretches.walk import Motion, tangent
 
-FOLD, BRANCH_POINT, END = "fold", "branch_point", "end"
+FOLD, BRANCH_POINT, END, LOAD_PEAK = "fold", "branch_point", "end", "load_peak"
 
 TOGETHER = 1e-5
 """Conditions vanish together whose values at the place are this much smaller than at the end of the step."""
