@@ -23,7 +23,7 @@ from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
 
-MOST_DEGREES = 6
+MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
 
 FLAT = 1e-6
