@@ -87,7 +87,13 @@ def _followed(problem: rodwell.Problem) -> dict[str, Any]:
         for state in run[:: max(1, len(run) // LOOKED_AT)]:
             faults += _faults(state)
     kinds = [event.kind for event in path.events]
-    return {"faults": faults, "kinds": kinds, "reached": path.reached, "why": path.ended_because, "missed": list(path.missed)}
+    return {
+        "faults": faults,
+        "kinds": kinds,
+        "reached": path.reached,
+        "why": path.ended_because,
+        "missed": list(path.missed),
+    }
 
 
 def _faults(state: Any) -> list[str]:

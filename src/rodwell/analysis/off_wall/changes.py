@@ -40,7 +40,8 @@ FIRST_CONTACT = 5e-4
 SHORTEST_CONTACT = 1.2e-4
 """Length below which no contact stretch starts, though what happens next is passed over with it."""
 
-HALVINGS = 6
+HALVINGS, ALONE = 6, 3
+"""How often a first gap is halved, and how often before others open with it that would be next."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
          GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
@@ -89,7 +90,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
     half, first = part * FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
     vanished = list(vanished)
     contact, last = 2.2 * FIRST_CONTACT, None
-    for _ in range(HALVINGS):
+    for tried in range(HALVINGS):
         plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
         for condition in sorted(vanished, key=lambda one: -one.s):
             _EDITS[condition.kind](plan, condition)
@@ -101,7 +102,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
             last = Changed(found, _growing(first, found, plan), NAMES[first.kind])
             if not hurt or first.kind not in (OPENS, GROWS, GROWS_AT_END):
                 return last
-            spots = [one.s for one in hurt if one.kind == OPENS]
+            spots = [one.s for one in hurt if one.kind == OPENS and tried >= ALONE]
             known = [one.s for one in vanished]
             vanished += [
                 one for one in conditions(state)
