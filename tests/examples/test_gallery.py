@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
 
+import rodwell
+
 GALLERY = Path(__file__).resolve().parents[2] / "examples" / "gallery"
 PI2 = np.pi**2
 
@@ -106,6 +108,16 @@ def lift_off() -> None:
     assert found["after_buckling"]
 
 
+def lift_off_map() -> None:
+    """The horizontal rod changes its mode at γ = 62.34181826, (77), (78); loads are those of single problems."""
+    found = run("lift_off_map")
+    assert found["counts"] == {"converged": 240}
+    assert any(low <= 62.34181826 <= high for low, high in zip(found["low"], found["high"], strict=True))
+    alone = rodwell.follow(rodwell.Problem(found["weights"][3], 90.0)).lift_off
+    assert alone is not None
+    assert found["values"][3, -1] == alone.force
+
+
 def envelope() -> None:
     """4π² without weight; double points of (78): γ = n²m²π⁴Δ, F = −(n² + m²)π²."""
     found = run("envelope")
@@ -154,11 +166,20 @@ def column() -> None:
     assert abs(found["self_weight"]) < 1e-6
 
 
+def endless() -> None:
+    """Mean contact forces at β = 3, known from two other programs; the least one vanishes at lift-off."""
+    found = run("endless")
+    assert found["sinusoidal_at_3"] == pytest.approx(1.38468435, abs=1e-8)
+    assert found["helical_at_3"] == pytest.approx(2.24863072, abs=1e-8)
+    for load, kind in zip(found["lifts_off"], ("sinusoidal", "helical"), strict=True):
+        assert abs(rodwell.local_state(load, kind).contact_least) < 1e-9
+
+
 CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
-        lift_off, envelope, formulas, twist, wall_moments, well, column,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, well, column, endless,
     )
 }  # fmt: skip
 
