@@ -3,13 +3,15 @@
     python benchmarks/campaigns/paths.py [--count 100] [--workers 2]
 
 Problem number i comes from the seed (SEED, i) alone, so the campaign can be stopped and taken up again: what is done
-stands in ``paths.jsonl``, a line for each problem, and the summary in ``paths.json``. A problem has a weight of 1 to 300,
-an inclination of 20 to 90 degrees, a clearance of 1e-3 to 0.05, any ends but loose ones, and twist in half of them. A
-*fault* is
+stands in ``paths.jsonl``, a line for each problem, and the summary in ``paths.json``. A problem has a weight of 1 to
+300, an inclination of 20 to 90 degrees, a clearance of 1e-3 to 0.05, any ends but loose ones, and twist in half of
+them. A *fault* is
 
 - an exception other than those that say what is wrong with the input or could not be computed;
-- a state along the path that reaches more than 1e-8 Δ into the wall, or contact that pulls by more than 1e-7 of the load;
-- balance along the rod, or a point force by two routes, missed by more than 1e-7 of the end force, in the states looked at;
+- a state along the path that reaches more than 1e-8 Δ into the wall, or contact that pulls by more than 1e-7 of the
+  load;
+- balance along the rod, or a point force by two routes, missed by more than 1e-7 of the end force, in the states
+  looked at;
 - a change of the stability index without an event.
 
 A path that cannot be followed to its end is no fault, if it says why; how many there are stands in the summary.
@@ -25,6 +27,7 @@ import platform
 import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +67,7 @@ def trial(number: int) -> dict[str, Any]:
         out |= _followed(problem)
     except rodwell.RodwellError as error:
         out["refused"] = str(error)
-    except Exception as error:  # noqa: BLE001 - that is what is looked for
+    except Exception as error:
         out["faults"].append(f"{type(error).__name__}: {error}")
     out["seconds"] = round(time.perf_counter() - began, 1)
     return out
@@ -79,7 +82,7 @@ def _followed(problem: rodwell.Problem) -> dict[str, Any]:
     faults: list[str] = []
     for run in path.legs[0].runs:
         marked = [event.force.value for event in path.events]
-        for before, state in zip(run[:-1], run[1:], strict=True):
+        for before, state in pairwise(run):
             low, high = sorted((before.load, state.load))
             slack = 1e-3 * abs(state.load)
             if before.solved.index != state.solved.index and not any(low - slack <= f <= high + slack for f in marked):

@@ -186,9 +186,16 @@ def test_the_bifurcation_of_a_heavier_rod() -> None:
 
 @pytest.mark.parametrize(
     ("field", "change"),
-    [("outside", {"outside": True}), ("on_top", {"on_top": True}), ("turns", {"turns": 1}), ("weight", {"weight": 0.0}),
-     ("alpha", {"alpha": 0.0}), ("ends", {"ends": "loose-clamped"})],
-)  # fmt: skip
+    [
+        ("outside", {"outside": True}),
+        ("on_top", {"on_top": True}),
+        ("turns", {"turns": 1}),
+        ("weight", {"weight": 0.0}),
+        ("alpha", {"alpha": 0.0}),
+        ("sections", {"sections": ((0.6, 1.0, 1.0), (0.4, 0.5, 1.0))}),
+        ("ends", {"ends": "loose-clamped"}),
+    ],
+)
 def test_what_has_no_path_is_refused_with_the_reason(field: str, change: dict) -> None:
     problem = rodwell.Problem(**{"weight": 15.0, **change})
     with pytest.raises(InputError) as caught:

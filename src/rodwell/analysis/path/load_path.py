@@ -249,8 +249,8 @@ def load_path(
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
-    first_run.begin()
     checked_problem(problem)
+    first_run.begin(problem)
     rtol, way = checked_rtol(rtol), checked_control(control)
     until, unload_to = checked_range(way, until, unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
