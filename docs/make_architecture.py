@@ -33,6 +33,7 @@ PURPOSE = {
     "studies/sweep": "lists and ranges\nin a case file",
     "studies/packer": "tubing: changes\nof length",
     "studies/well": "a survey, station\nby station",
+    "studies/drag": "torque and drag\nof a well",
     "studies/audit": "formulas beside\nexact loads",
     "studies/paper": "every number,\nrecomputed",
     "answers": "",

@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_drag
 import make_endless
 import make_formulas
 import make_howto
@@ -52,6 +53,7 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_drag.COMMANDS,
     **make_long.COMMANDS,
     **make_endless.COMMANDS,
     **make_packer.COMMANDS,
@@ -60,7 +62,8 @@ COMMANDS = {
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_long", "make_wells", "make_endless", "make_packer", "make_braid", "make_report",
+    "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
+    "make_report",
     "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""

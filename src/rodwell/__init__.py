@@ -33,9 +33,11 @@ _HOME = {
     "CriticalLoads": "rodwell.analysis.straight.critical",
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
+    "Drag": "rodwell.studies.drag.drag",
     "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
     "LocalState": "rodwell.analysis.endless.local",
+    "LoadPath": "rodwell.analysis.path.load_path",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
@@ -50,6 +52,7 @@ _HOME = {
     "Study": "rodwell.studies.sweep.study",
     "Survey": "rodwell.studies.well.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
+    "Well": "rodwell.studies.drag.well_case",
     "WallTouch": "rodwell.analysis.straight.without_wall",
     "branch_off": "rodwell.analysis.branch.follow",
     "certify": "rodwell.analysis.proof.certify",
@@ -57,6 +60,7 @@ _HOME = {
     "critical_curves": "rodwell.analysis.curves.critical",
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
+    "drag": "rodwell.studies.drag.drag",
     "endless": "rodwell.analysis.endless.endless",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
@@ -67,6 +71,7 @@ _HOME = {
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "load_path": "rodwell.analysis.path.load_path",
     "load_branch": "rodwell.store.restart",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
@@ -103,6 +108,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.path.load_path import LoadPath, load_path
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate
@@ -117,6 +123,8 @@ if TYPE_CHECKING:
     from rodwell.report.folders.export import export
     from rodwell.store.restart import load_branch, save_branch
     from rodwell.studies.audit.audit import Audit, audit
+    from rodwell.studies.drag.drag import Drag, drag
+    from rodwell.studies.drag.well_case import Well
     from rodwell.studies.packer.packer import PackerAnswer, packer
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen

@@ -17,6 +17,7 @@ from rodwell.cli.audit import audit
 from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
 from rodwell.cli.critical import critical
+from rodwell.cli.drag import drag
 from rodwell.cli.endless import endless
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
@@ -25,6 +26,7 @@ from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.packer import packer
 from rodwell.cli.paper import paper
+from rodwell.cli.path import path
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
@@ -46,8 +48,8 @@ def cli() -> None:
 
 
 for command in (
-    *(run, screen, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, endless, export, init, keys, catalogue, paper),
+    *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(diagram, curve, path, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 

@@ -33,6 +33,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
     "torsional stiffness": ("N*m^2", '"7.5e5 N m^2", "1800 N·mm²"'),
     "acceleration": ("m/s^2", '"9.80665 m/s^2"'),
+    "speed": ("m/s", '"20 m/h", "60 ft/h", "0.3 m/s"'),
     "temperature change": ("K", '"-20 °F", "35 K"'),
     "thermal expansion": ("1/K", '"6.9e-6 /°F", "12.4e-6 /K"'),
 }
