@@ -242,7 +242,7 @@ def _problem_attributes(problem: Problem) -> dict[str, Any]:
         "on_top": int(problem.on_top),
         "outside": int(problem.outside),
         "ends": "-".join(problem.ends),
-        **problem.given_torsion,
+        **problem.given_more,
     }
 
 

@@ -153,7 +153,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
-    first_run.begin()
+    first_run.begin(case.problem)
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)

@@ -102,7 +102,7 @@ class StudyPoint:
         force: Value | None = getattr(self, name)
         if force is None or self.case is None:
             return None
-        extra = self.case.problem.axial_weight if bottom else 0.0
+        extra = self.case.problem.hung_weight if bottom else 0.0
         return Value(extra - force.value, force.error).times(self.factor("force"))
 
 

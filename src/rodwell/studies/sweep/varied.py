@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
+from rodwell.case.string import check_beside
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 from rodwell.quantities.written import number_and_rest, remedy
@@ -116,6 +117,12 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
     """
     out = []
     for section, values in data.items():
+        if section == "string":
+            check_beside(data.get("rod", {}), values)
+            for number, name, value in _ranges_of(values):
+                what = "cannot vary: a study goes over keys of [rod], [hole], [mud] and [load]; give one value"
+                raise InputError(f"string {number}.{name}", value, what)
+            continue
         if not isinstance(values, Mapping):
             if isinstance(values, list):
                 raise InputError(section, values, "cannot vary")
@@ -136,6 +143,14 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
         sizes = " × ".join(str(len(varied.values)) for varied in out)
         raise InputError(out[-1].name, None, f"makes {sizes} = {count} points; at most {MOST_POINTS}: use fewer values")
     return tuple(out)
+
+
+def _ranges_of(sections: list[Any]) -> Iterator[tuple[int, str, object]]:
+    """Ranges in the sections of a string: number, key and what was written."""
+    for number, section in enumerate(sections, 1):
+        for name, value in section.items() if isinstance(section, Mapping) else ():
+            if is_varied(value):
+                yield number, name, value
 
 
 def _range(section: str, key: str, text: str) -> Varied:
