@@ -225,7 +225,7 @@ def load_path(
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
-    first_run.begin()
+    first_run.begin(problem)
     checked_problem(problem)
     until, rtol = checked_force("until", until), checked_rtol(rtol)
     unload_to = None if unload_to is None else checked_force("unload_to", unload_to)
