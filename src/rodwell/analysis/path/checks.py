@@ -24,10 +24,6 @@ def checked_problem(problem: Problem) -> None:
         raise InputError("on_top", True, "nothing presses a rod on top to the wall: its path begins at the bottom")
     if problem.turns:
         raise InputError("turns", problem.turns, "a load path begins with the straight rod: leave turns at 0")
-    if problem.sections:
-        raise InputError(
-            "sections", problem.sections, "a load path off the wall is that of a uniform rod: leave the sections out"
-        )
     if problem.lateral_weight == 0.0:
         field, value = ("weight", problem.weight) if problem.weight == 0.0 else ("alpha", problem.alpha)
         raise InputError(
