@@ -15,7 +15,15 @@ DPI = 140
 ORDER = {
     "The rod in its hole": ("drill_string", "coil"),
     "Which load, which mode": ("envelope", "lift_off", "formulas", "well"),
-    "After buckling": ("bifurcation_diagram", "broken_symmetry", "snap_to_coil", "endless", "column", "twist"),
+    "After buckling": (
+        "bifurcation_diagram",
+        "broken_symmetry",
+        "snap_to_coil",
+        "load_path",
+        "endless",
+        "column",
+        "twist",
+    ),
     "What the wall bears": ("guidewire", "wall_moments", "helix"),
 }
 
@@ -30,6 +38,8 @@ CHECKED = {
     "broken_symmetry": "the same two loads, Fig. 4; the odd shape needs no torque at the support",
     "snap_to_coil": "energies of an interior-point method that lets the rod leave the wall, to 1e-6",
     "endless": "contact forces at β = 3, of two other programs, to 1e-8; where the wall begins to pull",
+    "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
+    "and −103.6731326",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",

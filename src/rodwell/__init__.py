@@ -37,6 +37,7 @@ _HOME = {
     "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
     "LocalState": "rodwell.analysis.endless.local",
+    "LoadPath": "rodwell.analysis.path.load_path",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
@@ -70,6 +71,7 @@ _HOME = {
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "load_path": "rodwell.analysis.path.load_path",
     "load_branch": "rodwell.store.restart",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
@@ -106,6 +108,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.path.load_path import LoadPath, load_path
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate

@@ -76,6 +76,15 @@ def snap_to_coil() -> None:
         assert error < 1e-9
 
 
+def load_path() -> None:
+    """Two other programs: lift-off, limit point and snap, the helix lifts off, its limit point."""
+    found = run("load_path")
+    assert found["loading fold"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["loading snap"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["unloading lift_off"] == pytest.approx(-109.8311707, abs=2e-7)
+    assert found["unloading fold"] == pytest.approx(-103.6731326, abs=1e-7)
+
+
 def helix() -> None:
     """F = −(2B/Δ²) sin²η cos η and p = −B sin⁴η/Δ³; the largest load is 4/(3√3) B/Δ²."""
     found = run("helix")
@@ -159,7 +168,7 @@ def endless() -> None:
 CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
-        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, helix, guidewire,
+        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
         lift_off, envelope, formulas, twist, wall_moments, well, column, endless,
     )
 }  # fmt: skip

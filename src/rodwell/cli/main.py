@@ -26,6 +26,7 @@ from rodwell.cli.keys import keys
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.packer import packer
 from rodwell.cli.paper import paper
+from rodwell.cli.path import path
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
@@ -48,7 +49,7 @@ def cli() -> None:
 
 for command in (
     *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, endless, export, init, keys, catalogue, paper),
+    *(diagram, curve, path, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 

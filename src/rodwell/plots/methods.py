@@ -16,6 +16,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.discrete.measures import Measured, measured
 from rodwell.analysis.endless.endless import Endless
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
@@ -26,6 +27,7 @@ from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
 from rodwell.plots.packer import plot_packer
+from rodwell.plots.path import plot_path
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
@@ -120,6 +122,11 @@ def _(result: Endless, axes: Any, **options: Any) -> Any:
 @_plot.register
 def _(result: PackerAnswer, axes: Any) -> Any:
     return plot_packer(result, ax=axes)
+
+
+@_plot.register
+def _(result: LoadPath, axes: Any) -> Any:
+    return plot_path(result, ax=axes)
 
 
 @_plot.register

@@ -10,6 +10,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.endless.endless import Endless
 from rodwell.analysis.endless.state import NUMBERS
+from rodwell.analysis.path.load_path import ASSUMPTIONS, LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
@@ -151,6 +152,24 @@ def _(result: PackerAnswer) -> Card:
     cells = tuple((str(row[0]), *(f"{x:.6g}" for x in row[1:3]), *map(str, row[3:])) for row in table.rows)
     title, *more = packer_sentences(result)
     return Card(result.case.title, (title, *more), (Grid(table.columns, cells, (1, 2)),), " ".join(SIGNS[:2]))
+
+
+@card.register
+def _(result: LoadPath) -> Card:
+    ended = "followed to the end" if result.reached else f"not followed to the end: {result.ended_because}"
+    rows = tuple(
+        (
+            event.leg,
+            event.meaning,
+            number(event.force),
+            short(event.force.error),
+            ", ".join(f"{s:.6g}" for s in event.s),
+        )
+        for event in result.events
+    )
+    grid = Grid(("leg", "what", "F in B/L²", "± error", "s/L"), rows, (2, 3))
+    lines = (_problem(result.problem), ended, _converged(not result.missed))
+    return Card("Load path", lines, (grid,), f"{FORCE} {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
 
 
 @card.register
