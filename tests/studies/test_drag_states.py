@@ -18,6 +18,7 @@ from rodwell.studies.drag.limits import limit_compression
 from rodwell.studies.drag.lock_up import reach, transfer
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.run import balance, run
+from rodwell.studies.drag.strength import load_of
 from rodwell.studies.well.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
@@ -217,3 +218,20 @@ def test_limits_in_a_vertical_hole_are_zero() -> None:
     survey = Survey.of([0.0, 500.0], [0.0, 0.0])
     one = run(cutter(survey), operation("pull-out", survey), STRAIGHT_LAW)
     assert limit_compression(one, 2.0) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_string_that_was_run_in_as_a_helix_stays_one_while_it_is_reamed() -> None:
+    """Running in loads the upper end beyond lift-off; reaming, the force is less, but the helix lasts."""
+    survey = horizontal(5200.0)
+    history = History(cutter(survey), exact())
+    into = run_with_history(history, operation("run-in", survey), "late")
+    assert load_of(into)[-1] > LIMITS.sinusoidal_lift_off.value
+    around = 0.06 * math.sqrt(1.0 / 0.8**2 - 1.0) / 0.0635  # so that 0.8 of the friction acts along the hole
+    ream = operation("ream", survey, speed=0.06, turning=around)
+    never = run_with_history(history, ream, "late")
+    kept = run_with_history(history, ream, "history")
+    top = load_of(never)[-1]
+    assert LIMITS.helix_lift_off.value < top < LIMITS.sinusoidal_lift_off.value
+    assert never.states[-1] == SINUSOIDAL
+    assert kept.states[-1] == HELICAL
+    assert kept.force < never.force
