@@ -36,6 +36,7 @@ PURPOSE = {
     "studies/drag": "torque and drag\nof a well",
     "studies/audit": "formulas beside\nexact loads",
     "studies/paper": "every number,\nrecomputed",
+    "studies/maps": "one number of\nmany problems",
     "answers": "",
     "answers/data": "as tables and plain data",
     "answers/words": "what it means, in sentences",

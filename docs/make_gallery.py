@@ -14,7 +14,7 @@ DPI = 140
 
 ORDER = {
     "The rod in its hole": ("drill_string", "coil"),
-    "Which load, which mode": ("envelope", "lift_off", "formulas", "well"),
+    "Which load, which mode": ("envelope", "lift_off", "lift_off_map", "formulas", "well"),
     "After buckling": (
         "bifurcation_diagram",
         "broken_symmetry",
@@ -33,6 +33,7 @@ CHECKED = {
     "coil": "two turns are 4π, the material lines turn at −T₁/C, (32); stable, in contact everywhere",
     "envelope": "4π² without weight; double points at γ = n²m²π⁴Δ, F = −(n² + m²)π², (78)",
     "lift_off": "−123.1730743 B/L² for the horizontal rod, from AUTO-07p; lift-off comes after buckling",
+    "lift_off_map": "the double point γ = 62.34181826 of (77), (78) is between the sides of a jump",
     "formulas": "ratio 2nm/(n² + m²) where modes switch, (78)",
     "well": "the formula by hand for the horizontal part; the exact load of a long rod within 1 % above it",
     "bifurcation_diagram": "secondary bifurcations at −362.63 and −164.78, section 4.1.2 of the paper",

@@ -39,6 +39,7 @@ _HOME = {
     "LocalState": "rodwell.analysis.endless.local",
     "LoadPath": "rodwell.analysis.path.load_path",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
+    "Map": "rodwell.studies.maps.result",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
     "PackerAnswer": "rodwell.studies.packer.packer",
@@ -74,6 +75,7 @@ _HOME = {
     "load_path": "rodwell.analysis.path.load_path",
     "load_branch": "rodwell.store.restart",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
+    "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
     "packer": "rodwell.studies.packer.packer",
@@ -121,10 +123,12 @@ if TYPE_CHECKING:
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.export import export
+    from rodwell.store.mapping import map  # noqa: A004
     from rodwell.store.restart import load_branch, save_branch
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.drag.drag import Drag, drag
     from rodwell.studies.drag.well_case import Well
+    from rodwell.studies.maps.result import Map
     from rodwell.studies.packer.packer import PackerAnswer, packer
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen

@@ -122,6 +122,16 @@ def lift_off() -> None:
     assert found["after_buckling"]
 
 
+def lift_off_map() -> None:
+    """The horizontal rod changes its mode at γ = 62.34181826, (77), (78); loads are those of single problems."""
+    found = run("lift_off_map")
+    assert found["counts"] == {"converged": 240}
+    assert any(low <= 62.34181826 <= high for low, high in zip(found["low"], found["high"], strict=True))
+    alone = rodwell.follow(rodwell.Problem(found["weights"][3], 90.0)).lift_off
+    assert alone is not None
+    assert found["values"][3, -1] == alone.force
+
+
 def envelope() -> None:
     """4π² without weight; double points of (78): γ = n²m²π⁴Δ, F = −(n² + m²)π²."""
     found = run("envelope")
@@ -183,7 +193,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
-        lift_off, envelope, formulas, twist, wall_moments, well, column, endless, lock_up,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, well, column, endless, lock_up,
     )
 }  # fmt: skip
 

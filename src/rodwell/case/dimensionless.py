@@ -50,7 +50,7 @@ def dimensionless(
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
-    more = problem.axial_weight if bottom else 0.0
+    more = problem.hung_weight if bottom else 0.0
     until = None if load.until is None else load.until + more
     applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
     check_reach(until, applied)

@@ -61,10 +61,10 @@ class SectionInput(BaseModel):
 POISSON, RTOL = "above -1 and at most 0.5", "from 1e-11 to 0.01"
 
 
-class RodInput(SectionInput):
-    """[rod]: the pipe, rod or wire."""
+class PipeInput(SectionInput):
+    """What a pipe, rod or wire is, whole or a section of a string."""
 
-    length: Length = _key(REQUIRED, "length L between the ends", "30 m", "300 ft")
+    length: Length | None = _key(None, "length of the section", "30 m", "300 ft")
     outer_diameter: Length | None = _key(
         None, "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids", "5 in", "0.89 mm"
     )
@@ -82,7 +82,6 @@ class RodInput(SectionInput):
         "19.5 lbf/ft", "0.04 N/m",
     )  # fmt: skip
     poisson: Number = _key(0.3, "Poisson's ratio ν; that of the `material` if not given", 0.3, allowed=POISSON)
-    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
     pipe: Name | None = _key(
         None, "name in the catalogue (`rodwell catalogue`), instead of diameters, modulus and weight",
         "5 in 19.5 lb/ft drill pipe",
@@ -90,6 +89,29 @@ class RodInput(SectionInput):
     material: Name | None = _key(None, "name in the catalogue, instead of `youngs_modulus` and `density`", "steel")
     grade: Name | None = _key(None, "name in the catalogue: gives the yield strength", "S-135")
     yield_strength: Stress | None = _key(None, "of the rod, instead of `grade`", "135000 psi", "930 MPa")
+
+
+class RodInput(PipeInput):
+    """[rod]: the pipe, rod or wire; beside [[string]] its ends alone."""
+
+    length: Length = _key(REQUIRED, "length L between the ends", "30 m", "300 ft")
+    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
+
+
+class StringRod(SectionInput):
+    """[rod] beside [[string]]: what belongs to the whole."""
+
+    length: Length | None = _key(None, "length of the whole, a check of the sections' lengths", "900 m")
+    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
+
+
+class StringInput(PipeInput):
+    """[[string]]: a section of a string, from the bottom up; instead of the keys of the pipe in [rod]."""
+
+    length: Length | None = _key(None, "length of the section, or `joints` and `joint_length`", "90 m", "300 ft")
+    name: Name | None = _key(None, "for report and messages; that of the `pipe` if not given", "heavy-weight pipe")
+    joints: int | None = _key(None, "how many, instead of `length`", 3, strict=True, ge=1, le=100_000)
+    joint_length: Length | None = _key(None, "of one, with `joints`", "9.3 m", "30.5 ft")
 
 
 class Hole(SectionInput):
@@ -251,6 +273,7 @@ class CaseFile(SectionInput):
 
     title: str | None = _key(None, "for report and summary; the name of the file if not given", "Drill pipe at 30°")
     rod: RodInput | None = None
+    string: tuple[StringInput, ...] | None = None
     hole: Hole | None = None
     cylinder: CylinderInput | None = None
     supports: Supports | None = None

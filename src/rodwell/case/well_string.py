@@ -70,7 +70,7 @@ def string_sections(
         length = _length(part, i, last=i == len(parts) - 1)
         given = part.model_copy(update={"length": length})
         try:
-            rod = physical_rod(given, gravity, catalogue)
+            rod = physical_rod(given, gravity, catalogue, length)
             fluids = fluids_of(mud, pressure, rod)
             weight = checked_weight(fluids, rod, gravity)
         except InputError as error:

@@ -23,6 +23,7 @@ from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
 from rodwell.cli.init import init
 from rodwell.cli.keys import keys
+from rodwell.cli.mapping import map_command
 from rodwell.cli.maps import curve, diagram
 from rodwell.cli.packer import packer
 from rodwell.cli.paper import paper
@@ -49,7 +50,7 @@ def cli() -> None:
 
 for command in (
     *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, path, twist, endless, export, init, keys, catalogue, paper),
+    *(diagram, curve, map_command, path, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 
@@ -107,7 +108,8 @@ def _interrupted(cause: BaseException | None) -> None:
     what, code = ("interrupted", INTERRUPTED)
     if isinstance(cause, Terminated):
         what, code = f"ended by {cause.name}", cause.exit_code
-    click.echo(f"rodwell: {what}; nothing was written", err=True)
+    kept = getattr(cause, "kept", "nothing was written")
+    click.echo(f"rodwell: {what}; {kept}", err=True)
     sys.exit(code)
 
 

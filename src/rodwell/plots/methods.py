@@ -26,6 +26,7 @@ from rodwell.plots.drag import plot_drag
 from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
+from rodwell.plots.maps.figure import plot_map
 from rodwell.plots.packer import plot_packer
 from rodwell.plots.path import plot_path
 from rodwell.plots.profiles import plot_modes
@@ -33,6 +34,7 @@ from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
 from rodwell.quantities.scales import Scales
 from rodwell.studies.drag.drag import Drag
+from rodwell.studies.maps.result import Map
 from rodwell.studies.packer.packer import PackerAnswer
 
 
@@ -112,6 +114,11 @@ def _(result: Drag, axes: Any) -> Any:
 @_plot.register
 def _(result: Curve, axes: Any) -> Any:
     return plot_curves([result], ax=axes)
+
+
+@_plot.register
+def _(result: Map, axes: Any, **options: Any) -> Any:
+    return plot_map(result, axes, **options)
 
 
 @_plot.register

@@ -13,6 +13,7 @@ from typing import Any
 from rodwell.case import schema
 from rodwell.case.checks.fit import misfits
 from rodwell.case.physical import Physical
+from rodwell.case.string import called
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import KINDS, in_unit_of, to_si
 from rodwell.quantities.written import direction, number_and_rest
@@ -166,12 +167,27 @@ def implausible(
         for key, value, text in _values(parsed, load, data)
         if not RANGES[key].holds(value)
     ]
+    out += _sections(parsed, data)
     if out or found is None:
         return out
     out = [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in _from_catalogue(parsed, found)]
     if out:
         return out
     return [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in misfits(parsed, load, found)]
+
+
+def _sections(parsed: schema.CaseFile, data: Mapping[str, Any]) -> list[Problem]:
+    """What is not plausible in the sections of a string."""
+    out: list[Problem] = []
+    for number, (one, written) in enumerate(zip(parsed.string or (), data.get("string", ()), strict=False), 1):
+        for key, allowed in RANGES.items():
+            section, _, name = key.partition(".")
+            value = getattr(one, name, None) if section == "rod" and name in one.model_fields_set else None
+            if value is not None and not allowed.holds(value):
+                out.append(
+                    (f"{called(number, one.name or '')}.{name}", written[name], _outside(allowed, written[name]))
+                )
+    return out
 
 
 def _values(
@@ -192,7 +208,8 @@ def _values(
 def _from_catalogue(parsed: schema.CaseFile, found: Physical) -> Iterator[tuple[str, str]]:
     """What a named pipe, material or grade has that is not plausible: its key, and what to say."""
     given, rod = parsed.rod, found.rod
-    assert given is not None
+    if given is None:  # sections of a string: from the catalogue of the package, or as they stand in the file
+        return
     if given.pipe is None and given.material is None and given.grade is None:
         return
     modulus = rod.stiffness / rod.inertia if rod.inertia > 0.0 and given.bending_stiffness is None else None

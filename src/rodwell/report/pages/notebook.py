@@ -27,6 +27,9 @@ from rodwell.report.reports.drag import ends_grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
 from rodwell.studies.drag.drag import Drag
 from rodwell.studies.drag.words import sentences as drag_sentences
+from rodwell.studies.maps.result import Map
+from rodwell.studies.maps.words import sentences as map_sentences
+from rodwell.studies.maps.words import title as map_title
 from rodwell.studies.packer.packer import PackerAnswer
 from rodwell.studies.packer.tables import SIGNS, packer_table
 from rodwell.studies.packer.words import sentences as packer_sentences
@@ -190,3 +193,8 @@ def _converged(met: bool) -> str:
 
 def _plain(value: float) -> str:
     return minus(f"{value:.8g}")
+
+
+@card.register
+def _(result: Map) -> Card:
+    return Card(map_title(result), tuple(map_sentences(result)), ())
