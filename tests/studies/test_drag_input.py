@@ -54,7 +54,7 @@ def test_a_good_file_is_read() -> None:
         ({"string__1": {**PIPE, "length": "3400 m"}}, "string", "is 3500 m long, the well 3400 m"),
         ({"string__0": PIPE}, "[[string]] 1, length", "only the uppermost"),
         ({"string__0": {**PIPE, "joints": 9}}, "[[string]] 1, joint_length", "is missing"),
-        ({"string__0__ends": "clamped-clamped"}, "[[string]] 1, ends", "leave it out"),
+        ({"string__0__ends": "clamped-clamped"}, "[[string]] 1, ends", "is not known"),
         ({"string__0__outer_diameter": "9 in"}, "[[hole.section]], section 1, diameter", "does not fit"),
         ({"well__operation__0__bit_force": "50 kN"}, "[[well.operation]] 1, bit_force", 'write "-50 kN"'),
         ({"well__operation__0__bit_depth": "9000 m"}, "[[well.operation]] 1, bit_depth", "below the last station"),
