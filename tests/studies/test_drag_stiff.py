@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from drag_wells import PIPE, WEIGHT, cutter, operation, well, well_a_survey
+from drag_wells import CLEARANCE, FRICTION, PIPE, RADIUS, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import fsolve
@@ -150,7 +150,30 @@ def test_in_a_smooth_well_it_is_close_to_the_soft_string_and_meshes_tell_the_err
     assert bend == pytest.approx(math.radians(3.0) / 30.0, rel=1e-3)
 
 
-def test_without_stiffness_and_clearance_it_is_the_soft_string() -> None:
+def test_the_torque_of_a_rotating_stiff_string_is_that_of_all_its_contact_forces() -> None:
+    """T = μ r Σ P, the forces of the string as it lies under the tension found."""
+    md = np.arange(0.0, 601.0, 30.0)
+    wander = np.random.default_rng(3).normal(0.0, 1.0, len(md))
+    survey = Survey.of(md, np.abs(np.linspace(0.0, 50.0, len(md)) + wander), 2.0 * wander[::-1])
+    cut = cutter(survey)
+    found = stiff_run(cut, operation("rotate-off-bottom", survey), STRAIGHT_LAW, "early")
+    one = found.run
+    depth = bending._nodes(one, bending.SHORTEST * bending.ELEMENT)
+    middle = 0.5 * (depth[:-1] + depth[1:])
+    curvature, down = loads_at(survey, middle, *frame(survey))
+    full = np.ones(len(middle))
+    tension = np.interp(middle, one.measured_depth[::-1], one.forces[::-1])
+    found_again = lay(depth, Loads(STIFFNESS * full, tension, curvature, WEIGHT * down, CLEARANCE * full),
+                      np.zeros((len(depth), 2)))  # fmt: skip
+    assert found.settled
+    assert found_again.settled
+    assert one.torque == pytest.approx(FRICTION * RADIUS * found_again.force.sum(), rel=1e-4)
+    soft = run(cut, operation("rotate-off-bottom", survey), STRAIGHT_LAW)
+    assert abs(one.torque - soft.torque) > 0.01 * soft.torque
+
+
+def test_without_stiffness_and_clearance_it_is_the_soft_string(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bending, "ELEMENT", 0.25)
     survey = Survey.of([0.0, 200.0, 500.0, 800.0], [0.0, 0.0, 40.0, 40.0])
     limp = {**PIPE, "bending_stiffness": "10 N m^2", "outer_diameter": "8.499 in"}
     cut = cutter(survey, pipe=limp)

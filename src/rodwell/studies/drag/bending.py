@@ -98,7 +98,7 @@ def _on_mesh(
         acts = Loads(stiffness, bending, curvature, lateral, stiffness / table[:, RATIO])
         found = lay(depth, acts, _against_wall(load, acts.clearance) if start is None else start)
         start = found.displacement
-        more = 0.5 * (found.force[:-1] + found.force[1:]) / np.diff(depth) - np.linalg.norm(load, axis=1)
+        more = _shared(found.force) / np.diff(depth) - np.linalg.norm(load, axis=1)
         straight = np.interp(middle, one.measured_depth[::-1], one.states[::-1].astype(float)) == STRAIGHT
         new = run(cutter, operation, contact, rule, remembered=remembered, bent=np.where(straight, more, 0.0)[element],
                   longest_piece=longest)  # fmt: skip
@@ -115,6 +115,14 @@ def _on_mesh(
 def _at_rows(one: Run, element: IntArray, values: FloatArray) -> FloatArray:
     """Values of elements (n,) at the rows of a run, (m,)."""
     return np.asarray(values[element[one.piece]])
+
+
+def _shared(force: FloatArray) -> FloatArray:
+    """Forces of the nodes (n + 1,) shared by the elements beside them, (n,); the ends have one."""
+    out = 0.5 * (force[:-1] + force[1:])
+    out[0] += 0.5 * force[0]
+    out[-1] += 0.5 * force[-1]
+    return np.asarray(out)
 
 
 def _nodes(one: Run, shortest: float) -> FloatArray:
