@@ -18,9 +18,13 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import click
+import make_drag
+import make_endless
 import make_formulas
 import make_howto
 import make_long
+import make_packer
 import make_paper
 import make_wells
 from click.testing import CliRunner
@@ -50,13 +54,18 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_drag.COMMANDS,
     **make_long.COMMANDS,
+    **make_endless.COMMANDS,
+    **make_packer.COMMANDS,
     **make_paper.COMMANDS,
 }
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_long", "make_wells", "make_braid", "make_report", "make_architecture",
+    "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
+    "make_report",
+    "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 
@@ -84,6 +93,7 @@ def build() -> dict[str, str]:
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
     _write("catalogue.md", catalogue_tables())
+    _write("commands.md", command_tables())
     _write("twist.md", twist_table())
     numbers: dict[str, str] = {}
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
@@ -181,10 +191,24 @@ MORE = {
     "rod.pipe": "pipes-and-fluids.md",
     "rod.torsional_stiffness": "twist.md",
     "load.applied": "strength.md",
+    "packer.motion": "packer.md",
     "study": "studies.md",
     "catalogue.files": "pipes-and-fluids.md",
 }
 """Pages that say more about a key."""
+
+
+def command_tables() -> str:
+    """Every command with its options, from the commands themselves."""
+    parts = []
+    for name, command in sorted(cli.commands.items()):
+        context = click.Context(command, info_name=f"rodwell {name}")
+        usage = " ".join(command.collect_usage_pieces(context))
+        parts.append(f"## rodwell {name}\n\n{command.get_short_help_str(200)}\n\n```sh\nrodwell {name} {usage}\n```\n")
+        options = [p for p in command.params if isinstance(p, click.Option)]
+        rows = [(f"`{', '.join((*p.opts, *p.secondary_opts))}`", p.help or "") for p in options]
+        parts.append(make_howto.table(("Option", "Meaning"), rows) if rows else "")
+    return "\n".join(parts)
 
 
 def case_keys() -> str:

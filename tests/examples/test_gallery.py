@@ -9,7 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import cumulative_simpson
+from scipy.integrate import cumulative_simpson, quad
+
+import rodwell
+from rodwell.analysis.endless.local import LIMITS, local_state
 
 GALLERY = Path(__file__).resolve().parents[2] / "examples" / "gallery"
 PI2 = np.pi**2
@@ -41,6 +44,18 @@ def drill_string() -> None:
     assert abs(found["push"]) < 1e-8
 
 
+def heavy_weight() -> None:
+    """At the step the moment is continuous, the curvature jumps with the stiffness; the wall bears that of M₃."""
+    problem, lift, step, sides = run("heavy_weight")
+    below, above = sides["omega2"]
+    assert sides["rod_M2"][0] == pytest.approx(sides["rod_M2"][1], rel=1e-9)
+    assert above / below == pytest.approx(1.0 / 0.534, rel=1e-9)
+    assert sides["omega3"][0] == pytest.approx(sides["omega3"][1], rel=1e-9)
+    assert step.couple.value == pytest.approx((1.0 - 0.534) * sides["omega3"][0], rel=1e-9)
+    assert lift.s[0] > 0.5
+    assert problem.sections
+
+
 def bifurcation_diagram() -> None:
     """Section 4.1.2 of the paper: −362.63 on the first branch and −164.78 on the second."""
     found = run("bifurcation_diagram")
@@ -55,6 +70,19 @@ def broken_symmetry() -> None:
     assert found["symmetry"] == (-1, 1)
     assert abs(found["torque"][0]) < 1e-10
     assert np.all(np.diff(found["torque"]) < 0.0)
+
+
+def lock_up() -> None:
+    """L = (Λ/μ) √(B/wr): Λ in closed form by the correlation, by quadrature of the exact states."""
+    found = run("lock_up")
+    lengths = {key: value / found["unit"] for key, value in found["lock_up"].items()}
+    closed = 2.0 * np.sqrt(2.0) + 2.0 * (0.5 * np.pi - np.arctan(np.sqrt(2.0)))
+    assert lengths["correlation", "early"] == pytest.approx(closed, rel=1e-8)
+    for rule, switch in (("early", LIMITS.helix_lift_off.value), ("late", LIMITS.sinusoidal_lift_off.value)):
+        inverse = [lambda b: 1.0 / local_state(float(b), "sinusoidal").contact_mean,
+                   lambda x: 1.0 / (x * x * local_state(1.0 / float(x), "helical").contact_mean)]  # fmt: skip
+        exact = 2.0 + quad(inverse[0], 2.0, switch)[0] + quad(inverse[1], 1e-9, 1.0 / switch)[0]
+        assert lengths["exact", rule] == pytest.approx(exact, rel=1e-8)
 
 
 def coil() -> None:
@@ -72,6 +100,15 @@ def snap_to_coil() -> None:
     for force, (energy, error) in run("snap_to_coil").items():
         assert energy == pytest.approx(known[force], abs=1e-6)
         assert error < 1e-9
+
+
+def load_path() -> None:
+    """Two other programs: lift-off, limit point and snap, the helix lifts off, its limit point."""
+    found = run("load_path")
+    assert found["loading fold"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["loading snap"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["unloading lift_off"] == pytest.approx(-109.8311707, abs=2e-7)
+    assert found["unloading fold"] == pytest.approx(-103.6731326, abs=1e-7)
 
 
 def helix() -> None:
@@ -95,6 +132,16 @@ def lift_off() -> None:
     found = run("lift_off")
     assert found["horizontal"] == pytest.approx(-123.1730743, abs=1e-6)
     assert found["after_buckling"]
+
+
+def lift_off_map() -> None:
+    """The horizontal rod changes its mode at γ = 62.34181826, (77), (78); loads are those of single problems."""
+    found = run("lift_off_map")
+    assert found["counts"] == {"converged": 240}
+    assert any(low <= 62.34181826 <= high for low, high in zip(found["low"], found["high"], strict=True))
+    alone = rodwell.follow(rodwell.Problem(found["weights"][3], 90.0)).lift_off
+    assert alone is not None
+    assert found["values"][3, -1] == alone.force
 
 
 def envelope() -> None:
@@ -145,11 +192,20 @@ def column() -> None:
     assert abs(found["self_weight"]) < 1e-6
 
 
+def endless() -> None:
+    """Mean contact forces at β = 3, known from two other programs; the least one vanishes at lift-off."""
+    found = run("endless")
+    assert found["sinusoidal_at_3"] == pytest.approx(1.38468435, abs=1e-8)
+    assert found["helical_at_3"] == pytest.approx(2.24863072, abs=1e-8)
+    for load, kind in zip(found["lifts_off"], ("sinusoidal", "helical"), strict=True):
+        assert abs(rodwell.local_state(load, kind).contact_least) < 1e-9
+
+
 CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
-        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, helix, guidewire,
-        lift_off, envelope, formulas, twist, wall_moments, well, column,
+        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
     )
 }  # fmt: skip
 

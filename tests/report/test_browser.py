@@ -1,7 +1,7 @@
 """Pages in a real browser: at three widths, light and dark, printed, without WebGL, without JavaScript, and with axe.
 
-Needs Chromium on the machine. Where none is found the tests are skipped; with ``RODWELL_NEEDS_BROWSER`` set, as the gate
-does, they fail instead.
+Needs Chromium on the machine. Where none is found the tests are skipped; with ``RODWELL_NEEDS_BROWSER`` set, as the
+gate does, they fail instead.
 """
 
 from __future__ import annotations

@@ -128,3 +128,32 @@ def test_report_turns_and_prints(tmp_path: Path) -> None:
     assert '<img class="still" src="data:image/png' in page  # what prints
     assert len(parts.data) == 1
     assert len(page) < 2_000_000
+
+
+@pytest.mark.parametrize("outside", [False, True])
+def test_nothing_is_drawn_beyond_the_wall(outside: bool) -> None:
+    """Rings and material lines stand out from the rod, and are flattened where it touches the wall."""
+    problem = rodwell.Problem(15, on_top=outside, outside=outside)
+    lift = rodwell.follow(problem, 2 if outside else 1).lift_off
+    assert lift is not None
+    rod = drawn(lift.solution, None)
+    assert rod.lift_off
+    for part in scene(rod, 16):
+        away = np.hypot(part.mesh.vertices[:, 0], part.mesh.vertices[:, 1])
+        if outside:
+            assert away.min() >= rod.wall_radius * (1.0 - 1e-9)
+        else:
+            assert away.max() <= rod.wall_radius * (1.0 + 1e-9)
+
+
+def test_the_picture_says_its_scale_and_what_stands_under_the_pointer(state: rodwell.Solution) -> None:
+    rod = state.geometry(101, radial_scale=None)
+    seen = view(state, rod=rod)
+    assert f"× {plain(rod.radial_scale, 3)} across the axis" in viewer(seen).markup
+    assert "true scale" in viewer(seen).markup
+    along = seen.data["along"]
+    assert len(along["points"]) == len(along["says"]) == 101
+    push = -state.fields(np.array([0.5]))["contact_pressure"][0]
+    assert f"push {plain(push, 3)} B/L³" in along["says"][50]
+    assert 'data-show="true-scale"' in viewer(seen).markup
+    assert 'data-show="true-scale"' not in viewer(view(state, rod=state.geometry(101))).markup  # it is that already

@@ -72,8 +72,7 @@ def run(
     from rodwell.answers.result.missed import missed  # noqa: PLC0415
     from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
-    with progress_bar(not quiet and not as_json, "figures, report and data"):
-        write_results(result, folder, with_pdf=with_pdf)
+    write_results(result, folder, with_pdf=with_pdf)  # without a bar: its thread would keep figures in this process
     if as_json:
         print_json(result.as_dict(), indent=2)
     elif not quiet:

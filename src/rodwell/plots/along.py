@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.answers.data.along import Along
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import ACTS, BUCKLES, GREY, INK, LIFTS_OFF, LIMIT, MODES, SIZE, new_axes, parameters
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
@@ -48,7 +49,7 @@ def plot_force(
     down = upright(problem, scales)
     largest = max(float(np.max(np.abs(one.fields["rod_F1"]))) for one in states)
     ff, uf = axis("force", scales, largest)
-    said, sign = Forces(scales, problem.axial_weight), 1.0 if scales is None else -1.0
+    said, sign = Forces(scales, problem.hung_weight), 1.0 if scales is None else -1.0
     applied = 0
     for one in states:
         look: dict[str, Any] = {"color": COLOURS.get(one.state.name, ACTS), "lw": 1.4}
@@ -66,6 +67,7 @@ def plot_force(
             if limit.compression is not None:
                 line = ax.axvline if down else ax.axhline
                 line(limit.compression.value / scales.factor("force") * ff, color=colour, lw=1.4, ls=LIMIT, label=label)
+    mark_steps(ax, problem, axis("z", scales, 1.0)[0], down=down)
     _zero(ax, down)
     counted = "axial force" if scales is None else "compression"
     positive = "\n(tension positive)" if scales is None else "\n(below 0: tension)"
@@ -76,7 +78,8 @@ def plot_force(
 def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: Any = None) -> Any:
     """Draw axial, bending, hoop and torsion stress and the largest von Mises stress along the rod; return the axes.
 
-    ``strength`` is the yield strength in Pa. The state must have stresses.
+    ``strength`` is the yield strength in Pa, the least of a string's; what the state has at each place is drawn. It
+    must have stresses.
     """
     ax = new_axes() if ax is None else ax
     t, problem = one.stresses, one.state.problem
@@ -97,10 +100,12 @@ def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: A
         if float(np.max(np.abs(values))) > WORTH_A_LINE * size:
             _draw(ax, place, values / unit, down, color=colour, lw=1.3, ls=dashes, label=label)
     peak = float(np.max(t.von_mises))
+    mark_steps(ax, problem, axis("z", scales, 1.0)[0], down=down)
     label = f"von Mises, up to {plain(peak / unit, 3)} {text}"
     _draw(ax, place, t.von_mises / unit, down, color=INK, lw=2.4, label=label)
     if strength is not None and shown:
-        (ax.axvline if down else ax.axhline)(strength / unit, color=INK, lw=1.6, ls=LIMIT, label="yield strength")
+        values = np.full(one.s.shape, strength) if one.strength is None else one.strength
+        _draw(ax, place, values / unit, down, color=INK, lw=1.6, ls=LIMIT, label="yield strength")
     elif strength is not None:
         label = f"yield strength, not shown: {plain(strength / unit, 3)} {text}"
         ax.plot([], [], color=INK, lw=1.6, ls=LIMIT, label=label)

@@ -121,7 +121,7 @@ class _Look:
         self, branches: Sequence[Branch], critical: CriticalLoads, scales: Scales | None, ordinate: Measured
     ) -> None:
         self.branches, self.critical, self.ordinate = branches, critical, ordinate
-        self.forces = Forces(scales, branches[0].problem.axial_weight)
+        self.forces = Forces(scales, branches[0].problem.hung_weight)
         self.top = max(float(np.max(np.abs(b.numbers(ordinate)))) for b in branches)
         farthest = max(float(np.max(np.abs(b.force))) for b in branches)
         name, label = ORDINATES[ordinate]

@@ -27,7 +27,7 @@ def plot_cylinder_moments(state: Solution, scales: Scales | None = None, ax: Any
     curves = {"T2": "twisting, T₂", "mu": "bending, μ (about d₁)", "cylinder_M3": "bending, λ cos η (about u₂)"}
     fz, uz = axis("z", scales, part)
     fm, um = axis("T2", scales, max(float(np.max(np.abs(f[name]))) for name in curves))
-    said = Forces(scales, state.problem.axial_weight)
+    said = Forces(scales, state.problem.hung_weight)
     for number, (name, label) in enumerate(curves.items(), start=2):
         ax.plot(f["z"] * fz, f[name] * fm, color=MODES[number], lw=1.6, label=label)
     ax.axhline(0.0, color=GREY, lw=0.8)
@@ -44,7 +44,7 @@ def plot_shapes(states: Branch | Sequence[Solution], scales: Scales | None = Non
     """Draw y and T₂ along the rod in several states (Fig. 4), the first and last thick; return the upper axes."""
     chosen = list(states)
     fs, us = axis("z", scales, 1.0)
-    said = Forces(scales, chosen[0].problem.axial_weight)
+    said = Forces(scales, chosen[0].problem.hung_weight)
     upper = new_axes(size=(SIZE[0], 6.2), nrows=2, index=1)
     lower = upper.figure.add_subplot(2, 1, 2, sharex=upper)
     s = np.linspace(0.0, 1.0, PLACES)

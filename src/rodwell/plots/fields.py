@@ -33,7 +33,7 @@ def plot_field(solution: Solution, field: str, scales: Scales | None = None, ax:
     quantity = QUANTITIES[field]
     fs, us = axis("z", scales, 1.0)
     fv, uv = axis(field, scales, float(np.max(np.abs(values))))
-    said = Forces(scales, solution.problem.axial_weight)
+    said = Forces(scales, solution.problem.hung_weight)
     ax.plot(s * fs, values * fv, color=MODES[len(ax.lines) // 2 % len(MODES)], lw=1.6, label=said.label(solution.force))
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, fs)

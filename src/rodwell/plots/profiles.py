@@ -12,6 +12,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import GREY, INK, SIZE, WARN, marked, new_axes, parameters
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
@@ -27,12 +28,13 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
     part = shown_part(critical[:most])
     s = drawn_places(critical[:most], part)
     fs, us = axis("z", scales, part)
-    said = Forces(scales, critical[0].problem.axial_weight)
+    said = Forces(scales, critical[0].problem.hung_weight)
     for mode in critical[:most]:
         ax.plot(
             s * fs, mode.shape(s), lw=2.2 if mode.number == 1 else 1.3,
             label=f"mode {mode.number}: {said.label(mode.force)}", **marked(mode.number - 1),
         )  # fmt: skip
+    mark_steps(ax, critical[0].problem, fs)
     ax.axhline(0.0, color=INK, lw=0.8)
     ax.set_xlim(0.0, part * fs)
     ax.set_ylim(-1.25, 1.55)
@@ -67,9 +69,10 @@ def plot_contact_pressure(
     pressures = [sign * state.fields(s)["contact_pressure"] for state in states]
     fs, us = axis("z", scales, part)
     fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
-    said = Forces(scales, branch.problem.axial_weight)
+    said = Forces(scales, branch.problem.hung_weight)
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
         ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=said.label(state.force))
+    mark_steps(ax, branch.problem, fs)
     _lift_off_marks(ax, branch, fs, part, sign)
     low, high = sorted(sign * edge for edge in ax.get_ylim())  # pressed below, pulled above 0
     high = max(high, -0.12 * low)
@@ -128,9 +131,10 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     curves = [state.fields(s)["T2"] for state in states]
     fs, us = axis("z", scales, part)
     ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
-    said = Forces(scales, states[0].problem.axial_weight)
+    said = Forces(scales, states[0].problem.hung_weight)
     for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
         ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=said.label(state.force))
+    mark_steps(ax, states[0].problem, fs)
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, part * fs)
     ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")

@@ -150,7 +150,7 @@ def enlarged(rod: Geometry) -> str:
 
 
 def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
-    said = Forces(scales, solution.problem.axial_weight)
+    said = Forces(scales, solution.problem.hung_weight)
     length = "" if scales is None else f", length {scales.text(1.0, 'length')}"
     radius = f"{plain(rod.rod_radius / rod.clearance, 3)} Δ"
     if scales is not None:

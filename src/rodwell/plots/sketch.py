@@ -157,7 +157,17 @@ def _inclination(ax: Any, view: _View, case: Case) -> None:
         reach = 3.2
         ax.plot([top[0], top[0]], [top[1], top[1] - reach], color=GREY, lw=0.9, ls=(0, (4, 3)))
         ax.plot(*zip(top, top - reach * view.along, strict=True), color=GREY, lw=0.9, ls=(0, (4, 3)))
-        ax.add_patch(Arc(top, 2.0 * reach, 2.0 * reach, theta1=-90.0, theta2=-90.0 + alpha, color=INK, lw=1.0))
+        ax.add_patch(
+            Arc(
+                (float(top[0]), float(top[1])),
+                2.0 * reach,
+                2.0 * reach,
+                theta1=-90.0,
+                theta2=-90.0 + alpha,
+                color=INK,
+                lw=1.0,
+            )
+        )
         half = np.radians(-90.0 + 0.5 * alpha)
         at = top + (reach + 0.25) * np.array([np.cos(half), np.sin(half)])
         inside = reach * np.sin(0.5 * np.radians(alpha)) > 1.5 * view.hole

@@ -144,7 +144,7 @@ class Guard:
 
     def _allowed(self, connection: HTTPConnection) -> bool:
         hosts = {f"{name}:{self._port()}" for name in ("127.0.0.1", "localhost")}
-        origin = connection.headers.get("origin")
+        origin: str | None = connection.headers.get("origin")
         if connection.headers.get("host") not in hosts:
             return False
         if origin is None and connection.scope["type"] == "websocket":  # browsers always say it

@@ -50,7 +50,7 @@ def as_python(explored: Explored, solution: Solution, branch: str, which: int) -
 
 def _call(problem: Problem) -> str:
     """The problem as it is written in Python: what differs from its defaults."""
-    names = ("alpha", "clearance", "poisson", "twist", "torsion")
+    names = ("alpha", "clearance", "poisson", "twist", "torsion", "sections")
     default = Problem(problem.weight)
     given = [f"weight={problem.weight!r}"]
     given += [

@@ -7,6 +7,8 @@ the balance of moments,
 
     V(0) = ∫ ∂e/∂y′ ds − ∫ (1 − s) ∂e/∂y ds − [∂e/∂y″]₀¹.
 
+Where the stiffness jumps, V and ∂e/∂y″ do not: nothing changes.
+
 What is left of round-off is that of y″, enlarged by h⁻², and where an end does not hold y′ it is zero: y″ = 0 there.
 """
 
@@ -19,17 +21,18 @@ import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
 from rodwell.numerics.splines.assembly import SHARED, at_points
-from rodwell.numerics.splines.basis import basis_derivatives, find_span
+from rodwell.numerics.splines.basis import basis_derivatives, element_of, find_span
 from rodwell.numerics.splines.lanes import on_lanes
-from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
-from rodwell.physics.on_wall.strand import towards_lift_off
 
 COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
 """Round-off in derivatives of a spline, relative to the sum of the sizes of their terms: some units in the last
 place."""
 
 TOTALS = 9
+
+STIFFNESS, WEIGHT = 0, 1
+"""Columns of what is given of a string of sections: constant in each element."""
 
 CHANGED = (0,) * 5
 """As long as the stencil in which y′ and y″ are changed one at a time."""
@@ -38,17 +41,24 @@ CHANGE = 1e-5
 """By which part of the size of their terms."""
 
 
-def _added(rows: Any, parameters: Any) -> Sequence[Any]:
+STILL = (0.0,) * (RAMP + 1)
+"""No parameter changes."""
+
+
+def _adding(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
     """Totals over the points of an element, added to those that follow what is known at the points in ``rows``."""
-    s, weight, y, y1, y2, *totals = (rows[i] for i in range(SHARED + 3 + TOTALS))
+    count = len(model.given())
+    s, weight, y, y1, y2 = (rows[i] for i in range(SHARED + 3))
+    given, totals = ([rows[SHARED + 3 + i] for i in part] for part in (range(count), range(count, count + TOTALS)))
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
+    _, _, gradient, _, _ = model.density(s, (y, y1, y2), given, parameters, STILL)
     y, y1 = y + ramp * s, y1 + ramp
     cos_eta = np.sqrt(1.0 - y1 * y1)
     omega2 = y2 / cos_eta
-    _, _, gradient, _, _ = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
+    stiffness = given[0] if given else 1.0
     lateral = clearance * gradient[0]
     sums = (
-        y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral),
+        y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * stiffness * omega2 * omega2, np.absolute(lateral),
         gradient[1], (1.0 - s) * gradient[0],
     )  # fmt: skip
     sizes = omega2, y / clearance, y1
@@ -56,7 +66,7 @@ def _added(rows: Any, parameters: Any) -> Sequence[Any]:
     return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]
 
 
-_add = on_lanes(lambda _: _added)
+_add = on_lanes(lambda model: lambda rows, parameters: _adding(model, rows, parameters))
 
 
 @formula
@@ -67,8 +77,9 @@ def totals(mesh, c, parameters, shear):
     -------
     ∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, ½∫ω₂², ∫Δ wₗ |sin ξ₂|, ∫∂e/∂y′, ∫(1 − s) ∂e/∂y, max |ω₂|, |ξ₂|, |sin η|
     """
-    rows = np.zeros((SHARED + 3 + TOTALS, len(mesh.per_element)))
-    found = rows[SHARED + 3 :]
+    known = SHARED + 3 + mesh.given.shape[1]
+    rows = np.zeros((known + TOTALS, len(mesh.per_element)))
+    found = rows[known:]
     uniforms = (parameters,)
     shear[0] = 0.0
     for element in range(mesh.starts.size):
@@ -81,21 +92,22 @@ def totals(mesh, c, parameters, shear):
     )  # fmt: skip
 
 
-def _pressed(rows: Any, parameters: Any) -> Sequence[Any]:
-    """Contact pressure, negative in contact, from s, y, y′, y″ and V."""
+def _pressed(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
+    """Contact pressure, negative in contact, from s, y, y′, y″, V and what is given."""
     s, y, y1, y2, shear = (rows[i] for i in range(5))
-    _, _, gradient, _, hessian = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
+    given = [rows[5 + i] for i in range(len(model.given()))]
+    _, _, gradient, _, hessian = model.density(s, (y, y1, y2), given, parameters, STILL)
     y3 = (gradient[1] - shear - hessian[1][2] * y2) / hessian[2][2]
-    return (towards_lift_off(s, y, y1, y2, y3, parameters),)
+    return (model.observed(s, (y, y1, y2, y3), given, parameters),)
 
 
-_pressure = on_lanes(lambda _: _pressed)
+_pressure = on_lanes(lambda model: lambda rows, parameters: _pressed(model, rows, parameters))
 
 
 @formula
 def free_ends(mesh):
     """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
-    last = mesh.starts.size + len(mesh.local) - 2
+    last = mesh.starts[mesh.starts.size - 1] + len(mesh.local) - 1
     loose_0 = turns_0 = loose_1 = turns_1 = True
     for k in range(mesh.held.size):
         i, tied = mesh.held[k], mesh.follows[k] != mesh.held[k]
@@ -118,7 +130,7 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
         for i in range(count):
-            if knots[local - 1 + i] > 0.5:
+            if i == count - 1 or knots[local - 1 + mesh.starts[i]] > 0.5:
                 shear[i] -= whole
         return
     start = 0.0
@@ -134,17 +146,19 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
                 for a in range(local):
                     slope += basis[1, a] * c[first + a]
                     bend += basis[2, a] * c[first + a]
+                if mesh.given.shape[1] > 0:
+                    bend *= mesh.given[0 if sign > 0.0 else mesh.given.shape[0] - 1, STIFFNESS]
                 start += sign * bend / (1.0 - slope * slope)
     for i in range(count):
         shear[i] += start
 
 
 @kernel
-def tabulated(knots, degree, points, places):
+def tabulated(knots, degree, starts, points, places):
     """Everything at ``places`` (k,) that does not depend on a state.
 
-    ``points`` are the Gauss points of all elements: those of a place's element are moved to where only the part of it
-    before the place is integrated over.
+    ``starts`` are the first functions, ``points`` the Gauss points of all elements: those of a place's element are
+    moved to where only the part of it before the place is integrated over.
 
     Returns
     -------
@@ -157,7 +171,7 @@ def tabulated(knots, degree, points, places):
     inner
         Basis functions at the moved Gauss points, (k, points of an element, 1, p+1).
     """
-    per_element = points.size // (knots.size - 2 * degree - 1)
+    per_element = points.size // starts.size
     elements, shares = np.empty(places.size, np.int64), np.empty(places.size)
     basis = np.empty((places.size, 3, degree + 1))
     inner = np.empty((places.size, per_element, 1, degree + 1))
@@ -165,7 +179,7 @@ def tabulated(knots, degree, points, places):
         span = find_span(knots, degree, places[k])
         basis_derivatives(knots, span, degree, places[k], basis[k])
         low, width = knots[span], knots[span + 1] - knots[span]
-        elements[k], shares[k] = span - degree, (places[k] - low) / width
+        elements[k], shares[k] = element_of(starts, span - degree), (places[k] - low) / width
         if 0.0 < shares[k] < 1.0:
             for i in range(per_element):
                 point = low + (points[elements[k] * per_element + i] - low) * shares[k]
@@ -179,12 +193,14 @@ def _shear_at(mesh, knots, c, parameters, shear, element, share, inner):
     degree, count = len(mesh.local) - 1, len(mesh.per_element)
     if share == 1.0:
         return shear[element + 1]
-    total, low = shear[element], knots[degree + element]
+    total, low = shear[element], knots[degree + mesh.starts[element]]
     for i in range(count if share > 0.0 else 0):
         y = parameters[RAMP] * (low + (mesh.points[element * count + i] - low) * share)
         for a in range(degree + 1):
             y += inner[i, 0, a] * c[mesh.starts[element] + a]
         rate = parameters[LATERAL_WEIGHT] * np.sin(y / parameters[CLEARANCE])
+        if mesh.given.shape[1] > 0:
+            rate *= mesh.given[element * count, WEIGHT]
         total += mesh.weights[element * count + i] * share * rate
     return total
 
@@ -210,7 +226,7 @@ def balanced(mesh, knots, ends, c, parameters, push, lever, shear, tables, value
     integrals that it returns; V takes the place of the former. ``ends`` has the basis functions at both ends, first and
     last; ``tables`` is a tuple of what :func:`tabulated` returns.
     """
-    known, out = np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
+    known, out = np.empty((5 + mesh.given.shape[1], len(CHANGED))), np.empty((1, len(CHANGED)))
     uniforms, done = (parameters,), 0
     _balance(mesh, knots, ends, c, parameters, push, lever, shear)
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
@@ -228,8 +244,9 @@ def balanced(mesh, knots, ends, c, parameters, push, lever, shear, tables, value
             elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
                 slope = size_1 = 0.0
             for k in range(5):
-                known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force
-                known[2, k], known[3, k] = slope + parameters[RAMP], bend
+                known[0, k], known[1, k], known[2, k], known[3, k], known[4, k] = s, y, slope, bend, force
+                for j in range(mesh.given.shape[1]):
+                    known[5 + j, k] = mesh.given[elements[i] * len(mesh.per_element), j]
             known[2, 1] -= CHANGE * size_1
             known[2, 2] += CHANGE * size_1
             known[3, 3] -= CHANGE * size_2
@@ -246,6 +263,6 @@ def balanced_pressures(mesh, knots, ends, c, parameters, places):
     """Contact pressure (k,) at ``places`` (k,); ``ends`` has the basis functions at both ends, first and last."""
     shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
     found = totals(mesh, c, parameters, shear)
-    tables = (tabulated(knots, len(mesh.local) - 1, mesh.points, places),)
+    tables = (tabulated(knots, len(mesh.local) - 1, mesh.starts, mesh.points, places),)
     balanced(mesh, knots, ends, c, parameters, found[4], found[5], shear, tables, values, noise)
     return values

@@ -37,7 +37,7 @@ ARMS = "twist makes the arms differ: the rod may take either"
 class Answer(Computed, Shown):
     """The answer to a case: a record of what was computed, see :class:`Computed` for its fields, and what follows."""
 
-    @property
+    @cached_property
     def converged(self) -> bool:
         """Whether every reported number meets the tolerance: branches, special points and key numbers."""
         rtol = self.case.rtol

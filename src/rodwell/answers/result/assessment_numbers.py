@@ -27,7 +27,7 @@ def assessment_numbers(a: Assessment) -> list[KeyNumber]:
 
 def _at_bottom(a: Assessment) -> list[KeyNumber]:
     """Critical and lift-off load as effective force at the lower end, where it differs from that at the upper one."""
-    weight = a.case.problem.axial_weight
+    weight = a.case.problem.hung_weight
     if weight == 0.0:
         return []
     note = "N(0) = F − mg L cos α: the most compressed place"
@@ -57,7 +57,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
         if limit.kind == LIFTS_OFF or limit.load is None:
             continue
         label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
-        scale = force_scale(limit.load.value) + a.case.problem.axial_weight
+        scale = force_scale(limit.load.value) + a.case.problem.hung_weight
         out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _when(limit), _places(limit)))
     return out
 
@@ -81,6 +81,6 @@ def _stress(a: Assessment, state: LoadedRod, name: str) -> list[KeyNumber]:
     out = [KeyNumber(f"rod_stress_{name}", label, stress, "stress", stress.value, largest.fibre, (largest.s,))]
     if largest.safety is not None:
         label = f"Safety factor of the rod against yield {state.name}"
-        note = "yield strength / von Mises stress"
+        note = "yield strength / von Mises stress" + ("" if a.case.string is None else ", the least of all sections")
         out.append(KeyNumber(f"safety_factor_{name}", label, largest.safety, "1", largest.safety.value, note))
     return out

@@ -41,7 +41,7 @@ def out_of_reach(branch: Branch, force: float) -> bool:
 def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
     """How far the branch goes, in the reader's units, and why it ends."""
     lowest, number = Value(branch.reach[0]), 1 if branch.mode is None else branch.mode.number
-    far = Forces(scales, branch.problem.axial_weight).load(lowest)
+    far = Forces(scales, branch.problem.hung_weight).load(lowest)
     return (
         f"the branch of mode {number} goes no farther than {far} and ends there or on its way back ({_ending(branch)})"
     )
@@ -50,3 +50,14 @@ def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
 def _ending(branch: Branch) -> str:
     """Why a branch ends, in words."""
     return "its state there could not be followed" if branch.ended_because == END else branch.ended_because
+
+
+def no_lift_off(scales: Scales | None, branch: Branch) -> str:
+    """Why the first branch has no lift-off, in words."""
+    far = Forces(scales, branch.problem.hung_weight).load(Value(float(branch.force[-1])))
+    if branch.ended_because == END:
+        return (
+            f"was not found: the branch was followed to {far}, where the search ends, and the rod stays on the wall "
+            "all the way"
+        )
+    return f"was not found: the branch could be followed to {far} only: {branch.ended_because}"

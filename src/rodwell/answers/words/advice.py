@@ -21,6 +21,9 @@ from rodwell.quantities.value import Value
 GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
 """Levels of a status; "open" where no load was given that could be judged."""
 
+UNCERTAIN = {"si": "30 m ± 0.1 m", "field": "300 ft ± 1 ft", "mm": "120 mm ± 1 mm"}
+"""An input with its uncertainty as it may be written, in the reader's units."""
+
 CONVERGED = "numerically converged"
 """The one word on numerical errors that stands on the front; the errors themselves stand in the tables."""
 
@@ -168,9 +171,10 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
     out += _about_the_load(answer)
     if not case.uncertain and case.scales is not None:
         out.append(
-            'Give inputs that are not known well with their uncertainty ("30 m ± 0.1 m"): the loads then get one too.'
+            "Give inputs that are not known well with their uncertainty "
+            f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
         )
-    if case.scales is not None:
+    if case.scales is not None and not case.problem.sections:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
     else:
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")

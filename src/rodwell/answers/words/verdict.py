@@ -162,7 +162,7 @@ def _left(a: Assessment, at: AtLoad) -> str:
 
 def _apart(case: Case, at: AtLoad, limit: Value, what: str) -> str:
     """How far a load lies from another, measured where it was given: "12 % short of lift-off (−38.5 kN there)"."""
-    more, scales = case.problem.axial_weight if at.load.bottom else 0.0, case.scales
+    more, scales = case.problem.hung_weight if at.load.bottom else 0.0, case.scales
     load, other = more - at.load.force, more - limit.value
     word = "short of" if load <= other else "beyond"
     far = (
@@ -210,7 +210,7 @@ def local_sentence(a: Assessment) -> str:
             f"{text}: exceeded all along the string when it buckles, since its ends hold it; the string's exact load "
             "decides."
         )
-    slope = a.case.problem.axial_weight * scales.factor("force")
+    slope = a.case.problem.hung_weight * scales.factor("force")
     lowest = size_text(scales, Value(over.to, error / slope), "length")
     return (
         f"{text}: when this string buckles, that is exceeded over its lowest {lowest}, where "

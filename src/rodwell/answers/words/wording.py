@@ -29,7 +29,7 @@ def size_text(scales: Scales | None, number: Value, dimension: str = "force", un
 
 def forces_of(case: Case) -> Forces:
     """How end forces of a case are said: at which end, with which sign."""
-    return Forces(case.scales, case.problem.axial_weight)
+    return Forces(case.scales, case.problem.hung_weight)
 
 
 def place_text(case: Case, place: Value) -> str:

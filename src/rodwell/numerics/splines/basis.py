@@ -1,7 +1,8 @@
 """B-spline basis functions on a knot vector: values, derivatives, knot insertion.
 
-Knots ``t`` (n + p + 1,) are open (the end knots stand p + 1 times); element ``e`` is the knot span
-``[t[e+p], t[e+p+1])`` and carries the basis functions e … e+p. The matrix form of the recurrence is that
+Knots ``t`` (n + p + 1,) are open (the end knots stand p + 1 times); an element is a knot span
+``[t[i+p], t[i+p+1])`` that is not empty and carries the basis functions i … i+p, which it ``starts`` with number i:
+its own number, where no knot inside is repeated. The matrix form of the recurrence is that
 of T. Lyche and K. Mørken, *Spline Methods* (2018), section 2.4; the derivative formula is (2.7) of
 L. Piegl and W. Tiller, *The NURBS Book* (1997).
 """
@@ -107,6 +108,19 @@ def find_span(knots, degree, s):
 
 
 @kernel
+def element_of(starts, first):
+    """Number of the element whose first function is number ``first``; ``starts`` (elements,) are all of these."""
+    low, high = 0, starts.size
+    while high - low > 1:
+        middle = (low + high) // 2
+        if first < starts[middle]:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+@kernel
 def _copy(table, known, first, count):
     """Copy the basis functions at ``count`` places; an assignment of slices would take seconds to compile."""
     for q in range(count):
@@ -116,17 +130,18 @@ def _copy(table, known, first, count):
 
 
 @kernel
-def tabulate(knots, degree, places, per_element, orders):
+def tabulate(knots, degree, starts, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
-    One place more than that counts as the right end of the last element. The places must divide all elements alike:
-    where knots are evenly spaced, the table of one element is copied to the next.
+    ``starts`` (elements,) are the first functions of the elements. One place more than that counts as the right end of
+    the last element. The places must divide all elements alike: where knots are evenly spaced, the table of one element
+    is copied to the next.
     """
     table = np.empty((places.size, orders, degree + 1))
     known, spacing = -1, 0.0  # first place of the last element that was tabulated among evenly spaced knots
-    elements = knots.size - 2 * degree - 1
+    elements = starts.size
     for element in range(elements):
-        span, first = degree + element, element * per_element
+        span, first = degree + starts[element], element * per_element
         even = _evenly_spaced(knots, span, degree)
         width = knots[span + 1] - knots[span]
         if even and known >= 0 and abs(width - spacing) <= SPACING:

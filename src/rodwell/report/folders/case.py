@@ -10,6 +10,7 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
+from rodwell.report.folders.beside import done_beside
 from rodwell.report.folders.pictures import draw, draw_curves, draw_diagram
 from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.pages.templates import embedded
@@ -35,17 +36,18 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
     if with_pdf:
         check_pdf()
     with whole_folder(Path(out)) as folder:
-        pictures = draw(answer, folder)
-        rod = view(answer.shown, answer.case.scales)
+        with done_beside(draw, answer, folder) as drawn:
+            write_json(answer.as_dict(), folder / "answer.json")
+            tables, states = answer_tables(answer), along_tables(answer.assessment)
+            write_csv(tables[0], folder / "key-figures.csv")
+            write_csv(along_table(states), folder / "along-rod.csv")
+            write_xlsx([*tables, *states], folder / "tables.xlsx")
+            (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
+            write_answer(answer, folder / "branches.nc")
+            rod = view(answer.shown, answer.case.scales)
+            pictures = drawn()
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
         write_viewer(folder / "rod-3d.html", rod, answer.case.title, still=still)
-        write_json(answer.as_dict(), folder / "answer.json")
-        tables, states = answer_tables(answer), along_tables(answer.assessment)
-        write_csv(tables[0], folder / "key-figures.csv")
-        write_csv(along_table(states), folder / "along-rod.csv")
-        write_xlsx([*tables, *states], folder / "tables.xlsx")
-        (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
-        write_answer(answer, folder / "branches.nc")
         report = case_report(answer, [*(file.name for file in folder.iterdir()), *([PDF] if with_pdf else [])])
         write_report(report, pictures, folder, viewer(rod, still=still), with_pdf=with_pdf)
         return tuple(sorted(file.name for file in folder.iterdir()))

@@ -113,7 +113,7 @@ def write_viewer(path: Path, seen: View, title: str = "", *, still: str = "") ->
 
 def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     """What is shown, in which scale."""
-    load = Forces(scales, solution.problem.axial_weight).load(Value(solution.force))
+    load = Forces(scales, solution.problem.hung_weight).load(Value(solution.force))
     radius = (
         f"{plain(rod.rod_radius / rod.clearance, 3)} Δ" if scales is None else scales.text(rod.rod_radius, "length")
     )

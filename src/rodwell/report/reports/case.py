@@ -17,6 +17,7 @@ from rodwell.quantities.text import plain
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
 from rodwell.report.reports.front import LOGO, front
+from rodwell.report.reports.sections import string_section
 from rodwell.report.reports.strength import strength_sections
 from rodwell.report.reports.texts import (
     certificate,
@@ -41,6 +42,7 @@ def case_report(answer: Answer, files: Iterable[str] = ()) -> Report:
         sections=(
             ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
             _in_space(answer),
+            *string_section(answer.assessment),
             *strength_sections(answer.assessment),
             _pictures(answer),
             key_numbers(answer),

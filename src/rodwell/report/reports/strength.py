@@ -96,7 +96,10 @@ def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
     if _strong(a):
         head.append("Safety factor")
         strength = _system(a).text(a.case.yield_strength or 0.0, "stress")
-        note += f"Safety factor: yield strength {strength} over the von Mises stress."
+        if a.case.string is None:
+            note += f"Safety factor: yield strength {strength} over the von Mises stress."
+        else:
+            note += "Safety factor: yield strength of a section over its largest von Mises stress, the least of all."
     else:
         note += "Give rod.grade or rod.yield_strength for safety factors."
     return (ReportSection("Stress in the rod", (Grid(tuple(head), rows, (1, 2, 4, 5, 6, 7)), Words(note, "small"))),)

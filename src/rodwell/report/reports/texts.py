@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rodwell.analysis.branch.branch import Branch
@@ -49,10 +49,14 @@ def plain_rows(numbers: Iterable[KeyNumber]) -> list[dict[str, str]]:
             "label": key.label,
             "value": f"{number(key.number)} {PLAIN_UNITS[key.dimension]}".rstrip(),
             "error": f"{short(key.error)} {PLAIN_UNITS[key.dimension]}".rstrip(),
-            "note": key.remark,
+            "note": "; ".join(filter(None, (_places(key), key.note))),
         }
         for key in numbers
     ]
+
+
+def _places(key: KeyNumber) -> str:
+    return f"at s/L = {', '.join(plain(s, 6) for s in key.s)}" if key.s else ""
 
 
 END_FORCE, REAL = ", end force at s = 1", ", at s = 1"
@@ -84,8 +88,11 @@ def inputs(case: Case) -> list[tuple[str, str]]:
     """Inputs as given, and what follows from them."""
     out = []
     for section, values in case.given.items():
-        for key, value in values.items():
-            out.append((f"{section}.{key}", str(value)))
+        parts = {section: values} if isinstance(values, Mapping) else {}
+        if section == "string":
+            parts = {f"string {number}": one for number, one in enumerate(values, 1)}
+        for name, part in parts.items():
+            out += [(f"{name}.{key}", str(value)) for key, value in part.items()]
     return out
 
 
