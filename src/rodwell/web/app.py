@@ -102,8 +102,9 @@ def _request(text: str) -> dict[str, Any] | None:
         request = json.loads(text) if len(text) <= LARGEST_REQUEST else None
     except ValueError:
         return None
-    good = isinstance(request, dict) and isinstance(request.get("kind"), str)
-    return request if good and isinstance(request.get("inputs", {}), dict) else None
+    if not isinstance(request, dict) or not isinstance(request.get("kind"), str):
+        return None
+    return request if isinstance(request.get("inputs", {}), dict) else None
 
 
 @cache
