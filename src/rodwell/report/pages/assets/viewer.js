@@ -28,6 +28,7 @@ function rodwellViewer(element, data) {
   all.add(mark);
   const known = new Map(); // parts by name, kept from scene to scene
   let rest = []; // lines and arrow, made anew
+  let calm = 0, shownAt = -1e9; // when scenes have come to rest, and when the last one came
   let labels = [];
   function fill() {
     const names = new Set(data.parts.map((part) => part.name));
@@ -176,7 +177,14 @@ function rodwellViewer(element, data) {
   home();
   return { show, mark: markAt, vertices, drawn: () => renderer.info.render.frame };
 
+  // Many scenes after each other are drawn with fewer pixels, the last one with all.
   function show(other) {
+    if (slow) {
+      if (renderer.getPixelRatio() === sharp && performance.now() - shownAt < 400) pixels(0.5 * sharp);
+      shownAt = performance.now();
+      clearTimeout(calm);
+      if (renderer.getPixelRatio() !== sharp) calm = setTimeout(() => { pixels(sharp); draw(); }, 250);
+    }
     const taller = Math.abs(other.height / data.height - 1) > 0.02;
     data = other;
     fill();
