@@ -19,8 +19,8 @@ from playwright.sync_api import sync_playwright
 
 HERE = Path(__file__).parent
 CASE = HERE.parent / "examples" / "drill-string.toml"
-WIDTH, HEIGHT, SHOWN = 1440, 1010, 900
-FRAMES, EACH = 24, 160  # pictures, and milliseconds for which each stands
+WIDTH, HEIGHT, SHOWN = 1440, 1010, 820
+FRAMES, EACH = 20, 160  # pictures, and milliseconds for which each stands
 
 
 def ready(page: Any, more: str = "true") -> None:
@@ -63,7 +63,7 @@ def main() -> None:
     first, *others = frames
     there_and_back = [*others, *reversed(others)]
     out = HERE / "_static" / "explore.webp"
-    first.save(out, save_all=True, append_images=there_and_back, duration=EACH, loop=0, quality=60, method=4)
+    first.save(out, save_all=True, append_images=there_and_back, duration=EACH, loop=0, quality=45, method=4)
 
 
 if __name__ == "__main__":

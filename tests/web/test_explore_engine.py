@@ -84,6 +84,13 @@ def test_loads_of_the_diagram_are_those_of_the_answer(field: Engine) -> None:
     assert text == verdict(answer.assessment)
 
 
+def test_a_rod_that_buckles_under_its_weight_is_told_with_the_word_tension() -> None:
+    engine = Engine(tomllib.loads((EXAMPLES / "long-string.toml").read_text(encoding="utf-8")))
+    data = ask(engine, "diagram", inputs={"modes": 1})["diagram"]
+    assert data["buckles"]["load"] < 0.0
+    assert data["buckles"]["text"].endswith("kN of tension at the top")
+
+
 def test_the_primary_branches_come_before_the_secondary_ones() -> None:
     out: list[dict[str, Any]] = []
     Engine(None).answer({"kind": "diagram", "inputs": {}}, out.append, never)

@@ -20,6 +20,7 @@ from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
+from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 from rodwell.report.reports.texts import KINDS
 
@@ -107,7 +108,7 @@ class Explored:
     def suggested(self) -> float:
         """The load to begin with: the one that acts, or one between buckling and lift-off."""
         if self.case.applied:
-            return self.shown(min(load.force for load in self.case.applied))
+            return float(f"{self.shown(min(load.force for load in self.case.applied)):.12g}")  # as it was given
         buckles, lift = self.computed.buckling.value, self.computed.lift_off
         end = self.computed.first.force.min() if lift is None or lift.force == buckles else lift.force
         return float(f"{self.shown(buckles + 0.6 * (float(end) - buckles)):.4g}")
@@ -135,8 +136,15 @@ class Explored:
         }
 
     def _load(self, load: Value) -> dict[str, Any]:
-        return {"load": self.shown(load.value), "error": load.error * self.load_unit[0], "force": load.value,
-                "text": f"{self.forces.size(load)}{self.forces.at_end}", "words": self.forces.load(load)}  # fmt: skip
+        """A load as shown, in B/L², and in words: compression or tension by that word, or with its sign."""
+        compression = self.forces.compression(load)
+        text = f"{amount(compression, 6)} B/L²{self.forces.at_end}"
+        return {
+            "load": self.shown(load.value),
+            "error": load.error * self.load_unit[0],
+            "force": load.value,
+            "text": text if self.case.scales is None else self.forces.load(load),
+        }
 
     def _straight(self) -> dict[str, Any]:
         """The straight rod: where it meets its modes."""
