@@ -21,6 +21,7 @@ ORDER = {
         "snap_to_coil",
         "load_path",
         "endless",
+        "lock_up",
         "column",
         "twist",
     ),
@@ -39,6 +40,7 @@ CHECKED = {
     "broken_symmetry": "the same two loads, Fig. 4; the odd shape needs no torque at the support",
     "snap_to_coil": "energies of an interior-point method that lets the rod leave the wall, to 1e-6",
     "endless": "contact forces at β = 3, of two other programs, to 1e-8; where the wall begins to pull",
+    "lock_up": "length by correlation in closed form, exact ones by quadrature of the endless rod's states: to 1e-8",
     "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
     "and −103.6731326",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",

@@ -77,7 +77,7 @@ def physical(
             f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
+    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
     problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]

@@ -16,7 +16,7 @@ from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain as text_of
 from rodwell.quantities.tolerance import RTOL
 
 
@@ -135,8 +135,8 @@ def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Othe
 
 def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) -> AtApplied:
     """The other formulas at a load that acts."""
-    given = f"{load.given:.6g} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
+    given = f"{text_of(load.given, 6)} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
     number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
-    label = f"applied load{number}, {minus(given)} at the {'bottom' if load.bottom else 'top'}"
+    label = f"applied load{number}, {given} at the {'bottom' if load.bottom else 'top'}"
     exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight)
     return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))
