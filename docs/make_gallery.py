@@ -25,7 +25,7 @@ ORDER = {
         "column",
         "twist",
     ),
-    "What the wall bears": ("guidewire", "wall_moments", "helix"),
+    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "helix"),
 }
 
 CHECKED = {
@@ -47,6 +47,7 @@ CHECKED = {
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",
     "wall_moments": "T₂ from (33), integrated a second time",
+    "heavy_weight": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
     "helix": "load to 1e-8 and push to 1e-7 of the closed form",
 }
 """What the tests hold each picture's numbers against."""

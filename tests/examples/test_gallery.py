@@ -44,6 +44,18 @@ def drill_string() -> None:
     assert abs(found["push"]) < 1e-8
 
 
+def heavy_weight() -> None:
+    """At the step the moment is continuous, the curvature jumps with the stiffness; the wall bears that of M₃."""
+    problem, lift, step, sides = run("heavy_weight")
+    below, above = sides["omega2"]
+    assert sides["rod_M2"][0] == pytest.approx(sides["rod_M2"][1], rel=1e-9)
+    assert above / below == pytest.approx(1.0 / 0.534, rel=1e-9)
+    assert sides["omega3"][0] == pytest.approx(sides["omega3"][1], rel=1e-9)
+    assert step.couple.value == pytest.approx((1.0 - 0.534) * sides["omega3"][0], rel=1e-9)
+    assert lift.s[0] > 0.5
+    assert problem.sections
+
+
 def bifurcation_diagram() -> None:
     """Section 4.1.2 of the paper: −362.63 on the first branch and −164.78 on the second."""
     found = run("bifurcation_diagram")
@@ -193,7 +205,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
-        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, well, column, endless, lock_up,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
     )
 }  # fmt: skip
 
