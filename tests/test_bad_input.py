@@ -202,7 +202,7 @@ BAD_STRUCTURE = [
     physical("misspelt-title", "titel", "did you mean 'title'?", titel="Well"),
     physical("misspelt-section", "rods", "did you mean 'rod'?", rods={}),
     physical("unknown-key", "rod.colour", "is not known", "allowed are length, outer_diameter", rod__colour="red"),
-    physical("unknown-section", "drill", "is not known", "allowed are title, rod, hole", drill={}),
+    physical("unknown-section", "drill", "is not known", "allowed are title, rod, string, hole", drill={}),
     physical("poisson-in-hole", "hole.poisson", "does not belong into [hole] but into [rod]", hole__poisson=0.3),
     physical("modes-in-load", "load.modes", "does not belong into [load] but into [analysis]", load__modes=3),
     physical("until-in-analysis", "analysis.until", "not belong into [analysis] but into [load]",

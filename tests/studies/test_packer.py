@@ -294,6 +294,19 @@ def test_wrong_input(said: str, changes: dict[str, Any]) -> None:
         rodwell.packer(_case(**changes))
 
 
+def test_a_string_of_sections_is_refused() -> None:
+    pipe = {"outer_diameter": "2.875 in", "inner_diameter": "2.441 in", "material": "steel"}
+    case = rodwell.Case.from_dict(
+        {
+            "string": [{**pipe, "length": "1000 ft"}, {**pipe, "length": "500 ft", "inner_diameter": "2 in"}],
+            "hole": {"diameter": "6.094 in", "angle_from_vertical": "20 deg"},
+            "packer": {"bore": "3.25 in", "motion": "all"},
+        }
+    )
+    with pytest.raises(InputError, match=r"string: is not taken beside \[packer\]"):
+        rodwell.packer(case)
+
+
 def test_a_case_without_packer_says_what_to_write() -> None:
     with pytest.raises(InputError, match=r"packer: is missing: write \[packer\] with bore and motion"):
         rodwell.packer(rodwell.Case.from_dict({"dimensionless": {"weight": 16.5}}))

@@ -26,7 +26,7 @@ from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
-from rodwell.case.string import PhysicalString, check_beside
+from rodwell.case.sections import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
 from rodwell.faces import Shown

@@ -11,7 +11,7 @@ from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.string import PhysicalString, check_length, clearance_of, string_of
+from rodwell.case.sections import PhysicalString, check_length, clearance_of, string_of
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem

@@ -14,7 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.answers.data.along import Along
-from rodwell.plots.string import mark_steps
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import ACTS, BUCKLES, GREY, INK, LIFTS_OFF, LIMIT, MODES, SIZE, new_axes, parameters
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem

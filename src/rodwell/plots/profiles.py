@@ -12,7 +12,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
-from rodwell.plots.string import mark_steps
+from rodwell.plots.sections import mark_steps
 from rodwell.plots.style import GREY, INK, SIZE, WARN, marked, new_axes, parameters
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces

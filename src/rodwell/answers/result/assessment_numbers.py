@@ -81,6 +81,6 @@ def _stress(a: Assessment, state: LoadedRod, name: str) -> list[KeyNumber]:
     out = [KeyNumber(f"rod_stress_{name}", label, stress, "stress", stress.value, largest.fibre, (largest.s,))]
     if largest.safety is not None:
         label = f"Safety factor of the rod against yield {state.name}"
-        note = "yield strength / von Mises stress"
+        note = "yield strength / von Mises stress" + ("" if a.case.string is None else ", the least of all sections")
         out.append(KeyNumber(f"safety_factor_{name}", label, largest.safety, "1", largest.safety.value, note))
     return out

@@ -74,7 +74,8 @@ def real_force(key: KeyNumber, case: Case) -> list[KeyNumber]:
     """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
     if case.rod is None or case.scales is None:
         return []
-    less = case.fluids.effective_minus_real(case.rod, 0.0) / case.scales.factor("force")
+    at_top = case.rod if case.string is None else case.string.at_end(bottom=False)
+    less = case.fluids.effective_minus_real(at_top, 0.0) / case.scales.factor("force")
     if less == 0.0:
         return []
     label = f"{key.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"

@@ -25,8 +25,8 @@ from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.methods import plot
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
+from rodwell.plots.sections import name_sections, plot_string
 from rodwell.plots.sketch import plot_sketch
-from rodwell.plots.string import name_sections, plot_string
 from rodwell.plots.style import RC, new_axes, with_dark_style, with_separators
 from rodwell.plots.units import axis
 from rodwell.report.reports.front import LOGO

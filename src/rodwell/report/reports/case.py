@@ -17,8 +17,8 @@ from rodwell.quantities.text import plain
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
 from rodwell.report.reports.front import LOGO, front
+from rodwell.report.reports.sections import string_section
 from rodwell.report.reports.strength import strength_sections
-from rodwell.report.reports.string import string_section
 from rodwell.report.reports.texts import (
     certificate,
     conversions,

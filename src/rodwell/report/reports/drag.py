@@ -11,6 +11,7 @@ from rodwell.quantities.table import Cell
 from rodwell.quantities.text import minus
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
+from rodwell.report.reports.front import LOGO
 from rodwell.report.reports.texts import short
 from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
@@ -25,6 +26,7 @@ from rodwell.studies.drag.words import (
     sentences,
     sentences_of,
     torque,
+    unbalanced,
     yields,
 )
 
@@ -53,6 +55,8 @@ def drag_report(found: Drag, calibration: Calibration | None = None) -> Report:
         footer=f"Computed by rodwell {__version__} from {well.source} and {well.survey.source}. "
         f"{assumptions(found)[-1]}",
         paper="us-letter" if well.system.name == "field" else "a4",
+        about=well.about.lines,
+        logo="" if well.about.logo is None else LOGO,
     )
 
 
@@ -111,9 +115,9 @@ def _strength(found: Drag) -> Status:
 
 
 def _numbers(found: Drag) -> Status:
-    if found.balanced:
+    if not unbalanced(found):
         return Status("Numbers", GOOD, "balanced", "the work of the ends is that of gravity and friction to 1e-8")
-    return Status("Numbers", BAD, "not balanced", "work is missing in a run: do not use these numbers")
+    return Status("Numbers", BAD, "not balanced", "; ".join(unbalanced(found)))
 
 
 def _operations(found: Drag) -> ReportSection:

@@ -14,6 +14,7 @@ from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain as text_of
 from rodwell.quantities.tolerance import RTOL
@@ -116,23 +117,16 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
-    refuse_sections(problem)
+    refuse_sections(
+        problem.sections,
+        "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
+    )
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)
     others = _others(rod, loads[0], problem)
     applied = () if not isinstance(case, Case) else tuple(_at(case, load, rod, loads[0]) for load in case.applied)
     return Audit(problem, scales, title, loads, notes, rows, others, applied)
-
-
-def refuse_sections(problem: Problem) -> None:
-    """Raise for a string of sections: formulas of practice are those of one pipe."""
-    if problem.sections:
-        raise InputError(
-            "sections",
-            f"{len(problem.sections)} of them",
-            "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
-        )
 
 
 def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Other, ...]:

@@ -17,6 +17,7 @@ from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.errors import InputError
 from rodwell.faces import Shown, drawn, plain
+from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import RTOL
 from rodwell.strength.stress import Loading, Stresses, section_of, stresses
 from rodwell.studies.packer.lengths import Conditions, Tubing, weights
@@ -128,6 +129,7 @@ def packer(case: Case) -> PackerAnswer:
 def _answer(case: Case) -> PackerAnswer:
     """What :func:`packer` returns; errors in SI units."""
     given = _given(case)
+    refuse_sections(case.problem.sections, "tubing in a packer is one pipe from end to end: give it as [rod]")
     rod = case.rod
     assert rod is not None
     tubing = _tubing(case, given, rod)
@@ -154,6 +156,9 @@ def _given(case: Case) -> schema.PackerInput:
         )
     if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in written.values()):
         raise InputError("packer", None, "takes no uncertainties (±): give the values themselves, and vary them")
+    if case.string is not None:
+        what = "is not taken beside [packer]: the tubing has one section; give [rod] with its pipe or diameters"
+        raise InputError("string", None, what)
     return schema.PackerInput.model_validate(written)
 
 

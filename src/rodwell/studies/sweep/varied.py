@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
-from rodwell.case.string import check_beside
+from rodwell.case.sections import check_beside
 from rodwell.errors import InputError
 from rodwell.quantities.text import plain
 from rodwell.quantities.written import number_and_rest, remedy
