@@ -56,19 +56,24 @@ _HOME = {
     "diagram": "rodwell.analysis.branch.diagram",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
+    "extended": "rodwell.analysis.branch.follow",
     "follow": "rodwell.analysis.branch.follow",
     "lift_off_curve": "rodwell.analysis.curves.states",
+    "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "load_branch": "rodwell.store.restart",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
+    "special_curve": "rodwell.analysis.curves.special",
     "switching_table": "rodwell.analysis.straight.modes",
     "study": "rodwell.studies.sweep.study",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
+    "turns_of_least_energy": "rodwell.analysis.branch.turns",
     "verify": "rodwell.analysis.branch.verify",
 }
 
@@ -78,13 +83,15 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.branch import Branch
     from rodwell.analysis.branch.coiled import coil
     from rodwell.analysis.branch.diagram import Diagram, diagram
-    from rodwell.analysis.branch.follow import branch_off, follow
+    from rodwell.analysis.branch.follow import branch_off, extended, follow
     from rodwell.analysis.branch.minimum import equilibrium
     from rodwell.analysis.branch.solution import Solution
     from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.analysis.branch.turns import turns_of_least_energy
     from rodwell.analysis.branch.verify import verify
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve
+    from rodwell.analysis.curves.special import special_curve
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
@@ -100,6 +107,7 @@ if TYPE_CHECKING:
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.export import export
+    from rodwell.store.restart import load_branch, save_branch
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import operator
 import unicodedata
 import warnings
+from collections.abc import Iterable
 
 LONGEST_VALUE, LONGEST_REASON = 200, 5000
 """Characters of a name or value, and of what is wrong with it, in a message: a file can hold keys of any length."""
@@ -98,8 +100,19 @@ def checked_whole(field: str, value: object, low: int, high: int) -> int:
     return number
 
 
+def unknown_name(field: str, name: object, known: Iterable[str]) -> InputError:
+    """The error for a name that is not among those ``known``: the nearest one if there is one, else all."""
+    names = list(known)
+    near = difflib.get_close_matches(str(name), names, n=1)
+    return InputError(field, name, f"did you mean {near[0]!r}?" if near else f"must be one of {', '.join(names)}")
+
+
 class NotConvergedError(RodwellError):
     """A result that could not be computed to the tolerance asked for, with the reason."""
+
+
+class InputWarning(UserWarning):
+    """An input that is taken as it stands, but is rarely meant so: the message says what may have been meant."""
 
 
 class CacheWarning(UserWarning):

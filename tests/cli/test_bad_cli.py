@@ -104,7 +104,7 @@ BAD_OPTIONS = [
     pytest.param("critical --weight 5 --alpha 90 --clearance 0", ("clearance = 0", "above 0"), id="clearance-zero"),
     pytest.param("critical --wieght 5 --alpha 90", ("--wieght", "--weight"), id="option-misspelt"),
     pytest.param("critical --weight 5 --alpha 90 more", ("unexpected extra argument", "more"), id="extra-argument"),
-    pytest.param("liftoff --weight 15 --alpha 95", ("alpha = 95.0", "to 90 (horizontal)"), id="alpha-95"),
+    pytest.param("liftoff --weight 15 --alpha 195", ("alpha = 195.0", "to 180 (s = 1 below)"), id="alpha-195"),
     pytest.param("liftoff --weight 15 --alpha -1", ("alpha = -1.0", "from 0 (vertical)"), id="alpha-negative"),
     pytest.param("liftoff --weight 15 --alpha nan", ("alpha = nan", "must be finite"), id="alpha-nan"),
     pytest.param("liftoff --weight 15 --alpha 90 --clearance 1", ("clearance = 1.0", "below 1"), id="clearance-one"),

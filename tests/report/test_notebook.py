@@ -156,8 +156,8 @@ def test_bad_input(branch: rodwell.Branch, pyplot: Any) -> None:
     with pytest.raises(rodwell.InputError, match="must be one of y, xi2"):
         branch[-1].plot(field="?")
     other = rodwell.follow(branch.problem, start=branch.at(-115.0), parameter="weight", until=15.2, rtol=1e-5)
-    with pytest.raises(rodwell.InputError, match="weight"):
-        other.plot()
+    with pytest.raises(rodwell.InputError, match="did you mean 'energy'"):
+        other.plot(ordinate="enery")
     assert pyplot.get_fignums() == []  # nothing half drawn is left behind
 
 

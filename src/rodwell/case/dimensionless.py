@@ -30,6 +30,9 @@ def dimensionless(
 ) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
     """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
+    if given.alpha < 0.0 or given.alpha > 90.0:
+        reason = "must be from 0 (vertical) to 90 (horizontal), in degrees" + _turned(given.alpha)
+        raise InputError("dimensionless.alpha", given.alpha, reason)
     try:
         problem = Problem(
             weight=given.weight,
@@ -42,7 +45,7 @@ def dimensionless(
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{error.field}", error.value, error.reason + _turned(error)) from None
+        raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
@@ -53,8 +56,8 @@ def dimensionless(
     return problem, until, applied
 
 
-def _turned(error: InputError) -> str:
-    """What to do about an inclination beyond horizontal."""
-    if error.field != "alpha" or not isinstance(error.value, int | float) or not 90.0 < error.value <= 180.0:
+def _turned(alpha: float) -> str:
+    """What to do about an inclination beyond horizontal: reports say that s = 1 is the upper end."""
+    if not 90.0 < alpha <= 180.0:
         return ""
-    return f"; s = 1 is the upper end: turn the rod round, alpha = {180.0 - error.value:g} with ends in reverse order"
+    return f"; s = 1 is the upper end: turn the rod round, alpha = {180.0 - alpha:g} with ends in reverse order"

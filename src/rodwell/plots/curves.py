@@ -20,6 +20,9 @@ MARKERS = {
     "veering": ("+", "closest approach"),
     "switch": ("o", "touching place switches"),
     "turn": ("s", "curve turns back"),
+    "cusp": ("v", "cusp: two folds become one"),
+    "isola_centre": ("D", "a closed loop shrinks to a point"),
+    "reconnection": ("P", "two branches meet and part"),
 }
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import Any
 
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
-from rodwell.errors import InputError
+from rodwell.errors import unknown_name
 from rodwell.plots.style import GREY, MODES, new_axes
 from rodwell.plots.units import axis
 from rodwell.quantities.names import FIELDS, QUANTITIES
@@ -27,9 +26,7 @@ def plot_field(solution: Solution, field: str, scales: Scales | None = None, ax:
         If there is no field of that name.
     """
     if field not in FIELDS:
-        near = difflib.get_close_matches(str(field), FIELDS, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"must be one of {', '.join(FIELDS)}"
-        raise InputError("field", field, hint)
+        raise unknown_name("field", field, FIELDS)
     ax = new_axes() if ax is None else ax
     s = np.linspace(0.0, 1.0, PLACES)
     values = solution.fields(s)[field]

@@ -11,17 +11,21 @@ from matplotlib.figure import Figure
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.branch.functionals import Number
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.discrete.measures import Measured, measured
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.fields import plot_field
+from rodwell.plots.in_parameter import plot_in_parameter
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
+from rodwell.quantities.scales import Scales
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
@@ -55,28 +59,36 @@ def _on_axes(ax: Any, size: tuple[float, float], new: Callable[[Figure], Any], d
         raise
 
 
+def _known(ordinate: Number | None) -> Measured | None:
+    """The measured number that a bifurcation diagram shows, by its name."""
+    if callable(ordinate):
+        raise InputError("ordinate", ordinate, "must be the name of a measured number where several branches are drawn")
+    return None if ordinate is None else measured(ordinate)
+
+
 @singledispatch
 def _plot(result: object, axes: Any, **_options: Any) -> Any:
     raise TypeError(f"{type(result).__name__} cannot be drawn")
 
 
 @_plot.register
-def _(result: Branch, axes: Any, **options: Any) -> Any:
-    if result.parameter != "force":
-        known = f"draw branch.numbers(...) against branch.values, its {result.parameter}"
-        raise InputError("parameter", result.parameter, f"bifurcation diagrams show branches in the force: {known}")
-    return plot_bifurcation([result], CriticalLoads(), ax=axes, **options)
+def _(result: Branch, axes: Any, ordinate: Number | None = None, scales: Scales | None = None) -> Any:
+    if result.parameter != "force" or callable(ordinate):
+        if scales is not None:
+            raise InputError("scales", None, "must be left out: such a branch is drawn in units B = L = 1")
+        return plot_in_parameter(result, axes, ordinate)
+    return plot_bifurcation([result], CriticalLoads(), scales, axes, _known(ordinate))
 
 
 @_plot.register
-def _(result: Diagram, axes: Any, **options: Any) -> Any:
+def _(result: Diagram, axes: Any, ordinate: Number | None = None, scales: Scales | None = None) -> Any:
     shown = [branch for branch in result.branches if branch.parameter == "force"]
-    return plot_bifurcation(shown, result.critical, ax=axes, **options)
+    return plot_bifurcation(shown, result.critical, scales, axes, _known(ordinate))
 
 
 @_plot.register
-def _(result: Answer, axes: Any, **options: Any) -> Any:
-    return plot_bifurcation(result.branches, result.critical, result.case.scales, ax=axes, **options)
+def _(result: Answer, axes: Any, ordinate: Number | None = None) -> Any:
+    return plot_bifurcation(result.branches, result.critical, result.case.scales, axes, _known(ordinate))
 
 
 @_plot.register

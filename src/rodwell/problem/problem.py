@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from rodwell.errors import InputError, checked_number, checked_whole
+from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
 
 LARGEST_WEIGHT = 1e9
@@ -19,13 +20,17 @@ SMALLEST_TORSION, LARGEST_TORSION = 1e-6, 1e6
 
 LIMITS = {
     "weight": (0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
-    "alpha": (0.0, 90.0, "from 0 (vertical) to 90 (horizontal), in degrees"),
+    "alpha": (0.0, 180.0, "from 0 (vertical) over 90 (horizontal) to 180 (s = 1 below), in degrees"),
     "clearance": (0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
     "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
     "torsion": (SMALLEST_TORSION, LARGEST_TORSION, f"from {SMALLEST_TORSION:g} to {LARGEST_TORSION:g}, C/B"),
     "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
 }
 """Lowest and highest value of each number, and what is allowed in words."""
+
+
+RADIANS = tuple(math.radians(degrees) for degrees in (15, 30, 45, 60, 75, 80, 85, 89, 90))
+"""Inclinations that are asked back, since they are round in degrees if they are meant in radians."""
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
@@ -46,7 +51,9 @@ class Problem:
     weight
         γ = mg L³/B ≥ 0, weight of the whole rod (paper, section 4).
     alpha
-        Angle α between the cylinder and the vertical in degrees, 0 (vertical) to 90 (horizontal).
+        Angle α between the cylinder and the vertical in degrees, 0 (vertical, s = 1 above) over 90 (horizontal) to 180
+        (vertical, s = 1 below). Seen from its other end, a rod has 180° − α and its ends exchanged; a rod lighter than
+        what surrounds it is one with its weight downwards and 180° − α, seen upside down.
     clearance
         Δ/L, distance between the axes of rod and cylinder, 0 < Δ < 1.
     poisson
@@ -72,8 +79,8 @@ class Problem:
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
-    end force acts at s = 1, the upper end of an inclined cylinder, along the cylinder's axis; the axial resultant is
-    N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
+    end force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
+    resultant is N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
 
     Raises
     ------
@@ -93,6 +100,10 @@ class Problem:
     torsion: float | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.weight, int | float) and self.weight < 0.0:
+            floats = "a rod lighter than what surrounds it presses on the upper side; seen upside down, it is one of "
+            same = f"weight={-self.weight:g} at alpha={180.0 - self.alpha:g}"
+            raise InputError("weight", self.weight, f"must be {LIMITS['weight'][2]}: {floats}{same}")
         for name, (low, high, allowed) in LIMITS.items():
             value = getattr(self, name)
             if (type(value) is float and low <= value <= high) or (name == "torsion" and value is None):
@@ -113,6 +124,14 @@ class Problem:
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
         self._check_ends()
+        if any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
+            degrees = math.degrees(self.alpha)
+            warnings.warn(
+                f"alpha = {self.alpha:.6g} is taken in degrees, nearly vertical; for {self.alpha:.6g} rad give "
+                f"{degrees:.6g}",
+                InputWarning,
+                stacklevel=3,
+            )
 
     def _check_ends(self) -> None:
         """Refuse what the ends cannot hold."""
@@ -147,13 +166,28 @@ class Problem:
 
     @property
     def axial_weight(self) -> float:
-        """wₐ = γ cos α, exactly zero for a horizontal cylinder."""
+        """wₐ = γ cos α, exactly zero for a horizontal cylinder; negative where the end s = 1 is the lower one."""
+        if self.alpha > 90.0:  # exactly what it is for 180° − α, but for the sign
+            return -self.weight * math.cos(math.radians(180.0 - self.alpha))
         return self.weight * (0.0 if self.alpha == 90.0 else math.cos(math.radians(self.alpha)))
 
     @property
     def lateral_weight(self) -> float:
         """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`."""
-        return self.weight * math.sin(math.radians(self.alpha))
+        return self.weight * math.sin(math.radians(min(self.alpha, 180.0 - self.alpha)))
+
+    @property
+    def heaviest(self) -> float:
+        """Max wₐ, 0: by how much compression may be larger somewhere along the rod than at s = 1."""
+        return max(self.axial_weight, 0.0)
+
+    @property
+    def turned_round(self) -> Problem:
+        """The same rod seen from its other end, y(s) → y(1 − s): inclination 180° − α, ends exchanged.
+
+        Its end force, which acts at the other end, is F − wₐ.
+        """
+        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1])
 
     @property
     def foundation(self) -> float:
@@ -174,6 +208,11 @@ class Problem:
     def given_torsion(self) -> dict[str, float]:
         """C/B by name where it was given and does not follow from ν: for what lists the data of a problem."""
         return {} if self.torsion is None else {"torsion": self.torsion}
+
+    def differences(self, other: Problem) -> str:
+        """What differs in another problem, in words: names, its value, and that of this one."""
+        names = [field.name for field in fields(self) if getattr(self, field.name) != getattr(other, field.name)]
+        return ", ".join(f"{name} = {getattr(other, name)!r} there, {getattr(self, name)!r} here" for name in names)
 
     def but(self, **changes: Any) -> Problem:
         """Return this problem with some values changed."""

@@ -11,7 +11,7 @@ import numpy as np
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.discrete.measures import MEASURES
 from rodwell.analysis.state.balance import ENERGIES
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, checked_number
@@ -23,16 +23,6 @@ from rodwell.quantities.table import Variable
 if TYPE_CHECKING:
     import xarray as xr
 
-
-_MEASURED = {
-    Measured.P_MAX: "largest_pressure",
-    Measured.ENERGY: "energy",
-    Measured.SHORTENING: "end_shortening",
-    Measured.OMEGA2_0: "omega2_at_0",
-    Measured.OMEGA2_1: "omega2_at_1",
-    Measured.ANGLE_MID: "angle_at_middle",
-    Measured.TORQUE_0: "support_torque",
-}
 
 CONVENTIONS = (
     "Units B = L = 1 (bending stiffness, rod length). Tension positive. The end force acts at s = 1. "
@@ -63,7 +53,7 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
         "force": Variable(("point",), branch.force, _about("force")),
         "parameter": Variable(("point",), branch.values, {"long_name": f"what varies: {branch.parameter}"}),
     }
-    for which, name in _MEASURED.items():
+    for which, name in MEASURES.items():
         out[name] = Variable(("point",), branch.numbers(which), _about(name))
         out[f"{name}_error"] = Variable(("point",), branch.errors(which), _about_error(name))
     energies = [solution.energies for solution in branch]
@@ -165,7 +155,7 @@ def solution_dataset(
         data[name] = (("s", "axis", "vector"), matrices, about)
     for name, (value, error) in solution.energies.items():
         data[name] = unit.array(name, (), np.array(value), error)
-    for which, name in _MEASURED.items():
+    for which, name in MEASURES.items():
         value, error = solution.number(which)
         data[name] = unit.array(name, (), np.array(value), error)
     data["force"] = unit.array("force", (), np.array(solution.force), 0.0)

@@ -126,11 +126,16 @@ def write_curves(curves: Sequence[Curve], path: Path) -> None:
 
 def _write(variables: dict[str, Variable], attributes: dict[str, Any], path: Path) -> None:
     with h5netcdf.File(path, "w") as file:
-        file.dimensions = {d: n for v in variables.values() for d, n in zip(v.dims, v.values.shape, strict=True)}
-        file.attrs.update(attributes)
-        for name, (dims, values, attrs) in variables.items():
-            kind = h5netcdf.core.h5py.string_dtype() if values.dtype == object else values.dtype
-            file.create_variable(name, dims, dtype=kind, data=values).attrs.update(attrs)
+        write_variables(file, variables, attributes)
+
+
+def write_variables(group: h5netcdf.Group, variables: dict[str, Variable], attributes: dict[str, Any]) -> None:
+    """Write labelled arrays with their attributes to a file, or to a group of one."""
+    group.dimensions = {d: n for v in variables.values() for d, n in zip(v.dims, v.values.shape, strict=True)}
+    group.attrs.update(attributes)
+    for name, (dims, values, attrs) in variables.items():
+        kind = h5netcdf.core.h5py.string_dtype() if values.dtype == object else values.dtype
+        group.create_variable(name, dims, dtype=kind, data=values).attrs.update(attrs)
 
 
 def _si(name: str, scales: Scales | None) -> dict[str, Any]:

@@ -10,11 +10,26 @@ from rodwell.analysis.branch.minimum import equilibrium
 from rodwell.analysis.branch.special import Origin
 from rodwell.analysis.branch.tracing import Progress
 from rodwell.errors import InputError
+from rodwell.physics.exact.helix import equal_energy_load, least_equal_energy_load
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_force
 
 REACH = 8.0
 """Without ``until``, a coil is followed to this many times (2πn)², the scale of load of n turns."""
+
+
+BEYOND = 1.25
+"""How much farther than the load of equal energy."""
+
+
+def _reach(problem: Problem) -> float:
+    """End force down to which a coil is followed by default."""
+    rate, weight, radius = 2.0 * math.pi * abs(problem.turns), abs(problem.lateral_weight), problem.clearance
+    local, rate_of_local = least_equal_energy_load(
+        weight, radius
+    )  # wound on a part of its length only, if that is less
+    equal = local if rate_of_local > rate else equal_energy_load(rate, weight, radius, small_slope=True)
+    return min(-REACH * rate**2, BEYOND * equal)
 
 
 def coil(
@@ -37,7 +52,8 @@ def coil(
     problem
         The rod, with ``turns`` ≠ 0.
     until
-        End force at s = 1 in B/L², tension positive; −8 (2πn)² for n turns if not given.
+        End force at s = 1 in B/L², tension positive. Without it −8 (2πn)² for n turns, or 1.25 times the load at which
+        a long coil has the energy of the straight rod, if that is more: so that the special points are in the range.
     start
         End force at which to start.
     rtol, largest_step, progress
@@ -52,8 +68,7 @@ def coil(
     """
     if problem.turns == 0:
         raise InputError("turns", 0, "must not be 0: a coil has its end carried around the cylinder")
-    scale = (2.0 * math.pi * problem.turns) ** 2
-    until = -REACH * scale if until is None else checked_force("until", until)
+    until = _reach(problem) if until is None else checked_force("until", until)
     start = checked_force("start", start)
     if until >= start:
         raise InputError("until", until, f"must be below the force at which the coil starts, {start:g} B/L²")

@@ -27,7 +27,7 @@ from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rodwell.analysis.discrete.measures import Measured
+    from rodwell.analysis.branch.functionals import Number
     from rodwell.faces import Axes
     from rodwell.quantities.scales import Scales
 
@@ -68,7 +68,7 @@ class Diagram:
     def __iter__(self) -> Iterator[Branch]:
         return iter(self.branches)
 
-    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None, scales: Scales | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, *, ordinate: Number | None = None, scales: Scales | None = None) -> Axes:
         """Draw all branches in the end force; return the axes. Arguments as in :meth:`rodwell.Branch.plot`."""
         return drawn(self, ax, ordinate=ordinate, scales=scales)
 

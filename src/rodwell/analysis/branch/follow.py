@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.functionals import Numbers, checked_numbers
 from rodwell.analysis.branch.making import continued, made
-from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.solution import Solution, solution_of
 from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state
 from rodwell.analysis.branch.tracing import Progress, traced
+from rodwell.analysis.branch.watching import Watched
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
-from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.errors import InputError, NotConvergedError, checked_whole, unknown_name
 from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
@@ -43,6 +45,7 @@ class Following:
     rtol: float
     largest_step: float
     progress: Progress | None = None
+    watched: Watched = field(default_factory=Watched)
 
     def stepping(self, first: float) -> Stepping:
         """Steps of which the first is as given, if it is not too long."""
@@ -55,8 +58,10 @@ def follow(
     *,
     until: float | None = None,
     mirror: bool = False,
-    start: Solution | None = None,
+    start: Solution | SpecialPoint | None = None,
     parameter: str = "force",
+    events: Numbers | None = None,
+    stop: Numbers | None = None,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -76,9 +81,13 @@ def follow(
     mirror
         The other of the two arms that leave the straight rod: the paper draws ω₂(1) < 0, this is ω₂(1) > 0.
     start
-        A state to start from instead (for example a coiled one, from :func:`equilibrium`); needs ``until``.
+        A state to start from instead (a coiled one, from :func:`equilibrium`; a special point); needs ``until``.
     parameter
         What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance" or "twist".
+    events, stop
+        Numbers whose zeros are located along the branch, by the names that their special points get: measured numbers
+        by name in the nomenclature, or functions of a :class:`Solution` that return a number. At the first zero of
+        one in ``stop`` the branch ends. Two zeros within one step are not seen.
     rtol
         Relative tolerance of every measured number and special point.
     largest_step
@@ -99,11 +108,13 @@ def follow(
     NotConvergedError
         If the branch cannot even be started.
     """
-    how = Following(checked_rtol(rtol), checked_step(largest_step), progress)
+    watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
     first_run.begin()
     if parameter not in PATHS:
-        raise InputError("parameter", parameter, f"must be one of {', '.join(PATHS)}")
+        raise unknown_name("parameter", parameter, PATHS)
     if start is not None:
+        start = start.solution if isinstance(start, SpecialPoint) else start
         if mode is not None or mirror:
             raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
         return from_state(problem, start, parameter, until, how)
@@ -138,7 +149,11 @@ def _from_straight(
     limit = first.force - REACH * first.wavenumber**2 if until is None else until
     if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
-    result = traced(problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=how.progress)
+    how.watched.tried(solution_of(problem, "force", start[1], start[0]))
+    result = traced(
+        problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=how.progress,
+        halt=how.watched.halt(problem, "force"),
+    )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(
             f"mode {first.number} could not be followed from its critical load {first.force:.6g} B/L²: {result.end}"
@@ -147,7 +162,7 @@ def _from_straight(
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
     origin = Origin(f"mode {first.number}" + (", mirror arm" if mirror else ""), first, switched=True)
-    return made(problem, replace(origin, mirror=mirror), result, reached, result.end)
+    return how.watched.seen(made(problem, replace(origin, mirror=mirror), result, reached, result.end))
 
 
 def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:
@@ -156,13 +171,18 @@ def from_state(problem: Problem, start: Solution, parameter: str, until: float |
         raise InputError("until", None, "must be given to follow a branch from a given state")
     until = checked_end(problem, parameter, until)
     if start.problem != problem:
-        raise InputError("start", start.problem, "belongs to another problem")
+        differ = problem.differences(start.problem)
+        raise InputError("start", start, f"belongs to another problem ({differ}): follow it in what differs first")
     if until == start.value_of(parameter):
         raise InputError("until", until, "must differ from the value at the start")
     begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
-    result = traced(problem, begin, until, stepping, parameter=parameter, switched=False, progress=how.progress)
+    how.watched.tried(start)
+    result = traced(
+        problem, begin, until, stepping, parameter=parameter, switched=False, progress=how.progress,
+        halt=how.watched.halt(problem, parameter),
+    )  # fmt: skip
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
-    return made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter)
+    return how.watched.seen(made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter))
 
 
 def checked_end(problem: Problem, parameter: str, until: float) -> float:
@@ -179,6 +199,8 @@ def branch_off(
     *,
     until: float,
     mirror: bool = False,
+    events: Numbers | None = None,
+    stop: Numbers | None = None,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -194,7 +216,7 @@ def branch_off(
         Value of the branch's parameter (the end force, usually) at which to end.
     mirror
         The other of the two directions. On a symmetric branch it gives the mirror image.
-    rtol, largest_step, progress
+    events, stop, rtol, largest_step, progress
         As for :func:`follow`.
     origin
         Name and parent, for diagrams.
@@ -210,13 +232,18 @@ def branch_off(
         raise InputError("point", point.kind, "must be a special point of kind branch_point")
     problem, parameter = point.solution.problem, point.parameter
     until = checked_end(problem, parameter, until)
-    how = Following(checked_rtol(rtol), checked_step(largest_step), progress)
+    watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
+    watched.tried(point.solution)
     start, stepping = at_branch_point(point, mirror, how.rtol), how.stepping(FIRST_STEP)
-    result = traced(problem, start, until, stepping, parameter=parameter, switched=True, progress=progress)
+    result = traced(
+        problem, start, until, stepping, parameter=parameter, switched=True, progress=progress,
+        halt=watched.halt(problem, parameter),
+    )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return made(problem, name, result, result.end in (END, REJOINS, CLOSED), result.end, parameter)
+    return watched.seen(made(problem, name, result, result.end in (END, REJOINS, CLOSED), result.end, parameter))
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
@@ -238,5 +265,6 @@ def _mode(problem: Problem, mode: int | Mode, rtol: float) -> Mode:
     if not isinstance(mode, Mode):
         return critical_loads(problem, checked_whole("mode", mode, 1, MOST_MODES), rtol=rtol)[-1]
     if mode.problem != problem:
-        raise InputError("mode", f"mode {mode.number} of {mode.problem}", "belongs to another problem")
+        differ = problem.differences(mode.problem)
+        raise InputError("mode", f"mode {mode.number}", f"belongs to another problem ({differ})")
     return mode

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family as equilibria
+from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.errors import InputError, NotConvergedError
@@ -25,6 +27,10 @@ LOPSIDED = 0.3
 
 STEEP = 0.45
 """Slope of the even winding from which one with level ends, twice as steep at its middle, would turn across."""
+
+
+STEEPEST_START = 0.9
+"""Largest slope, at its middle, of the winding y = 2πnΔ (s − sin 2πs/2π) that is started from; else one less steep."""
 
 
 def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
@@ -56,6 +62,9 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     family, outcome, coarse = _odd_or_any(problem, force)
     if coarse is None:
+        heavier = _from_lighter(problem, force, rtol)
+        if heavier is not None:
+            return heavier
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {family.advice(outcome)}")
     outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
     if point is None:
@@ -63,6 +72,55 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
             f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}"
         )
     return Solution(problem, meshes.at(point, force) or point, meshes)
+
+
+def _from_lighter(problem: Problem, force: float, rtol: float) -> Solution | None:
+    """The minimum of a lighter rod, followed in its weight: of a heavy one the winding is far from even."""
+    for part in LIGHTER:
+        lighter = problem.but(weight=part * problem.weight)
+        family, _, coarse = _odd_or_any(lighter, force)
+        if coarse is None:
+            continue
+        _, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+        start = None if point is None else meshes.at(point, force)
+        if start is None:
+            continue
+        branch = follow(
+            lighter, start=Solution(lighter, start, meshes), parameter="weight", until=problem.weight, rtol=rtol
+        )
+        found = _downhill(branch[-1], force) if branch.reached_end else None
+        if found is not None:
+            return found
+    return None
+
+
+def _downhill(solution: Solution, force: float) -> Solution | None:
+    """A minimum, from a state that need not be one: where symmetric coils are unstable, beside the symmetric one."""
+    problem, meshes = solution.problem, solution.meshes
+    line = meshes.on_path(path(problem, "force"), spline_ends(problem), meshes.coarse.parity)
+    c = solution.point.coarse.c
+    if solution.stability_index > 0:
+        line = meshes.on_path(path(problem, "force"), spline_ends(problem), 0)
+        space = line.coarse.space
+        bump = problem.clearance * np.sin(np.pi * space.points) ** 2
+        c = c + ASIDE * space.project(bump, line.coarse.ends)
+    outcome, c = minimise(line.coarse, c, force)
+    if outcome is not Outcome.CONVERGED:
+        return None
+    _, coarse, _ = line.coarse.at(c, force)
+    if coarse is None:
+        return None
+    _, finer, point = line.resolve(coarse)
+    if point is None or point.fine.index > 0:
+        return None
+    return Solution(problem, finer.at(point, force) or point, finer)
+
+
+LIGHTER = (0.25, 0.0625, 0.015625)
+"""Parts of the weight from which a heavy coil is approached."""
+
+ASIDE = 0.05
+"""How far, in radians around the cylinder, the search for a minimum starts from a state that is none."""
 
 
 def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State | None]:
@@ -98,5 +156,14 @@ def _winding(problem: Problem, family: Family) -> FloatArray:
         return np.zeros(space.size)  # the even winding itself
     level = np.concatenate([np.zeros(held.held[0]), np.full(space.size - held.held[0], end)])
     kept = level - end * space.greville
-    gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi) - space.at_points(kept)[0]
-    return kept + space.project(gap, held)
+    if 2.0 * abs(end) < STEEPEST_START:
+        gap = -end * np.sin(2.0 * np.pi * space.points) / (2.0 * np.pi)
+    else:  # y' = a (1 − |2s − 1|^k) with the mean `end`, as steep as half way from there to across
+        steepest = 0.5 * (1.0 + abs(end))
+        power = abs(end) / (steepest - abs(end))
+        x = 2.0 * space.points - 1.0
+        gap = (
+            0.5 * np.sign(end) * steepest * (x + 1.0 - (np.sign(x) * np.abs(x) ** (power + 1.0) + 1.0) / (power + 1.0))
+        )
+        gap -= end * space.points
+    return kept + space.project(gap - space.at_points(kept)[0], held)

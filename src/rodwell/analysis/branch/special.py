@@ -68,6 +68,11 @@ class SpecialPoint:
     after: int
     parameter: str = "force"
 
+    def __repr__(self) -> str:
+        where = f", s = {', '.join(f'{s:.4g}' for s in self.s)}" if self.s else ""
+        index = f"index {self.index_before} → {self.index_after}"
+        return f"<SpecialPoint {self.kind} at {self.parameter} = {self.value:.10g}{where}, {index}>"
+
     @property
     def value(self) -> float:
         """The branch's parameter."""

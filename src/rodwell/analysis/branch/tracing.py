@@ -12,7 +12,7 @@ from rodwell.analysis.branch.starts import Start, rejoined
 from rodwell.analysis.discrete.measures import STEEPEST, Measured
 from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
 from rodwell.numerics.continuation.location import LocationError
-from rodwell.numerics.continuation.walk import Stepping, Trace, trace
+from rodwell.numerics.continuation.walk import Halt, Stepping, Trace, trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
 
@@ -45,8 +45,9 @@ def traced(
     parameter: str = "force",
     switched: bool,
     progress: Progress | None,
+    halt: Halt | None = None,
 ) -> Trace:
-    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one."""
+    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one, or is told."""
     meshes, point = start
     stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
     events = [_ACROSS, Event.at(END, until)]
@@ -78,7 +79,7 @@ def traced(
         return REJOINS
 
     report = None if progress is None else lambda p: progress(p.lam)
-    result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report)
+    result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report, halt=halt)
     if result.end == REJOINS:
         return _ended_at(result, meeting(result.found[-1]))
     return _end_exactly(result, until)

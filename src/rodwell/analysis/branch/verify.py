@@ -181,6 +181,9 @@ def verify(
     NotConvergedError
         If the other program does not converge where lift-off is looked for.
     """
+    if not isinstance(branch, Branch):
+        how = "must be a branch, as from follow; of a state, the branch that it is on, with forces=[its end force]"
+        raise InputError("branch", branch, how)
     rtol = checked_number("rtol", rtol, FINEST, COARSEST, f"must be between {FINEST:g} and {COARSEST:g}")
     if branch.parameter != "force":
         raise InputError("branch", branch.parameter, "must be a branch in the end force")

@@ -61,10 +61,11 @@ class CurveTangent:
 
 @dataclass(frozen=True)
 class CurveStart:
-    """A known state on the curve."""
+    """A known state on the curve; ``along`` if its tangents are those along the load, which may turn back there."""
 
     x: float
     solution: Solution
+    along: bool = False
 
     @property
     def meshes(self) -> TwoMeshes:
@@ -73,8 +74,9 @@ class CurveStart:
 
     @property
     def guess(self) -> NearbyStates:
-        """Coefficients on both meshes."""
-        return NearbyStates(self.solution.point.coarse.c, self.solution.point.fine.c)
+        """Coefficients on both meshes, and the states."""
+        states = (self.solution.point.coarse, self.solution.point.fine) if self.along else (None, None)
+        return NearbyStates(self.solution.point.coarse.c, self.solution.point.fine.c, states)
 
 
 @dataclass(frozen=True)
@@ -165,6 +167,7 @@ class Zero(ABC):
     """
 
     touch: bool
+    noise = 0.0  # step of the secant method in x, as a part of its unit, below which it may grow again: round-off
 
     def __init__(self, over: str, load: str) -> None:
         self.over, self.load, self.touching = over, load, ContactMaximum()
@@ -212,7 +215,8 @@ class Zero(ABC):
                 break
             meshes = finer
             up, up_fine = (Prolongation(a.space, b.space) for a, b in zip(_meshes(line), _meshes(finer), strict=True))
-            guess = NearbyStates(up(coarse.c), up_fine(fine.c))
+            near = _carried(finer.coarse, coarse, up), _carried(finer.fine, fine, up_fine)
+            guess = NearbyStates(near[0].c, near[1].c, near)
             spot = PlanePoint(places[1], float(fine.lam))
             if travel is not None:
                 travel = replace(travel, coarse=up(travel.coarse), fine=up_fine(travel.fine))
@@ -248,12 +252,19 @@ class Zero(ABC):
             if new == value:
                 raise CurveLostError("the function does not change along the line")
             farthest = FARTHEST * travel.unit
-            value, step = new, float(np.clip(-new * step / (new - value), -farthest, farthest))
+            before, value, step = step, new, float(np.clip(-new * step / (new - value), -farthest, farthest))
+            if 2.0 * abs(step) >= abs(before) and abs(before) <= self.noise * travel.unit:
+                return float(x), state  # round-off: no nearer than that
         raise CurveLostError("the secant method did not settle")
 
 
 def _meshes(meshes: TwoMeshes) -> tuple[Family, Family]:
     return meshes.coarse, meshes.fine
+
+
+def _carried(family: Family, state: State, up: Prolongation) -> State:
+    """A state as one of a finer mesh, with its tangent: close to an equilibrium there."""
+    return family.state(up(state.c), state.lam, up(state.tangent), state.tangent_lam, state.index)
 
 
 def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, function: Function) -> State:

@@ -4,23 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from rodwell.analysis.branch.follow import follow
-from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, LIFT_OFF, SpecialPoint
-from rodwell.analysis.branch.starts import kept_parity
 from rodwell.analysis.curves.checks import BECOMES_STRAIGHT
 from rodwell.analysis.curves.curve import SWITCH, TURN, Curve, CurvePoint, Mark, Progress, checked_range
-from rodwell.analysis.curves.points import CurveStart, PlanePoint, Zero
+from rodwell.analysis.curves.points import CurveStart
 from rodwell.analysis.curves.tracing import trace_curve
-from rodwell.analysis.discrete.family import path, spline_ends
+from rodwell.analysis.curves.zeros import Branching, Touching, TwistAtLiftOff
 from rodwell.analysis.loads.torsion import torsion
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.numerics.equilibria.family import Family
-from rodwell.numerics.equilibria.state import State
-from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
@@ -74,7 +67,7 @@ def lift_off_curve(
     lift = branch.lift_off
     if lift is None or lift.kind != LIFT_OFF:
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
-    zero = _Touching(problem, over)
+    zero = Touching(problem, over)
     at_end = problem.but(**{over: end})
     vanishes = at_end.lateral_weight == 0.0
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
@@ -134,7 +127,7 @@ def secondary_curve(
             f"{over} = {start:g}: start elsewhere, or give until"
         )
     point = bifurcations[number - 1]
-    zero = _Branching(problem, over, point.solution)
+    zero = Branching(problem, over, point.solution)
     points, marks, why = trace_curve(zero, CurveStart(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
 
@@ -181,7 +174,7 @@ def twist_curve(
     if prepared.again is None:
         raise NotConvergedError(f"at {over} = {start:g}: {prepared.meaning} Start the range elsewhere.")
     corners = _switches(at_start, prepared.prepared, over, end)
-    zero = _TwistAtLiftOff(at_start, over, prepared.prepared.solution)
+    zero = TwistAtLiftOff(at_start, over, prepared.prepared.solution)
     points: list[CurvePoint] = []
     marks: list[Mark] = []
     why, seed = "end", CurveStart(start, prepared.again.solution)
@@ -202,89 +195,9 @@ def twist_curve(
 def _switches(problem: Problem, prepared: SpecialPoint, over: str, end: float) -> tuple[Mark, ...]:
     """Where the place that lifts off without twist changes: the prepared load, and so the twist, has a corner there."""
     start = float(getattr(problem, over))
-    _, marks, _ = trace_curve(_Touching(problem, over), CurveStart(start, prepared.solution), end, None)
+    _, marks, _ = trace_curve(Touching(problem, over), CurveStart(start, prepared.solution), end, None)
     turns = [mark.x for mark in marks if mark.kind == TURN]
     ahead = [
         mark for mark in marks if mark.kind == SWITCH and (not turns or abs(mark.x - start) < abs(turns[0] - start))
     ]
     return tuple(sorted(ahead, key=lambda mark: abs(mark.x - start)))
-
-
-class _Touching(Zero):
-    """Lift-off: the contact pressure at its maximum vanishes."""
-
-    touch = True
-
-    def __init__(self, problem: Problem, over: str, load: str = "force") -> None:
-        super().__init__(over, load)
-        self.problem = problem
-
-    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
-        return _along_force(self.problem, self.over, meshes, spot)
-
-    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
-
-    def function(self, family: Family, state: State) -> float:
-        return self.touching.at(family, state)
-
-
-class _TwistAtLiftOff(_Touching):
-    """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
-
-    def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
-        super().__init__(problem, over, load="twist")
-        self.first, self.lifting = _Touching(problem, over), lifting
-
-    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
-        if spot.x != getattr(self.lifting.problem, self.over):
-            near = CurveStart(spot.x, self.lifting)
-            self.lifting = self.first.solve(near.meshes, near.guess, PlanePoint(spot.x, self.lifting.force)).solution
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, meshes.coarse.parity, "twist")
-        return meshes.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
-
-    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, meshes)
-
-
-class _Branching(Zero):
-    """Loss of symmetry: an eigenvalue of the Hessian vanishes."""
-
-    touch = False
-
-    def __init__(self, problem: Problem, over: str, branching: Solution) -> None:
-        super().__init__(over, "force")
-        self.problem, self.softest = problem, _Softest(branching)
-
-    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
-        return _along_force(self.problem, self.over, meshes, spot)
-
-    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
-        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
-
-    def function(self, family: Family, state: State) -> float:
-        return self.softest(family, state)
-
-
-def _along_force(problem: Problem, over: str, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
-    """The same meshes with the equilibria along the end force at ``spot``."""
-    problem = problem.but(**{over: spot.x})
-    parity = kept_parity(problem, meshes.coarse.parity, over)
-    return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
-
-
-class _Softest:
-    """The eigenvalue that vanishes at a branch point, followed by its vector."""
-
-    def __init__(self, branching: Solution) -> None:
-        self.vectors: dict[int, np.ndarray] = {}
-        self.parity = -branching.point.fine.symmetry
-
-    def __call__(self, family: Family, state: State) -> float:
-        size = state.c.size
-        if size not in self.vectors:
-            vector = np.random.default_rng(0).standard_normal(size)
-            self.vectors[size] = vector + self.parity * vector[::-1]
-            family.nearest_curvature(state, self.vectors[size], 8)
-        return family.nearest_curvature(state, self.vectors[size], 3)[0]

@@ -19,6 +19,7 @@ from rodwell.analysis.discrete.pressures import (
 )
 from rodwell.compiling.kernels import direct, kernel
 from rodwell.compiling.second_process import wait_for
+from rodwell.errors import unknown_name
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.state import State
@@ -52,6 +53,35 @@ class Measured(IntEnum):
     OMEGA2_1 = 4
     ANGLE_MID = 5  # y(½)/Δ = ξ₂(½) − ξ₂ of the straight rod
     TORQUE_0 = 6  # T₂(0), (33): what the support of the cylinder at s = 0 must provide
+
+
+MEASURES = {
+    Measured.P_MAX: "largest_pressure",
+    Measured.ENERGY: "energy",
+    Measured.SHORTENING: "end_shortening",
+    Measured.OMEGA2_0: "omega2_at_0",
+    Measured.OMEGA2_1: "omega2_at_1",
+    Measured.ANGLE_MID: "angle_at_middle",
+    Measured.TORQUE_0: "support_torque",
+}
+"""Names of the measured numbers, as in the nomenclature."""
+
+_NAMED = {name: which for which, name in MEASURES.items()}
+
+
+def measured(which: Measured | str) -> Measured:
+    """Return the measured number of a name in the nomenclature.
+
+    Raises
+    ------
+    InputError
+        If no measured number has that name.
+    """
+    if isinstance(which, int):
+        return Measured(which)
+    if which not in _NAMED:
+        raise unknown_name("number", which, _NAMED)
+    return _NAMED[which]
 
 
 STEEPEST = len(Measured)

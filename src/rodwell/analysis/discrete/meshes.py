@@ -44,6 +44,8 @@ PLACES = 257
 
 def linear_space(problem: Problem, count: int) -> SplineSpace:
     """Return a spline space for the first ``count`` critical loads."""
+    if problem.axial_weight < 0.0:
+        return _mirrored(linear_space(problem.turned_round, count))
     load = wkb_load(problem, count + SPARE_MODES)
     places = _places(problem, load)
     mesh = graded_mesh(resolved(problem, places, load) + LEAST_WAVENUMBER, places, LINEAR_ELEMENTS_PER_RADIAN)
@@ -66,6 +68,9 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
 
     Elements grow where states have died away: beyond the part of the rod in which the lowest end force makes waves.
     """
+    if problem.axial_weight < 0.0:
+        ends = (force - problem.axial_weight for force in (compression, tension))
+        return _mirrored(first_space(problem.turned_round, *ends))
     load = -compression
     s = _places(problem, load)
     weight = problem.axial_weight * (s - 1.0)
@@ -80,6 +85,11 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     return SplineSpace(graded_mesh(wavenumber, s, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
 
 
+def _mirrored(space: SplineSpace) -> SplineSpace:
+    """The space of a rod seen from its other end: what follows takes the lower end to be s = 0."""
+    return SplineSpace(1.0 - space.breaks[::-1], space.degree, space.per_element)
+
+
 def _waves(problem: Problem, load: float) -> bool:
     """Whether frozen coefficients have waves at the lower end: then the rest of a long rod may stay straight."""
     b = problem.foundation / problem.clearance
@@ -88,6 +98,8 @@ def _waves(problem: Problem, load: float) -> bool:
 
 def wkb_load(problem: Problem, number: float) -> float:
     """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
+    if problem.axial_weight < 0.0:
+        return wkb_load(problem.turned_round, number) - problem.axial_weight
     b, weight, whole = problem.foundation / problem.clearance, problem.axial_weight, number * np.pi
     if b < 0.0:  # on top: the whole rod is in waves of k₃, the other root is imaginary
         s = np.linspace(0.0, 1.0, PLACES)
@@ -168,6 +180,8 @@ def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
 
 def free_space(problem: Problem, count: int) -> SplineSpace:
     """Spline space for the first ``count`` critical loads without a wall: modes turn with the twist along s as well."""
+    if problem.axial_weight < 0.0:
+        return _mirrored(free_space(problem.turned_round, count))
     upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)
     load = wkb_load(upright, count + SPARE_MODES)
     places = _places(upright, load)

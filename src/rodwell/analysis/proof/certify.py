@@ -58,6 +58,9 @@ class CertifiedLoad:
     multiplicity: int
     closed_form: str
 
+    def __repr__(self) -> str:
+        return f"<CertifiedLoad {self.number}, {self.digits} digits proved: F = {float(self.force.middle):.15g} B/L²>"
+
     @property
     def digits(self) -> int:
         """Proved digits of the force, relative to |F| or to 1 if that is larger."""
@@ -132,8 +135,8 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     counter = Counter(lambda x: _rod(problem, x))
     # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
     against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
-    start = Fraction(-2.0 - problem.axial_weight - 1.001 * against)
-    step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * problem.axial_weight)
+    start = Fraction(-2.0 - problem.heaviest - 1.001 * against)
+    step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * abs(problem.axial_weight))
     found = critical_values(counter, start, step, modes, digits + SPARE)
     equation = closed_form(problem)
     return CertifiedLoads(_load(problem, item, equation, digits) for item in found)
@@ -205,7 +208,7 @@ def closed_form(problem: Problem) -> ClosedForm | None:
     or even modes of a clamped rod of twice the length. Vertical: (86), and (88) with the upper end guided.
     """
     ends, upright, flat = problem.ends, problem.lateral_weight == 0.0, problem.axial_weight == 0.0
-    if problem.weight == 0.0:
+    if problem.weight == 0.0 or problem.axial_weight < 0.0:
         return None
     if flat and "clamped" in ends and "free" not in ends:
         name = "on top, section 4.3" if problem.on_top else "(77)"

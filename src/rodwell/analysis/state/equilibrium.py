@@ -8,9 +8,10 @@ from warnings import warn
 
 import numpy as np
 
-from rodwell.analysis.discrete.measures import Measured, pressure_maxima
+from rodwell.analysis.discrete.measures import Measured, measured, pressure_maxima
 from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import GRID, end_force, fields_at, largest, total_wall_force
+from rodwell.errors import unknown_name
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -18,6 +19,7 @@ from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.names import FIELDS
 from rodwell.quantities.value import Peak, Value
 
 
@@ -78,8 +80,15 @@ class Equilibrium:
         """Value of a parameter of :data:`rodwell.analysis.discrete.family.PATHS`."""
         return self.force if parameter == "force" else float(getattr(self.problem, parameter))
 
-    def number(self, which: Measured) -> Value:
-        """Return a measured number with its error estimate."""
+    def number(self, which: Measured | str) -> Value:
+        """Return a measured number with its error estimate, by its name in the nomenclature ("energy", "omega2_at_1").
+
+        Raises
+        ------
+        InputError
+            If no measured number has that name.
+        """
+        which = measured(which)
         return Value(float(self.point.values[which]), float(self.point.error[which]))
 
     @cached_property
@@ -109,7 +118,15 @@ class Equilibrium:
         return fine, {k: float(np.max(estimated_error(fine[k], coarse[k]))) for k in fine}
 
     def largest(self, name: str) -> Peak:
-        """Largest size of a field over s with its error estimate, and where (the first place, if there are more)."""
+        """Largest size of a field over s with its error estimate, and where (the first place, if there are more).
+
+        Raises
+        ------
+        InputError
+            If there is no field of that name.
+        """
+        if name not in FIELDS:
+            raise unknown_name("field", name, FIELDS)
         return compared_peaks(*(largest(self.problem, f, state, name) for f, state in self.levels))
 
     @cached_property

@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
-from rodwell.analysis.straight.scale import EULER, LOAD_NOISE
+from rodwell.analysis.straight.scale import LOAD_NOISE, load_scale
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
@@ -64,6 +64,9 @@ class Mode:
     space: SplineSpace
     coefficients: FloatArray
     coarse: tuple[SplineSpace, FloatArray]
+
+    def __repr__(self) -> str:
+        return f"<Mode {self.number} at F = {self.force:.10g} B/L², {self.wavenumber / np.pi:.3g} half waves>"
 
     @property
     def force(self) -> float:
@@ -165,7 +168,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         up = Prolongation(space, finer)
         start = np.array([up(v) for v in vectors])
         better, shapes = _solve(problem, finer, count, (values, start))
-        size = np.abs(better[:count]) + problem.axial_weight + EULER
+        size = np.abs(better[:count]) + load_scale(problem)
         error = np.abs(better[:count] - values[:count]) + LOAD_NOISE * size
         if np.all(error <= rtol * size):
             break
@@ -206,7 +209,7 @@ def _solve(
         return space.grams(factors, full(block))
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
-    below = -problem.axial_weight + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    below = -problem.heaviest + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
     guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
     try:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)

@@ -72,7 +72,7 @@ class Pencil:
         if start is not None:
             guess = start[0] + self.lift, np.ascontiguousarray(start[1][:, held.free])
         try:
-            below = -self.axial_weight - 1.0  # the rest of the form is a square
+            below = -max(self.axial_weight, 0.0) - 1.0  # the rest of the form is a square
             values, vectors = eigen.lowest(stiffness, gram, quadrature, count, below, guess)
         except eigen.EigenError as reason:
             raise NotConvergedError(f"loads without the wall: {reason}") from None

@@ -14,8 +14,8 @@ EULER = 4.0 * np.pi**2
 
 
 def load_scale(problem: Problem) -> float:
-    """γ cos α + 4π², of a rod that is kept on the wall."""
-    return problem.axial_weight + EULER
+    """γ |cos α| + 4π², of a rod that is kept on the wall."""
+    return abs(problem.axial_weight) + EULER
 
 
 def twisted_load_scale(problem: Problem) -> float:

@@ -68,6 +68,10 @@ class SpatialMode:
     space: SplineSpace
     coefficients: ComplexArray
 
+    def __repr__(self) -> str:
+        times = f", {self.multiplicity} modes" if self.multiplicity > 1 else ""
+        return f"<SpatialMode at F = {self.force:.10g} B/L²{times}>"
+
     @property
     def rigid(self) -> bool:
         """Whether the mode is a motion of the whole rod without bending: then its load is 0 exactly."""
@@ -129,6 +133,9 @@ class LoadsWithoutWall:
     problem: Problem
     modes: tuple[SpatialMode, ...]
     rtol: float
+
+    def __repr__(self) -> str:
+        return f"<LoadsWithoutWall F = {', '.join(f'{force:.10g}' for force in self.forces)} B/L²>"
 
     @property
     def forces(self) -> FloatArray:

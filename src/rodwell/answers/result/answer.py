@@ -26,7 +26,7 @@ from rodwell.case.case import Case
 from rodwell.faces import Shown, drawn, plain
 
 if TYPE_CHECKING:
-    from rodwell.analysis.discrete.measures import Measured
+    from rodwell.analysis.branch.functionals import Number
     from rodwell.faces import Axes
 
 
@@ -84,7 +84,7 @@ class Answer(Computed, Shown):
         warnings.warn("Answer.figures is now Answer.key_numbers", DeprecationWarning, stacklevel=2)
         return self.key_numbers
 
-    def plot(self, ax: Axes | None = None, *, ordinate: Measured | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, *, ordinate: Number | None = None) -> Axes:
         """Draw the bifurcation diagram in the case's units: see :meth:`rodwell.Branch.plot`; return the axes."""
         return drawn(self, ax, ordinate=ordinate)
 

@@ -65,6 +65,9 @@ class Trace:
 
 
 Progress = Callable[[MeshedState], None]
+Halt = Callable[[Trace], str]
+"""Why the branch ends at the last point of a trace, or "" if it goes on."""
+
 Stop = Callable[[LocatedEvent], str]
 """Why the branch ends at something located, or "" if it goes on; a LocationError if that is not to be trusted."""
 
@@ -78,6 +81,7 @@ def trace(
     stop: Stop,
     switched: bool,
     progress: Progress | None = None,
+    halt: Halt | None = None,
 ) -> Trace:
     """Follow the branch from ``start`` along its tangent until something found stops it, or a limit is met.
 
@@ -85,9 +89,10 @@ def trace(
     end strays from where it was predicted, or if an event in it cannot be located; the last two steps are, if
     the stability index changed and changed back within them. If the step falls below
     ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
-    branch point, whose stability index is that of the branch left.
+    branch point, whose stability index is that of the branch left. ``halt`` looks at the trace at its start and after
+    each step, and may end it.
     """
-    walk = _Walk(stepping, events, stop, switched, Trace([start], [meshes]), Predictor(start.coarse))
+    walk = _Walk(stepping, events, stop, switched, Trace([start], [meshes]), Predictor(start.coarse), halt)
     walk.to_the_end(progress)
     return walk.trace
 
@@ -106,6 +111,7 @@ class _Walk:
     switched: bool
     trace: Trace
     predictor: Predictor
+    halt: Halt | None = None
     softest: SoftestEigenvalues = field(default_factory=SoftestEigenvalues)
     careful: bool = False
     left: bool = False
@@ -116,6 +122,7 @@ class _Walk:
         """Make steps until something ends the branch."""
         trace, stepping = self.trace, self.stepping
         length = stepping.first
+        trace.end = self.halt(trace) if self.halt else ""
         while not trace.end:
             self.work += 4.0 * trace.meshes[-1].fine.space.elements  # about that many solves a step
             trace.end = self._limit()
@@ -138,6 +145,8 @@ class _Walk:
                 continue
             if progress is not None:
                 progress(trace.points[-1])
+            if self.halt is not None:
+                trace.end = self.halt(trace)
             self.careful = self.careful and length < stepping.first
             length = min(stepping.largest, length * min(2.0, 0.5 * stepping.sharpest_turn / max(turn, 1e-3)))
 

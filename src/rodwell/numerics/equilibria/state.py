@@ -35,6 +35,9 @@ class State:
     index: int
     energy: float
 
+    def __repr__(self) -> str:
+        return f"<State at {self.lam:.10g} on {self.space.elements} elements, index {self.index}>"
+
     @property
     def symmetry(self) -> int:
         """1 if the state is even about the middle, −1 if odd (up to a constant: a coil), 0 if neither."""

@@ -88,6 +88,10 @@ class MeshedState:
     error: FloatArray
     excess: float
 
+    def __repr__(self) -> str:
+        sizes = f"{self.coarse.space.elements} and {self.fine.space.elements} elements"
+        return f"<MeshedState at {self.lam:.10g} on {sizes}, index {self.fine.index}>"
+
     @property
     def lam(self) -> float:
         """Parameter λ, from the finer mesh."""

@@ -1,0 +1,133 @@
+"""What defines curves of states: functions of equilibria that vanish on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from rodwell.analysis.branch.functionals import Number, value_on
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.starts import kept_parity
+from rodwell.analysis.curves.points import CurveStart, PlanePoint, Zero
+from rodwell.analysis.discrete.family import path, spline_ends
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.problem.problem import Problem
+
+
+class AlongForce(Zero):
+    """Zeros among the equilibria of a problem along the end force, at each value of another parameter."""
+
+    touch = False
+
+    def __init__(self, problem: Problem, over: str, load: str = "force") -> None:
+        super().__init__(over, load)
+        self.problem = problem
+
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        """The same meshes with the equilibria along the end force at ``spot``."""
+        problem = self.problem.but(**{self.over: spot.x})
+        parity = kept_parity(problem, meshes.coarse.parity, self.over)
+        return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
+
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
+        """A point as a solution."""
+        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
+
+
+class Touching(AlongForce):
+    """Lift-off: the contact pressure at its maximum vanishes."""
+
+    touch = True
+
+    def function(self, family: Family, state: State) -> float:
+        """The contact pressure there."""
+        return self.touching.at(family, state)
+
+
+class TwistAtLiftOff(Touching):
+    """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
+
+    def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
+        super().__init__(problem, over, load="twist")
+        self.first, self.lifting = Touching(problem, over), lifting
+
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        """The same meshes with the equilibria along the twist, at the end force of the first lift-off."""
+        if spot.x != getattr(self.lifting.problem, self.over):
+            near = CurveStart(spot.x, self.lifting)
+            self.lifting = self.first.solve(near.meshes, near.guess, PlanePoint(spot.x, self.lifting.force)).solution
+        problem = self.problem.but(**{self.over: spot.x})
+        parity = kept_parity(problem, meshes.coarse.parity, "twist")
+        return meshes.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
+
+    def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
+        """A point as a solution."""
+        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, meshes)
+
+
+class Branching(AlongForce):
+    """Loss of symmetry: an eigenvalue of the Hessian vanishes."""
+
+    def __init__(self, problem: Problem, over: str, branching: Solution) -> None:
+        super().__init__(problem, over)
+        self.softest = Softest(branching)
+
+    def function(self, family: Family, state: State) -> float:
+        """That eigenvalue."""
+        return self.softest(family, state)
+
+
+class Folding(AlongForce):
+    """A fold: equilibria turn back in the end force."""
+
+    noise = 1e-6
+
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        """The same meshes, with tangents taken at the states themselves."""
+        line = super().meshes(meshes, spot)
+        line.coarse, line.fine = line.coarse.with_exact_tangent(), line.fine.with_exact_tangent()
+        return line
+
+    def function(self, family: Family, state: State) -> float:
+        """The share of the end force in the tangent."""
+        return state.tangent_lam / family.lam_scale
+
+
+class Vanishing(AlongForce):
+    """Any number of a state vanishes."""
+
+    def __init__(self, problem: Problem, over: str, which: Number) -> None:
+        super().__init__(problem, over)
+        self.which = which
+        self._value: Callable[[Family, State], float] | None = None
+
+    def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
+        """The same meshes; the number is that of the problem at ``spot``."""
+        line = super().meshes(meshes, spot)
+        self._value = value_on(self.problem.but(**{self.over: spot.x}), "force", line, self.which)
+        return line
+
+    def function(self, family: Family, state: State) -> float:
+        """That number."""
+        assert self._value is not None
+        return self._value(family, state)
+
+
+class Softest:
+    """The eigenvalue that vanishes at a branch point, followed by its vector."""
+
+    def __init__(self, branching: Solution) -> None:
+        self.vectors: dict[int, np.ndarray] = {}
+        self.parity = -branching.point.fine.symmetry
+
+    def __call__(self, family: Family, state: State) -> float:
+        """The eigenvalue at a state."""
+        size = state.c.size
+        if size not in self.vectors:
+            vector = np.random.default_rng(0).standard_normal(size)
+            self.vectors[size] = vector + self.parity * vector[::-1]
+            family.nearest_curvature(state, self.vectors[size], 8)
+        return family.nearest_curvature(state, self.vectors[size], 3)[0]

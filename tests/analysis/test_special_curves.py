@@ -1,0 +1,91 @@
+"""Special points followed in a second parameter."""
+
+from __future__ import annotations
+
+import pytest
+
+from rodwell import Branch, InputError, Problem, Solution, follow, lift_off_curve, secondary_curve, special_curve
+
+SHORTER = 5e-4
+
+
+def shortened(state: Solution) -> float:
+    return state.number("end_shortening").value - SHORTER
+
+
+@pytest.fixture(scope="module")
+def branch() -> Branch:
+    return follow(Problem(15.0, 89.0), until=-500.0, events={"shorter": shortened})
+
+
+def test_folds_end_in_a_cusp(branch: Branch) -> None:
+    """The folds at −358.896 and −165.002 of w = 15, α = 89° are two arms of one curve, which meet in a cusp."""
+    curve = special_curve(branch.labelled("fold 1"), "alpha", 20.0)
+    (cusp,) = [mark for mark in curve.marks if mark.kind == "cusp"]
+    assert curve.converged
+    assert cusp.x == pytest.approx(38.4303074, abs=1e-6)
+    back = min(curve.points[-3:], key=lambda point: abs(point.x - 89.0))
+    state = follow(Problem(15.0, back.x), until=-500.0)
+    folds = [p.force for p in state.special_points if p.kind == "fold"]
+    assert min(abs(force - back.value) for force in folds) < 1e-6
+
+
+def test_beyond_its_cusp_a_branch_has_no_folds_and_before_it_has_two(branch: Branch) -> None:
+    """The cusp by a second method: branches on either side of it, followed by themselves."""
+    curve = special_curve(branch.labelled("fold 1"), "alpha", 20.0)
+    (cusp,) = [mark for mark in curve.marks if mark.kind == "cusp"]
+    for alpha, count in ((cusp.x - 0.05, 0), (cusp.x + 0.05, 2)):
+        near = follow(Problem(15.0, alpha), until=cusp.value - 5.0)
+        assert [p.kind for p in near.special_points].count("fold") == count
+
+
+def test_a_fold_followed_is_the_fold_of_the_branch_there(branch: Branch) -> None:
+    curve = special_curve(branch.labelled("fold 2"), "weight", 18.0)
+    assert curve.ended_because == "end"
+    last = curve.points[-1]
+    other = follow(Problem(18.0, 89.0), until=-500.0)
+    folds = [p for p in other.special_points if p.kind == "fold"]
+    nearest = min(folds, key=lambda p: abs(p.force - last.value))
+    assert nearest.force == pytest.approx(last.value, abs=nearest.error + last.error + 1e-9)
+
+
+def test_lift_off_and_loss_of_symmetry_as_the_curves_of_their_own(branch: Branch) -> None:
+    curve = special_curve(branch.labelled("lift_off 1"), "weight", 17.0)
+    other = lift_off_curve(Problem(15.0, 89.0), "weight", (15.0, 17.0))
+    assert curve.values[-1] == pytest.approx(other.values[-1], abs=curve.errors[-1] + other.errors[-1])
+    symmetric = follow(Problem(15.0), until=-400.0)
+    curve = special_curve(symmetric.labelled("branch_point 1"), "weight", 16.0)
+    other = secondary_curve(Problem(15.0), (15.0, 16.0))
+    assert curve.values[-1] == pytest.approx(other.values[-1], abs=curve.errors[-1] + other.errors[-1])
+
+
+def test_an_event_of_ones_own_is_followed(branch: Branch) -> None:
+    curve = special_curve(branch.labelled("shorter 1"), "alpha", 80.0, function=shortened)
+    assert curve.ended_because == "end"
+    for point in curve.points[:: len(curve) // 3]:
+        assert point.solution is not None
+        assert abs(shortened(point.solution)) < 1e-11
+
+
+@pytest.mark.parametrize("ends", ["free-clamped", "pinned-guided"])
+def test_lift_off_from_any_ends(ends: str) -> None:
+    rod = Problem(30.0, 70.0, ends=ends)  # type: ignore[arg-type]
+    lift = follow(rod).labelled("lift_off 1")
+    curve = special_curve(lift, "alpha", 72.0)
+    there = follow(rod.but(alpha=72.0)).labelled("lift_off 1")
+    assert curve.values[-1] == pytest.approx(there.force, abs=there.error + curve.errors[-1] + 1e-9)
+
+
+def test_what_cannot_be_followed_is_refused(branch: Branch) -> None:
+    with pytest.raises(InputError, match=r"^point = 'critical': must be of kind"):
+        special_curve(branch.labelled("critical 1"), "weight", 20.0)
+    with pytest.raises(InputError, match=r"^point = 'shorter'.*needs function"):
+        special_curve(branch.labelled("shorter 1"), "weight", 20.0)
+    with pytest.raises(InputError, match=r"^over = 'angle'"):
+        special_curve(branch.labelled("fold 1"), "angle", 20.0)
+    symmetric = follow(Problem(15.0), until=-400.0)
+    with pytest.raises(InputError, match="leaves no symmetry"):
+        special_curve(symmetric.labelled("branch_point 1"), "alpha", 80.0)
+    other = follow(Problem(15.0, 89.0), start=branch[5], parameter="weight", until=16.0)
+    with pytest.raises(InputError, match="a branch in the end force"):
+        special_curve(other.special_points[-1], "alpha", 80.0)
