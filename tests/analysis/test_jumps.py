@@ -133,3 +133,13 @@ def test_what_is_found_does_not_depend_on_the_step(
     half = follow(problem, first, until=0.5 * (first.force + until))
     if half.reached_end and usual.reached_end:
         assert energy(usual, half.force[-1]) == pytest.approx(half[-1].number(Measured.ENERGY).value, rel=1e-6)
+
+
+@pytest.mark.parametrize("step", [0.06, 0.02])
+def test_a_fold_right_behind_the_start_is_found_with_any_step(step: float) -> None:
+    """Twist parts two loads that differ by 2e-4 of themselves: the branch folds 8e-5 behind its critical load."""
+    problem = Problem(0.6358, 90.0, clearance=0.004177, twist=3.288, ends="pinned-guided")
+    start, fold = follow(problem, 2, until=-64.16, largest_step=step).special_points[:2]
+    assert (start.kind, start.index_after) == ("critical", 1)
+    assert (fold.kind, fold.index_before, fold.index_after) == ("fold", 1, 2)
+    assert 0.0 < start.force - fold.force < 2e-4

@@ -141,19 +141,16 @@ def _located(coarse: Segment, fine: Segment, turns: Sequence[float], bracket: _B
         softest = softest if low == bracket.low else _Eigenvalue(fine, low)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
     if steady:
-        other = _Eigenvalue(parts[1], 0.0)
-        parts = _steadied(fine, parts[0], low, high, softest), _steadied(coarse, parts[1], low, high, other)
+        beside = _Eigenvalue(parts[1], 0.0)
+        parts = _steadied(fine, parts[0], low, high, softest), _steadied(coarse, parts[1], low, high, beside)
     eigenvalue = softest.on(parts[0])
     ends = eigenvalue(0.0), eigenvalue(1.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
         rough = _Eigenvalue(parts[1], t)
         if steady:  # once more, off just the direction in which the Hessian is singular there
-            parts = tuple(
-                replace(part, frozen=there.vector.copy())
-                for part, there in zip(parts, (eigenvalue, rough), strict=True)
-            )
-            eigenvalue, rough = eigenvalue.on(parts[0]), rough.on(parts[1])
+            eigenvalue, rough = eigenvalue.off_itself(), rough.off_itself()
+            parts = eigenvalue.segment, rough.segment
             t = near_root(eigenvalue, t, after < before, farthest=1.0, noise=eigenvalue.noise)
         other = near_root(rough, t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise)
     except LocationError:
@@ -225,6 +222,10 @@ class _Eigenvalue:
         other = copy(self)
         other.segment, other.vector = segment, self.vector.copy()
         return other
+
+    def off_itself(self) -> _Eigenvalue:
+        """Return the same with Newton's method kept off its vector."""
+        return self.on(replace(self.segment, frozen=self.vector.copy()))
 
     def __call__(self, t: float) -> float:
         return self.segment.family.nearest_curvature(self.segment(t), self.vector, 3)[0]
