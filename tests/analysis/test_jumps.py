@@ -143,3 +143,13 @@ def test_a_fold_right_behind_the_start_is_found_with_any_step(step: float) -> No
     assert (start.kind, start.index_after) == ("critical", 1)
     assert (fold.kind, fold.index_before, fold.index_after) == ("fold", 1, 2)
     assert 0.0 < start.force - fold.force < 2e-4
+
+
+def test_two_folds_within_a_step_are_found() -> None:
+    """Next to the horizontal an unfolded pitchfork has two folds 9e-5 apart in load, a tenth of a step apart."""
+    problem = Problem(1.41, 89.999974, clearance=0.005659, ends="guided-clamped")
+    usual, careful = (follow(problem, 2, until=-96.0, largest_step=step) for step in (0.06, 0.02))
+    folds = [[p for p in branch.special_points if p.kind == "fold"] for branch in (usual, careful)]
+    assert len(folds[0]) == len(folds[1]) == 2
+    for one, other in zip(*folds, strict=True):
+        assert abs(one.force - other.force) <= one.error + other.error
