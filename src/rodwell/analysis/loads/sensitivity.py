@@ -12,7 +12,7 @@ dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -56,6 +56,8 @@ class Sensitivity:
         ∂f/∂T₁. Critical loads of a rod kept on the wall do not depend on T₁.
     note
         What to know about them, or nothing.
+    converged
+        Whether the load, and the state that the derivatives are taken at, meet the tolerance asked for.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Sensitivity:
     force: float
     derivatives: Derivatives
     note: str = ""
+    converged: bool = True
 
     def elasticities(self) -> Derivatives:
         """Change of the load F in percent for one percent more of each physical input, with error estimates.
@@ -100,6 +103,7 @@ class Sensitivity:
             "derivatives": pairs(self.derivatives),
             "elasticities": pairs(self.elasticities()) if self.force != 0.0 else None,
             "note": self.note,
+            "converged": self.converged,
         }
 
 
@@ -128,11 +132,12 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     if mode == 1 and problem.twist != 0.0 and problem.lateral_weight == 0.0:
         met = critical_loads(problem, 1, rtol=rtol).first_met
         assert isinstance(met, SpatialMode)
-        out.append(of_first_met(met))
+        known = met.error <= rtol * (abs(met.force) + twisted_load_scale(problem))
+        out.append(replace(of_first_met(met), converged=known))
     if problem.pressed:
-        lift = follow(problem, buckling, rtol=rtol).lift_off
-        if lift is not None:
-            out.append(of_lift_off(lift))
+        branch = follow(problem, buckling, rtol=rtol)
+        if (lift := branch.lift_off) is not None:
+            out.append(replace(of_lift_off(lift), converged=branch.meets_tolerance(lift)))
     return tuple(out)
 
 
