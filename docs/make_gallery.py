@@ -14,8 +14,16 @@ DPI = 140
 
 ORDER = {
     "The rod in its hole": ("drill_string", "coil"),
-    "Which load, which mode": ("envelope", "lift_off", "formulas", "well"),
-    "After buckling": ("bifurcation_diagram", "broken_symmetry", "snap_to_coil", "column", "twist"),
+    "Which load, which mode": ("envelope", "lift_off", "lift_off_map", "formulas", "well"),
+    "After buckling": (
+        "bifurcation_diagram",
+        "broken_symmetry",
+        "snap_to_coil",
+        "load_path",
+        "endless",
+        "column",
+        "twist",
+    ),
     "What the wall bears": ("guidewire", "wall_moments", "helix"),
 }
 
@@ -24,11 +32,15 @@ CHECKED = {
     "coil": "two turns are 4π, the material lines turn at −T₁/C, (32); stable, in contact everywhere",
     "envelope": "4π² without weight; double points at γ = n²m²π⁴Δ, F = −(n² + m²)π², (78)",
     "lift_off": "−123.1730743 B/L² for the horizontal rod, from AUTO-07p; lift-off comes after buckling",
+    "lift_off_map": "the double point γ = 62.34181826 of (77), (78) is between the sides of a jump",
     "formulas": "ratio 2nm/(n² + m²) where modes switch, (78)",
     "well": "the formula by hand for the horizontal part; the exact load of a long rod within 1 % above it",
     "bifurcation_diagram": "secondary bifurcations at −362.63 and −164.78, section 4.1.2 of the paper",
     "broken_symmetry": "the same two loads, Fig. 4; the odd shape needs no torque at the support",
     "snap_to_coil": "energies of an interior-point method that lets the rod leave the wall, to 1e-6",
+    "endless": "contact forces at β = 3, of two other programs, to 1e-8; where the wall begins to pull",
+    "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
+    "and −103.6731326",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",

@@ -37,6 +37,7 @@ COMMANDS = {
     "twist-odd": "twist --weight 30 --alpha 90",
     "twist-even": "twist --weight 15 --alpha 90 --mode 2",
     "curve-twist": "curve twist --over weight --from 40 --to 18.5 --alpha 90 --out results/twist",
+    "path": "path --weight 15 --alpha 90 --until -160 --unload-to -90 --at -125.41829806,-146.9 --out results/path",
     "critical-untouched": "critical --weight 0 --alpha 0 --twist 5 --modes 1",
     "critical-twist": "critical --weight 15 --alpha 90 --twist 5 --modes 2",
     "critical-ends": "critical --weight 15 --alpha 60 --ends clamped-pinned --modes 3",

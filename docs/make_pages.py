@@ -18,9 +18,12 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import make_drag
+import make_endless
 import make_formulas
 import make_howto
 import make_long
+import make_packer
 import make_paper
 import make_wells
 from click.testing import CliRunner
@@ -50,13 +53,18 @@ COMMANDS = {
     **make_howto.COMMANDS,
     **make_formulas.COMMANDS,
     **make_wells.COMMANDS,
+    **make_drag.COMMANDS,
     **make_long.COMMANDS,
+    **make_endless.COMMANDS,
+    **make_packer.COMMANDS,
     **make_paper.COMMANDS,
 }
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_long", "make_wells", "make_braid", "make_report", "make_architecture",
+    "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
+    "make_report",
+    "make_architecture",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 
@@ -181,6 +189,7 @@ MORE = {
     "rod.pipe": "pipes-and-fluids.md",
     "rod.torsional_stiffness": "twist.md",
     "load.applied": "strength.md",
+    "packer.motion": "packer.md",
     "study": "studies.md",
     "catalogue.files": "pipes-and-fluids.md",
 }

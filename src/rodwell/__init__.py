@@ -33,10 +33,16 @@ _HOME = {
     "CriticalLoads": "rodwell.analysis.straight.critical",
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
+    "Drag": "rodwell.studies.drag.drag",
+    "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
+    "LocalState": "rodwell.analysis.endless.local",
+    "LoadPath": "rodwell.analysis.path.load_path",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
+    "Map": "rodwell.studies.maps.result",
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
+    "PackerAnswer": "rodwell.studies.packer.packer",
     "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.studies.well.screening",
@@ -47,6 +53,7 @@ _HOME = {
     "Study": "rodwell.studies.sweep.study",
     "Survey": "rodwell.studies.well.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
+    "Well": "rodwell.studies.drag.well_case",
     "WallTouch": "rodwell.analysis.straight.without_wall",
     "branch_off": "rodwell.analysis.branch.follow",
     "certify": "rodwell.analysis.proof.certify",
@@ -54,18 +61,24 @@ _HOME = {
     "critical_curves": "rodwell.analysis.curves.critical",
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
+    "drag": "rodwell.studies.drag.drag",
+    "endless": "rodwell.analysis.endless.endless",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
     "extended": "rodwell.analysis.branch.follow",
     "follow": "rodwell.analysis.branch.follow",
     "lift_off_curve": "rodwell.analysis.curves.states",
+    "local_state": "rodwell.analysis.endless.local",
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
+    "load_path": "rodwell.analysis.path.load_path",
     "load_branch": "rodwell.store.restart",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
+    "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
     "read_surveys": "rodwell.studies.well.survey",
+    "packer": "rodwell.studies.packer.packer",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
     "special_curve": "rodwell.analysis.curves.special",
@@ -93,8 +106,11 @@ if TYPE_CHECKING:
     from rodwell.analysis.curves.curve import Curve
     from rodwell.analysis.curves.special import special_curve
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
+    from rodwell.analysis.endless.endless import Endless, endless
+    from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.path.load_path import LoadPath, load_path
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate
@@ -107,8 +123,13 @@ if TYPE_CHECKING:
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.export import export
+    from rodwell.store.mapping import map  # noqa: A004
     from rodwell.store.restart import load_branch, save_branch
     from rodwell.studies.audit.audit import Audit, audit
+    from rodwell.studies.drag.drag import Drag, drag
+    from rodwell.studies.drag.well_case import Well
+    from rodwell.studies.maps.result import Map
+    from rodwell.studies.packer.packer import PackerAnswer, packer
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
     from rodwell.studies.well.survey import Survey, read_surveys

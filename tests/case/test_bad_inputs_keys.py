@@ -59,8 +59,8 @@ NO_KEYS = [
     ("rod.weight", 'write weight_per_length = "19.5 lbf/ft"'),
     ("rod.mass_per_length", "give the weight instead"),
     ("rod.linear_density", "give the weight instead"),
-    ("rod.taper", "a rod has one section from end to end"),
-    ("rod.sections", "a rod has one section from end to end"),
+    ("rod.taper", "write one [[string]] for each section"),
+    ("rod.sections", "write one [[string]] for each section"),
     ("rod.curvature", "the rod is straight when free"),
     ("rod.friction_factor", OUT_OF_SCOPE),
     ("rod.temperature", "thermal strain is not treated"),
@@ -98,7 +98,6 @@ NO_KEYS = [
 NO_SECTIONS = [
     ("friction", "the wall is frictionless"),
     ("temperature", "thermal strain is not treated"),
-    ("string", "a rod has one section from end to end"),
     ("well", "rodwell screen SURVEY --case CASE"),
     ("report", "`title` at the top of the file"),
     ("survey", "give it on the command line"),
@@ -111,9 +110,9 @@ NO_SECTIONS = [
 # section, key, value, what is allowed, remedy
 BAD_VALUES = [
     ("rod", "bending_stiffness", ["1e5 N m^2", "2e5 N m^2"], "text with a number", "study = true at the top"),
-    ("rod", "bending_stiffness", ["1e5 N m^2", "2e5 N m^2"], "text with a number", "a taper is not taken"),
-    ("rod", "outer_diameter", ["5 in", "6 in"], "text with a number and a unit", "a taper is not taken"),
-    ("rod", "poisson", [0.2, 0.3], "must be a number", "a taper is not taken"),
+    ("rod", "bending_stiffness", ["1e5 N m^2", "2e5 N m^2"], "text with a number", "one [[string]] for each section"),
+    ("rod", "outer_diameter", ["5 in", "6 in"], "text with a number and a unit", "one [[string]] for each section"),
+    ("rod", "poisson", [0.2, 0.3], "must be a number", "one [[string]] for each section"),
     ("rod", "grade", ["S-135", "E-75"], "must be text in quotes", "study = true at the top"),
     ("rod", "ends", ["clamped-clamped", "pinned-pinned"], "must be two of clamped", "study = true at the top"),
     ("rod", "length", ["20 m", "30 m"], "text with a number", "study = true at the top"),

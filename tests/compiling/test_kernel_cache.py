@@ -34,6 +34,7 @@ WITH_KERNELS = (
     *("numerics/equilibria/two_meshes", "numerics/continuation/prediction", "numerics/continuation/softest"),
     "analysis/discrete/measures",
     "analysis/discrete/pressures",
+    "studies/drag/march",
 )
 
 

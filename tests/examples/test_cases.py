@@ -9,7 +9,10 @@ import pytest
 import rodwell
 from rodwell.studies.sweep.study import is_study
 
-CASES = sorted(path for path in (Path(__file__).resolve().parents[2] / "examples").glob("*.toml") if not is_study(path))
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+CASES = sorted(
+    path for path in EXAMPLES.glob("*.toml") if not is_study(path) and "[packer]" not in path.read_text("utf-8")
+)
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)

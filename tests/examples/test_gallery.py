@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
 
+import rodwell
+
 GALLERY = Path(__file__).resolve().parents[2] / "examples" / "gallery"
 PI2 = np.pi**2
 
@@ -74,6 +76,15 @@ def snap_to_coil() -> None:
         assert error < 1e-9
 
 
+def load_path() -> None:
+    """Two other programs: lift-off, limit point and snap, the helix lifts off, its limit point."""
+    found = run("load_path")
+    assert found["loading fold"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["loading snap"] == pytest.approx(-147.1580802, abs=1e-7)
+    assert found["unloading lift_off"] == pytest.approx(-109.8311707, abs=2e-7)
+    assert found["unloading fold"] == pytest.approx(-103.6731326, abs=1e-7)
+
+
 def helix() -> None:
     """F = −(2B/Δ²) sin²η cos η and p = −B sin⁴η/Δ³; the largest load is 4/(3√3) B/Δ²."""
     found = run("helix")
@@ -95,6 +106,16 @@ def lift_off() -> None:
     found = run("lift_off")
     assert found["horizontal"] == pytest.approx(-123.1730743, abs=1e-6)
     assert found["after_buckling"]
+
+
+def lift_off_map() -> None:
+    """The horizontal rod changes its mode at γ = 62.34181826, (77), (78); loads are those of single problems."""
+    found = run("lift_off_map")
+    assert found["counts"] == {"converged": 240}
+    assert any(low <= 62.34181826 <= high for low, high in zip(found["low"], found["high"], strict=True))
+    alone = rodwell.follow(rodwell.Problem(found["weights"][3], 90.0)).lift_off
+    assert alone is not None
+    assert found["values"][3, -1] == alone.force
 
 
 def envelope() -> None:
@@ -145,11 +166,20 @@ def column() -> None:
     assert abs(found["self_weight"]) < 1e-6
 
 
+def endless() -> None:
+    """Mean contact forces at β = 3, known from two other programs; the least one vanishes at lift-off."""
+    found = run("endless")
+    assert found["sinusoidal_at_3"] == pytest.approx(1.38468435, abs=1e-8)
+    assert found["helical_at_3"] == pytest.approx(2.24863072, abs=1e-8)
+    for load, kind in zip(found["lifts_off"], ("sinusoidal", "helical"), strict=True):
+        assert abs(rodwell.local_state(load, kind).contact_least) < 1e-9
+
+
 CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
-        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, helix, guidewire,
-        lift_off, envelope, formulas, twist, wall_moments, well, column,
+        drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, well, column, endless,
     )
 }  # fmt: skip
 

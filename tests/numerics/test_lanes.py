@@ -105,13 +105,13 @@ def test_density_and_contact_of_the_rod_are_those_of_numpy(seed: int) -> None:
     s = rng.random(6)
     model = RodOnCylinder()
     energy, rate, gradient, mixed, hessian = model.density(s, u, [], p, rates)
-    expected = [energy, rate, *gradient, *mixed, *(x for row in hessian for x in row), model.observed(s, u, p)]
+    expected = [energy, rate, *gradient, *mixed, *(x for row in hessian for x in row), model.observed(s, u, [], p)]
     out = np.empty((18, 6))
 
     def all_of(rows: Any, parameters: Any, along: Any) -> list[Any]:
         fields = [rows[1 + d] for d in range(4)]
         e, r, g, m, h = RodOnCylinder.density(rows[0], fields, [], parameters, along)
-        return [e, r, *g, *m, *(x for row in h for x in row), RodOnCylinder.observed(rows[0], fields, parameters)]
+        return [e, r, *g, *m, *(x for row in h for x in row), RodOnCylinder.observed(rows[0], fields, [], parameters)]
 
     compiled_once(all_of)(np.vstack([s, u]), (p, rates), out)
     for value, known in zip(out, expected, strict=True):

@@ -72,3 +72,57 @@ def test_graded_mesh_follows_the_wavenumber() -> None:
     assert mesh[-1] == 1.0
     assert len(mesh) == 57  # one element a radian, rounded up to an even number
     assert np.diff(phase) == pytest.approx(np.full(56, 55.0 / 56.0), rel=1e-4)
+
+
+KINKS = np.array([0.2, 0.55])
+
+
+def _kinked() -> SplineSpace:
+    return SplineSpace(np.array([0.0, 0.1, 0.2, 0.4, 0.55, 0.8, 1.0]), 5, kinks=KINKS)
+
+
+def _bent(s: np.ndarray) -> np.ndarray:
+    """A cubic with steps of the second derivative at the kinks: value, slope, bend, (3, m)."""
+    parts = [np.maximum(s - kink, 0.0) for kink in KINKS]
+    return np.array(
+        [
+            s**3 + 3.0 * parts[0] ** 2 - parts[1] ** 2,
+            3.0 * s**2 + 6.0 * parts[0] - 2.0 * parts[1],
+            6.0 * s + 6.0 * (parts[0] > 0.0) - 2.0 * (parts[1] > 0.0),
+        ]
+    )
+
+
+def test_kinks_hold_what_has_a_step_of_the_second_derivative():
+    space = _kinked()
+    assert space.size == space.elements + space.degree + 2 * (space.degree - 2)
+    c = space.project(_bent(space.points)[0], Ends((0, 0)))
+    s = np.array([0.0, 0.15, np.nextafter(0.2, 0.0), 0.2001, 0.3, 0.55 - 1e-12, 0.56, 1.0])
+    assert space.evaluate(c, s, 3) == pytest.approx(_bent(s), abs=1e-9)
+    plain = SplineSpace(space.breaks, 5)
+    assert plain.evaluate(plain.project(_bent(plain.points)[0], Ends((0, 0))), s, 3) != pytest.approx(
+        _bent(s), abs=1e-2
+    )
+
+
+def test_kinks_stay_on_finer_meshes_and_in_pieces():
+    space = _kinked()
+    c = np.random.default_rng(0).standard_normal(space.size)
+    s = np.linspace(0.0, 1.0, 101)
+    finer = space.refined(np.array([True, False, False, True, False, True]))
+    assert np.array_equal(finer.kinks, KINKS)
+    assert finer.evaluate(Prolongation(space, finer)(c), s, 4) == pytest.approx(
+        space.evaluate(c, s, 4), rel=1e-9, abs=1e-9
+    )
+    for elements, functions, knots, grid, table in space.pieces:
+        piece = SplineSpace(space.breaks[elements.start : elements.stop + 1], 5)  # only for its number of samples
+        assert grid.size == piece.samples[0].size
+        assert knots.size == functions.stop - functions.start + space.degree + 1
+        first = np.repeat(space.starts[elements], 3)
+        values = [table[j, 2] @ c[i : i + 6] for j, i in enumerate([*first, first[-1]])]
+        assert values == pytest.approx(space.evaluate(c, grid, 3)[2], rel=1e-9, abs=1e-9)
+
+
+def test_kinks_must_be_mesh_points():
+    with pytest.raises(ValueError, match="mesh points"):
+        SplineSpace(np.linspace(0.0, 1.0, 5), 5, kinks=np.array([0.3]))

@@ -51,7 +51,7 @@ class Pendulum(NamedTuple):
         return ()
 
     @staticmethod
-    def observed(_: Any, u: Any, __: Any) -> Any:
+    def observed(_: Any, u: Any, __: Any, ___: Any) -> Any:
         return u[0]
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import multiprocessing
 import os
 import sys
 import time
+import warnings
 from pathlib import Path
 from types import ModuleType
 
@@ -300,3 +302,34 @@ def test_the_committed_campaign_has_no_faults() -> None:
     result = json.loads(CAMPAIGN.with_suffix(".json").read_text(encoding="utf-8"))
     assert result["kills"] >= 100
     assert result["faults"] == []
+
+
+def _several_times(out: Path, who: int) -> None:
+    for k in range(8):
+        check_writable(out)
+        with whole_folder(out) as folder:
+            for name in ("a.txt", "b.txt", "c.txt"):
+                (folder / name).write_text(f"{who}, {k}", encoding="utf-8")
+
+
+@POSIX
+@pytest.mark.parametrize("there", [True, False])
+def test_several_runs_at_once_into_one_place(tmp_path: Path, there: bool) -> None:
+    """Each ends well, and what stands there in the end is all of one of them, beside what is the user's."""
+    out = tmp_path / "results"
+    if there:
+        out.mkdir()
+        (out / "notes.txt").write_text("mine", encoding="utf-8")
+    runs = [multiprocessing.get_context("fork").Process(target=_several_times, args=(out, who)) for who in range(4)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of threads, which the runs do not use
+        for run in runs:
+            run.start()
+    for run in runs:
+        run.join()
+    assert [run.exitcode for run in runs] == [0, 0, 0, 0]
+    assert [entry.name for entry in tmp_path.iterdir()] == ["results"]
+    found = texts(out)
+    assert found.pop("notes.txt", "mine") == "mine"
+    assert sorted(found) == ["a.txt", "b.txt", "c.txt"]
+    assert len(set(found.values())) == 1

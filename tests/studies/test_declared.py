@@ -38,7 +38,7 @@ def test_a_list_meant_as_a_taper_is_refused(tmp_path: Path) -> None:
     told = str(run(tmp_path, TAPER).exception)
     assert "rod.bending_stiffness = ['1e6 N m^2', '2e6 N m^2']" in told
     assert "study = true at the top of the file" in told
-    assert "a taper is not taken" in told
+    assert "written as one [[string]] for each section" in told
     assert not (tmp_path / "out").exists()
 
 

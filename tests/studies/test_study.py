@@ -19,13 +19,13 @@ from pypdf import PdfReader
 
 import rodwell
 from rodwell import InputError, NotConvergedError
+from rodwell.answers.result import arms
 from rodwell.answers.result.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
 from rodwell.cli.main import cli
 from rodwell.plots.study import plot_study
 from rodwell.quantities.table import Table
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.strength.limits import LIFTS_OFF, YIELDS
-from rodwell.studies.sweep import points
 from rodwell.studies.sweep.plain import study_dict
 from rodwell.studies.sweep.study import Study, is_study
 from rodwell.studies.sweep.tables import sentences, study_table
@@ -292,8 +292,8 @@ def test_loads_that_act_against_known_loads() -> None:
 def test_load_can_vary_and_points_share_the_rod(monkeypatch: pytest.MonkeyPatch) -> None:
     """Safety of the straight bar is yield strength over F/A; of the buckled one, that of the single case."""
     calls = []
-    follow = points.follow
-    monkeypatch.setattr(points, "follow", lambda *a, **k: calls.append(a) or follow(*a, **k))
+    follow = arms.follow
+    monkeypatch.setattr(arms, "follow", lambda *a, **k: calls.append(a) or follow(*a, **k))
     given = string(
         hole__angle_from_vertical=["80 deg", "90 deg"], rod__yield_strength="250 MPa", supports__force="100 MN",
         load__applied="-135..-50 kN in 3",
@@ -334,7 +334,7 @@ def test_straight_states_are_known_without_a_branch(monkeypatch: pytest.MonkeyPa
     def fail(*_: Any, **__: Any) -> Any:
         raise NotConvergedError("no way")
 
-    monkeypatch.setattr(points, "follow", fail)
+    monkeypatch.setattr(arms, "follow", fail)
     given = string(hole__angle_from_vertical="90 deg", rod__yield_strength="250 MPa", load__applied="-135..-50 kN in 2")
     beyond, short = rodwell.study(given).points
     assert (beyond.loads[0].what, short.loads[0].what) == (UNKNOWN, STRAIGHT)

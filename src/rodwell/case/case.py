@@ -22,10 +22,12 @@ from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
+from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
+from rodwell.case.string import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
-from rodwell.errors import InputError, printable
+from rodwell.errors import InputError
 from rodwell.faces import Shown
 from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
@@ -36,20 +38,6 @@ __all__ = ["SECTIONS", "Case", "CaseError"]
 
 LONGEST_TITLE = 300
 """Characters that a title may have: it stands above figures and on every page."""
-
-MOST_LINES = 25
-"""Problems that one message tells."""
-
-
-class CaseError(InputError):
-    """A case that cannot be used: all that is wrong with it, one problem a line."""
-
-    def __init__(self, source: str, problems: list[tuple[str, object, str]]) -> None:
-        self.problems = problems
-        super().__init__(*problems[0])
-        lines = [str(InputError(*problem)) for problem in problems[:MOST_LINES]]
-        lines += [f"and {len(problems) - MOST_LINES} more"] if len(problems) > MOST_LINES else []
-        self.args = (f"{printable(source)}: " + (lines[0] if len(lines) == 1 else "\n  " + "\n  ".join(lines)),)
 
 
 @dataclass(frozen=True)
@@ -93,6 +81,9 @@ class Case(Shown):
         What each support can bear, if given.
     gravity
         In m/s².
+    string
+        The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
+        and the whole length. None of a uniform rod.
     """
 
     title: str
@@ -112,11 +103,14 @@ class Case(Shown):
     applied: tuple[AppliedLoad, ...] = ()
     supports: schema.Supports | None = None
     gravity: float = 9.80665
+    string: PhysicalString | None = None
 
     @property
     def yield_strength(self) -> float | None:
-        """Yield strength of the rod in Pa, None where it is not given."""
-        return None if self.rod is None else self.rod.yield_strength
+        """Yield strength of the rod in Pa (the least of a string's), None where it is not given everywhere."""
+        rods = [member.rod for member in self.string.members] if self.string is not None else [self.rod]
+        known = [rod.yield_strength for rod in rods if rod is not None and rod.yield_strength is not None]
+        return min(known) if len(known) == len(rods) else None
 
     @property
     def with_fluids(self) -> bool:
@@ -179,13 +173,19 @@ class Case(Shown):
     @classmethod
     def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:
         """A case from data without uncertainties."""
+        whole, string_rod = dict(data), None
+        if "string" in data:  # [rod] has what belongs to the whole only
+            beside = whole.pop("rod", {})
+            check_beside(beside, data["string"])
         try:
-            parsed = schema.CaseFile.model_validate(dict(data))
+            parsed = schema.CaseFile.model_validate(whole)
         except ValidationError as error:
-            raise CaseError(source, [*explain(error, data.get("study") is True), *_load_problems(data)]) from None
+            raise CaseError(source, [*explain(error, data.get("study") is True), *load_problems(data)]) from None
+        if parsed.string is not None:
+            string_rod = string_rod_of(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
-        return _assemble(parsed, data, source, text, catalogue)
+        return _assemble(parsed, data, source, text, catalogue, string_rod)
 
 
 def _uncertain(
@@ -209,32 +209,39 @@ def _given(data: Mapping[str, Any]) -> dict[str, Any]:
     return {name: values for name, values in data.items() if name in SECTIONS}
 
 
-def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, text: str, catalogue: Catalogue) -> Case:
+def _assemble(
+    parsed: schema.CaseFile,
+    data: Mapping[str, Any],
+    source: str,
+    text: str,
+    catalogue: Catalogue,
+    string_rod: schema.StringRod | None,
+) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
-    with_dimensions = parsed.rod is not None or parsed.hole is not None
+    with_dimensions = parsed.rod is not None or parsed.hole is not None or string_rod is not None
     if with_dimensions and parsed.dimensionless is not None:
         raise InputError("dimensionless", None, "cannot stand beside [rod] and [hole]: give one or the other")
     if not with_dimensions and parsed.dimensionless is None:
         raise InputError("rod", None, "is missing: give [rod] and [hole], or [dimensionless]")
     if not with_dimensions:
         check_sections(parsed)
-    load = _load(parsed.load, with_dimensions, source)
+    load = load_of(parsed.load, with_dimensions, source)
     case: Case
     common = {
         "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
-        "rtol": _named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
+        "rtol": named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
         "given": _given(data),
         "source": source,
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = _plausible(parsed, load, catalogue, data, source)
+        found = _plausible(parsed, load, catalogue, data, source, string_rod)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
-                    supports=parsed.supports, gravity=found.gravity, **common)  # fmt: skip
+                    supports=parsed.supports, gravity=found.gravity, string=found.string, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
         case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
@@ -246,11 +253,16 @@ def _assemble(parsed: schema.CaseFile, data: Mapping[str, Any], source: str, tex
 
 
 def _plausible(
-    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, data: Mapping[str, Any], source: str
+    parsed: schema.CaseFile,
+    load: schema.LoadInput,
+    catalogue: Catalogue,
+    data: Mapping[str, Any],
+    source: str,
+    string_rod: schema.StringRod | None,
 ) -> Physical:
     """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
     try:
-        found = physical(parsed, load, catalogue)
+        found = physical(parsed, load, catalogue, string_rod)
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]
@@ -266,34 +278,3 @@ def _plausible(
 
 def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
     return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)
-
-
-def _load(given: Mapping[str, Any], with_dimensions: bool, source: str) -> schema.LoadInput | schema.DimensionlessLoad:
-    """[load] in physical units beside [rod], in plain numbers beside [dimensionless]."""
-    model = schema.LoadInput if with_dimensions else schema.DimensionlessLoad
-    try:
-        return model.model_validate(given)
-    except ValidationError as error:
-        explained = explain(error, within=("load",))
-        problems = [(f"load.{key.partition('.')[0]}", value, what) for key, value, what in explained]
-        raise CaseError(source, problems) from None
-
-
-def _load_problems(data: Mapping[str, Any]) -> list[tuple[str, object, str]]:
-    """What is wrong in [load] of a file in which something else is wrong already."""
-    given = data.get("load", {})
-    if not isinstance(given, Mapping):
-        return []
-    try:
-        _load(given, "dimensionless" not in data or "rod" in data or "hole" in data, "")
-    except CaseError as error:
-        return error.problems
-    return []
-
-
-def _named(field: str, compute: Any) -> Any:
-    """Run a check and give its error the name that the user wrote."""
-    try:
-        return compute()
-    except InputError as error:
-        raise InputError(field, error.value, error.reason) from None

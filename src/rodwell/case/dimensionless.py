@@ -17,6 +17,7 @@ def check_sections(parsed: schema.CaseFile) -> None:
         "supports": "a dimensionless case has no capacities",
         "mud": "the weight of a dimensionless case is that in its fluids",
         "pressure": "the forces of a dimensionless case are effective ones",
+        "packer": "changes of length are those of a pipe",
         "catalogue": "a dimensionless case has no pipe",
         "units": "results of a dimensionless case are in units of B and L",
     }
@@ -49,7 +50,7 @@ def dimensionless(
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
-    more = problem.axial_weight if bottom else 0.0
+    more = problem.hung_weight if bottom else 0.0
     until = None if load.until is None else load.until + more
     applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
     check_reach(until, applied)

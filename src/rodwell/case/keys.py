@@ -79,7 +79,7 @@ def keys_of(section: str) -> tuple[Key, ...]:
     """Return the keys of a section, in the order of the schema; of :data:`TOP`, those outside all sections."""
     model: type[BaseModel] = schema.CaseFile if section == TOP else SECTIONS[section]
     fields = {name: field for name, field in model.model_fields.items() if section != TOP or name not in SECTIONS}
-    return tuple(_key(section, name, field) for name, field in fields.items())
+    return tuple(key_of_field(section, name, field) for name, field in fields.items())
 
 
 def every_key() -> dict[str, tuple[Key, ...]]:
@@ -112,7 +112,8 @@ def keys_named(name: str) -> tuple[Key, ...]:
     raise InputError("keys", name, unknown((section, key)) if section != TOP else unknown((key,)))
 
 
-def _key(section: str, name: str, field: FieldInfo) -> Key:
+def key_of_field(section: str, name: str, field: FieldInfo) -> Key:
+    """Return a key from its field in a schema."""
     kind, allowed = _kind(field)
     extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
     unit = KINDS[kind][0].replace("*", " ") if kind in KINDS else ""
@@ -131,7 +132,7 @@ def written(value: Any) -> str:
     """Return a value as TOML has it."""
     if isinstance(value, bool):
         return str(value).lower()
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return f"[{', '.join(written(one) for one in value)}]"
     return f'"{value}"' if isinstance(value, str) else f"{value:g}"
 

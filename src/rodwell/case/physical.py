@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
@@ -11,6 +11,7 @@ from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.case.string import PhysicalString, check_length, clearance_of, string_of
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
@@ -30,25 +31,38 @@ class Physical:
     fluids: Fluids
     gravity: float
     facts: tuple[Fact, ...]
+    string: PhysicalString | None = None
 
 
-def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue) -> Physical:
+def physical(
+    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, string_rod: schema.StringRod | None = None
+) -> Physical:
     """Return the dimensionless problem of a case with dimensions, and what it was made from.
+
+    ``string_rod`` is [rod] beside [[string]].
 
     Raises
     ------
     InputError
         Naming the key of the case file that is missing, contradicts another, or does not fit the others.
     """
-    if parsed.rod is None:
+    given = string_rod or parsed.rod
+    if given is None:
         raise InputError("rod", None, "is missing: a case with [hole] needs [rod]")
     if parsed.hole is None:
         raise InputError("hole", None, "is missing: a case with [rod] needs [hole]")
-    hole = parsed.hole
-    rod = physical_rod(parsed.rod, hole.gravity, catalogue)
-    fluids = fluids_of(parsed.mud, parsed.pressure, rod)
-    weight = checked_weight(fluids, rod, hole.gravity)
-    clearance = _clearance(rod, hole)
+    hole, string = parsed.hole, None
+    if string_rod is not None:
+        string, fluids = string_of(parsed.string or (), hole, parsed.mud, parsed.pressure, catalogue)
+        check_length(string, string_rod.length)
+        rod, weight = string.whole, string.weight
+        clearance = clearance_of(string, hole, lambda one: _clearance(one, hole))
+    else:
+        assert parsed.rod is not None
+        rod = physical_rod(parsed.rod, hole.gravity, catalogue, parsed.rod.length)
+        fluids = fluids_of(parsed.mud, parsed.pressure, rod)
+        weight = checked_weight(fluids, rod, hole.gravity)
+        clearance = _clearance(rod, hole)
     if clearance >= rod.length:
         raise InputError(
             "hole.clearance" if hole.clearance else "hole.diameter",
@@ -64,15 +78,28 @@ def physical(parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalog
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
     scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
-    problem = _problem(parsed.rod.ends, rod, hole, scales, weight, clearance, load.twist)
-    facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
+    problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string)
+    if string is None:
+        facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
+    else:
+        facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
     facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
-    until, applied, how = _end_force(load, parsed, problem, scales, rod, fluids)
-    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how))
+    if parsed.packer is not None:
+        facts.append(Fact("packer", "as given", note="changes of length and the packer's force: `rodwell packer`"))
+    at_end = rod if string is None else string.at_end(load.at == "bottom")
+    until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids)
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string)
 
 
 def _problem(
-    ends: str, rod: PhysicalRod, hole: schema.Hole, scales: Scales, weight: float, clearance: float, twist: float
+    ends: str,
+    rod: PhysicalRod,
+    hole: schema.Hole,
+    scales: Scales,
+    weight: float,
+    clearance: float,
+    twist: float,
+    string: PhysicalString | None,
 ) -> Problem:
     """The problem in units B = L = 1; errors in the names of the case file."""
     try:
@@ -84,8 +111,13 @@ def _problem(
             torsion=rod.torsion,
             twist=twist / scales.factor("moment"),
             ends=checked_ends(ends),
+            sections=() if string is None else string.sections,
         )
     except InputError as error:
+        if string is not None and error.field.startswith("section "):
+            number, _, ratio = error.field.removeprefix("section ").partition(", ")
+            what = f"is {error.value:g} times that of the string, which {error.reason}: check the units of the section"
+            raise InputError(f"{string.members[int(number) - 1].key}, {ratio}", None, what) from None
         names = {
             "weight": "rod.length",
             "poisson": "rod.poisson",
@@ -136,7 +168,7 @@ def _end_force(
     facts = []
 
     def at_top(given: float, what: str) -> float:
-        force = (given + less) / scales.factor("force") + (problem.axial_weight if bottom else 0.0)
+        force = (given + less) / scales.factor("force") + (problem.hung_weight if bottom else 0.0)
         how = f"from {load.kind or 'effective'} {scales.system.text(given, 'force', 6)} at the {where}"
         facts.append(Fact(f"{what}, effective, at s = 1", force * scales.factor("force"), "force", how))
         return force

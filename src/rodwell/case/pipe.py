@@ -73,8 +73,8 @@ class PhysicalRod:
         return math.pi / 64.0 * ((self.outer_diameter or 0.0) ** 4 - self.inner_diameter**4)
 
 
-def physical_rod(given: schema.RodInput, gravity: float, catalogue: Catalogue) -> PhysicalRod:
-    """Return the rod that [rod] describes.
+def physical_rod(given: schema.PipeInput, gravity: float, catalogue: Catalogue, length: float) -> PhysicalRod:
+    """Return the rod of a length in m that [rod], or a section of [[string]], describes.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def physical_rod(given: schema.RodInput, gravity: float, catalogue: Catalogue) -
         facts.append(
             Fact("torsional stiffness C", given.torsional_stiffness, "stiffness", f"as given, C/B = {torsion:.4g}")
         )
-    return PhysicalRod(given.length, outer, inner, stiffness, weight, density, poisson, strength, tuple(facts), torsion,
+    return PhysicalRod(length, outer, inner, stiffness, weight, density, poisson, strength, tuple(facts), torsion,
                        bore_known)  # fmt: skip
 
 
@@ -111,7 +111,7 @@ def _only_one(key: str, value: object, other: str) -> InputError:
     return InputError(key, value, f"contradicts {other}: give only one of the two")
 
 
-def _torsion(rod: schema.RodInput, stiffness: float) -> float | None:
+def _torsion(rod: schema.PipeInput, stiffness: float) -> float | None:
     """C/B where the torsional stiffness is given instead of Poisson's ratio."""
     if rod.torsional_stiffness is None:
         return None
@@ -120,7 +120,7 @@ def _torsion(rod: schema.RodInput, stiffness: float) -> float | None:
     return rod.torsional_stiffness / stiffness
 
 
-def _diameters(rod: schema.RodInput, pipe: Pipe | None) -> tuple[float | None, float, bool]:
+def _diameters(rod: schema.PipeInput, pipe: Pipe | None) -> tuple[float | None, float, bool]:
     """Outer diameter, if known, inner one, and whether the bore is known."""
     outer, inner, bore_known = rod.outer_diameter, rod.inner_diameter, True
     if pipe is not None:
@@ -141,7 +141,7 @@ def _diameters(rod: schema.RodInput, pipe: Pipe | None) -> tuple[float | None, f
     return outer, inner or 0.0, bore_known
 
 
-def _check_without_bore(rod: schema.RodInput, pipe: Pipe) -> None:
+def _check_without_bore(rod: schema.PipeInput, pipe: Pipe) -> None:
     """Ask for the bore of a hollow rod where something is worked out from it."""
     needs = {
         "to work out the stiffness from material or modulus": rod.bending_stiffness is None,
@@ -155,7 +155,7 @@ def _check_without_bore(rod: schema.RodInput, pipe: Pipe) -> None:
             raise InputError("rod.inner_diameter", None, what + more)
 
 
-def _material(rod: schema.RodInput, pipe: Pipe | None, catalogue: Catalogue) -> Material | None:
+def _material(rod: schema.PipeInput, pipe: Pipe | None, catalogue: Catalogue) -> Material | None:
     """Material of [rod] or of its pipe."""
     own = None if pipe is None else pipe.material
     if rod.material is None:
@@ -181,7 +181,7 @@ def _is(material: Material, name: str) -> bool:
 
 
 def _stiffness(
-    rod: schema.RodInput,
+    rod: schema.PipeInput,
     pipe: Pipe | None,
     material: Material | None,
     diameters: tuple[float | None, float],
@@ -211,7 +211,7 @@ def _stiffness(
 
 
 def _weight(
-    rod: schema.RodInput,
+    rod: schema.PipeInput,
     pipe: Pipe | None,
     density: float | None,
     diameters: tuple[float | None, float],
@@ -245,7 +245,7 @@ def _section(diameters: tuple[float | None, float], reason: str) -> tuple[float,
     return math.pi / 4.0 * (outer**2 - inner**2), math.pi / 64.0 * (outer**4 - inner**4)
 
 
-def _strength(rod: schema.RodInput, material: Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
+def _strength(rod: schema.PipeInput, material: Material | None, catalogue: Catalogue) -> tuple[float | None, str]:
     """Yield strength and where it is from."""
     if rod.grade is None:
         return rod.yield_strength, "as given"

@@ -16,6 +16,7 @@ from rodwell.case.kinds import (
     Density,
     End,
     Ends,
+    Expansion,
     FluidDensity,
     Force,
     ForceKind,
@@ -24,6 +25,7 @@ from rodwell.case.kinds import (
     InnerLength,
     Length,
     Moment,
+    Motion,
     Name,
     Number,
     Numbers,
@@ -32,6 +34,7 @@ from rodwell.case.kinds import (
     Pressure,
     Stiffness,
     Stress,
+    TemperatureChange,
     TorsionalStiffness,
     Units,
 )
@@ -58,10 +61,10 @@ class SectionInput(BaseModel):
 POISSON, RTOL = "above -1 and at most 0.5", "from 1e-11 to 0.01"
 
 
-class RodInput(SectionInput):
-    """[rod]: the pipe, rod or wire."""
+class PipeInput(SectionInput):
+    """What a pipe, rod or wire is, whole or a section of a string."""
 
-    length: Length = _key(REQUIRED, "length L between the ends", "30 m", "300 ft")
+    length: Length | None = _key(None, "length of the section", "30 m", "300 ft")
     outer_diameter: Length | None = _key(
         None, "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids", "5 in", "0.89 mm"
     )
@@ -79,7 +82,6 @@ class RodInput(SectionInput):
         "19.5 lbf/ft", "0.04 N/m",
     )  # fmt: skip
     poisson: Number = _key(0.3, "Poisson's ratio ν; that of the `material` if not given", 0.3, allowed=POISSON)
-    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
     pipe: Name | None = _key(
         None, "name in the catalogue (`rodwell catalogue`), instead of diameters, modulus and weight",
         "5 in 19.5 lb/ft drill pipe",
@@ -87,6 +89,29 @@ class RodInput(SectionInput):
     material: Name | None = _key(None, "name in the catalogue, instead of `youngs_modulus` and `density`", "steel")
     grade: Name | None = _key(None, "name in the catalogue: gives the yield strength", "S-135")
     yield_strength: Stress | None = _key(None, "of the rod, instead of `grade`", "135000 psi", "930 MPa")
+
+
+class RodInput(PipeInput):
+    """[rod]: the pipe, rod or wire; beside [[string]] its ends alone."""
+
+    length: Length = _key(REQUIRED, "length L between the ends", "30 m", "300 ft")
+    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
+
+
+class StringRod(SectionInput):
+    """[rod] beside [[string]]: what belongs to the whole."""
+
+    length: Length | None = _key(None, "length of the whole, a check of the sections' lengths", "900 m")
+    ends: Ends = _key("clamped-clamped", "conditions at s = 0 and s = 1", "clamped-pinned")
+
+
+class StringInput(PipeInput):
+    """[[string]]: a section of a string, from the bottom up; instead of the keys of the pipe in [rod]."""
+
+    length: Length | None = _key(None, "length of the section, or `joints` and `joint_length`", "90 m", "300 ft")
+    name: Name | None = _key(None, "for report and messages; that of the `pipe` if not given", "heavy-weight pipe")
+    joints: int | None = _key(None, "how many, instead of `length`", 3, strict=True, ge=1, le=100_000)
+    joint_length: Length | None = _key(None, "of one, with `joints`", "9.3 m", "30.5 ft")
 
 
 class Hole(SectionInput):
@@ -148,6 +173,39 @@ class PressureAtEnd(SectionInput):
 
     inside: Pressure = _key(0.0, "in the bore at s = 1", "2500 psi", "17 MPa")
     outside: Pressure = _key(0.0, "around the rod at s = 1", "1500 psi", "10 MPa")
+
+
+class PackerInput(SectionInput):
+    """[packer]: tubing in a packer that goes from the state of [mud] and [pressure] to another."""
+
+    bore: Length = _key(REQUIRED, "diameter of the packer's bore, in which the seals slide", "3.25 in")
+    motion: Motion = _key(
+        REQUIRED, "how much of its motion the packer allows the tubing; `some` needs `up`, `down` or both", "all"
+    )
+    up: InnerLength | None = _key(None, "how far the seals may move up from where they were landed", "2.5 ft")
+    down: InnerLength | None = _key(None, "how far they may move down; `0 m`: landed on the packer", "0 m")
+    slack_off: PositiveForce | None = _key(
+        None, "weight set down on the packer when the tubing was landed, a compression without a sign", "20000 lbf"
+    )
+    pick_up: PositiveForce | None = _key(
+        None, "force with which the tubing pulled at the packer when it was landed, instead of `slack_off`", "50 kN"
+    )
+    inside: FluidDensity | None = _key(
+        None, "of the fluid in the tubing afterwards; that of `[mud]` if not given", "15 lb/gal"
+    )
+    outside: FluidDensity | None = _key(
+        None, "of the fluid around it afterwards; that of `[mud]` if not given", "1010 kg/m^3"
+    )
+    inside_pressure: Pressure | None = _key(
+        None, "in the tubing at the upper end afterwards; that of `[pressure]` if not given", "5000 psi"
+    )
+    outside_pressure: Pressure | None = _key(
+        None, "around it at the upper end afterwards; that of `[pressure]` if not given", "1000 psi"
+    )
+    temperature_change: TemperatureChange = _key(0.0, "of the tubing, the mean over its length", "-20 °F", "35 K")
+    thermal_expansion: Expansion | None = _key(
+        None, "coefficient of the tubing, needed with `temperature_change`", "6.9e-6 /°F", "12.4e-6 /K"
+    )
 
 
 class CatalogueFiles(SectionInput):
@@ -215,6 +273,7 @@ class CaseFile(SectionInput):
 
     title: str | None = _key(None, "for report and summary; the name of the file if not given", "Drill pipe at 30°")
     rod: RodInput | None = None
+    string: tuple[StringInput, ...] | None = None
     hole: Hole | None = None
     cylinder: CylinderInput | None = None
     supports: Supports | None = None
@@ -223,6 +282,7 @@ class CaseFile(SectionInput):
     analysis: Analysis = Analysis()
     mud: Mud | None = None
     pressure: PressureAtEnd | None = None
+    packer: PackerInput | None = None
     catalogue: CatalogueFiles | None = None
     units: Units | None = _key(None, "units of the results; `si` if not given", "field")
     study: StrictBool | None = _key(

@@ -17,12 +17,17 @@ from rodwell.cli.audit import audit
 from rodwell.cli.catalogue import catalogue
 from rodwell.cli.check import verify
 from rodwell.cli.critical import critical
+from rodwell.cli.drag import drag
+from rodwell.cli.endless import endless
 from rodwell.cli.exact import certify, modes
 from rodwell.cli.export import export
 from rodwell.cli.init import init
 from rodwell.cli.keys import keys
+from rodwell.cli.mapping import map_command
 from rodwell.cli.maps import curve, diagram
+from rodwell.cli.packer import packer
 from rodwell.cli.paper import paper
+from rodwell.cli.path import path
 from rodwell.cli.quick import liftoff, sensitivity, twist
 from rodwell.cli.run import run
 from rodwell.cli.screen import screen
@@ -44,8 +49,8 @@ def cli() -> None:
 
 
 for command in (
-    *(run, screen, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, twist, export, init, keys, catalogue, paper),
+    *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
+    *(diagram, curve, map_command, path, twist, endless, export, init, keys, catalogue, paper),
 ):
     cli.add_command(command)
 
@@ -103,7 +108,8 @@ def _interrupted(cause: BaseException | None) -> None:
     what, code = ("interrupted", INTERRUPTED)
     if isinstance(cause, Terminated):
         what, code = f"ended by {cause.name}", cause.exit_code
-    click.echo(f"rodwell: {what}; nothing was written", err=True)
+    kept = getattr(cause, "kept", "nothing was written")
+    click.echo(f"rodwell: {what}; {kept}", err=True)
     sys.exit(code)
 
 

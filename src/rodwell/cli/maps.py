@@ -102,11 +102,16 @@ def diagram(
 
 def _print_diagram(result: Diagram) -> None:
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
+    from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
     if result.problem.twist != 0.0 and result.problem.lateral_weight == 0.0:
         wrapped(KEPT)
+    first = next((p for branch in result for p in branch.special_points if p.kind in ("lift_off", "end")), None)
+    note = "" if first is None else steps_note(first.solution.step_loads)
+    if note:
+        wrapped(note)
     for branch in result:
         verb = "leaves" if branch.parameter == "force" else "continues"
         parent = f", {verb} {branch.origin.parent}" if branch.origin.parent else ""

@@ -22,7 +22,7 @@ TOLERANCE_MISSED = 3
 
 Progress = Callable[[str, float], None]
 
-PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns")
+PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns", "sections")
 """Names of the options that make a problem."""
 
 
@@ -48,6 +48,12 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."
             ),
             click.option("--outside", is_flag=True, help="The rod lies on the outside of the cylinder."),
+            click.option(
+                "--sections",
+                metavar="L:B:W,…",
+                help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
+                "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5.",
+            ),
         ]
         if coiled:
             options.append(
@@ -77,7 +83,21 @@ def make_problem(given: dict[str, Any]) -> Problem:
     from rodwell.problem.problem import Problem  # noqa: PLC0415
 
     values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
+    if "sections" in values:
+        values["sections"] = _sections(values["sections"])
     return Problem(**{"weight": 0.0, **values})
+
+
+def _sections(text: str) -> list[list[float]]:
+    """Numbers of ``--sections``, section by section; what they must be is checked with the problem."""
+    found = []
+    for number, section in enumerate(text.split(","), 1):
+        try:
+            found.append([float(part) for part in section.split(":")])
+        except ValueError:
+            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, sections parted by commas"
+            raise InputError(f"--sections, section {number}", section, what) from None
+    return found
 
 
 def print_json(data: dict[str, Any], indent: int | None = None) -> None:

@@ -39,6 +39,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
     from rodwell.analysis.branch.symmetry import arms_differ  # noqa: PLC0415
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
+    from rodwell.answers.words.steps import steps_data, steps_note  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
     from rodwell.quantities.value import Value  # noqa: PLC0415
@@ -67,6 +68,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
                 "lift_off": {"force": load.value, "error": load.error, "s": list(places)},
                 "other_arm": _arm(other),
                 "coincides_with_buckling": branch.lift_off_at_buckling,
+                **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
                 "converged": not what,
                 "unit": "B/L^2",
                 "convention": "end force at s = 1, tension positive; " + ends_text(problem),
@@ -80,6 +82,9 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
+    note = steps_note(lift.solution.step_loads)
+    if note:
+        wrapped(note)
     if load != lift.load:
         wrapped("Twist makes the rod leave the wall inwards before it buckles like a rod that is kept on it.")
     if what:
@@ -140,12 +145,20 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
         if load.force != 0.0:
             for name, (value, _) in load.elasticities().items():
                 click.echo(f"  {_MORE[name]:<26} {value:+.6g} %")
+        for number, section in enumerate(load.sections, 1):
+            for name, (value, error) in section.items():
+                click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {value:+.10g}  ± {error:.0e}")
         if load.note:
             click.echo(f"  {load.note}")
     check_missed(missed, rtol)
 
 
 _PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁"}
+_OF_SECTION = {
+    "stiffness": "unit of the stiffness ratio, section {}",
+    "weight": "unit of the weight ratio, section {}",
+    "upper_end": "L that section {} is longer, the next shorter",
+}
 _MORE = {
     "weight_per_length": "1 % more weight per length",
     "clearance": "1 % more clearance Δ",

@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.answers.data.along import Along
+from rodwell.plots.string import mark_steps
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
@@ -60,6 +61,7 @@ def plot_force(
             if limit.compression is not None:
                 line = ax.axvline if down else ax.axhline
                 line(-limit.compression.value / scales.factor("force") * ff, color=INK, lw=1.2, ls=dashes, label=label)
+    mark_steps(ax, problem, axis("z", scales, 1.0)[0], down=down)
     _zero(ax, down)
     _dress(ax, problem, scales, f"effective axial force  [{uf}]\n(tension positive)")
     return ax
@@ -68,7 +70,8 @@ def plot_force(
 def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: Any = None) -> Any:
     """Draw axial, bending, hoop and torsion stress and the largest von Mises stress along the rod; return the axes.
 
-    ``strength`` is the yield strength in Pa. The state must have stresses.
+    ``strength`` is the yield strength in Pa, the least of a string's; what the state has at each place is drawn. It
+    must have stresses.
     """
     ax = new_axes() if ax is None else ax
     t, problem = one.stresses, one.state.problem
@@ -89,12 +92,12 @@ def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: A
         if float(np.max(np.abs(values))) > WORTH_A_LINE * size:
             _draw(ax, place, values / unit, down, color=colour, lw=1.3, ls=dashes, label=label)
     peak = float(np.max(t.von_mises))
+    mark_steps(ax, problem, axis("z", scales, 1.0)[0], down=down)
     label = f"von Mises, up to {plain(peak / unit, 3)} {text}"
     _draw(ax, place, t.von_mises / unit, down, color=INK, lw=2.4, label=label)
     if strength is not None and shown:
-        (ax.axvline if down else ax.axhline)(
-            strength / unit, color=WARN, lw=1.6, ls=(0, (5, 2)), label="yield strength"
-        )
+        values = np.full(one.s.shape, strength) if one.strength is None else one.strength
+        _draw(ax, place, values / unit, down, color=WARN, lw=1.6, ls=(0, (5, 2)), label="yield strength")
     elif strength is not None:
         label = f"yield strength, not shown: {plain(strength / unit, 3)} {text}"
         ax.plot([], [], color=WARN, lw=1.6, ls=(0, (5, 2)), label=label)

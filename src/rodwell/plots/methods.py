@@ -15,17 +15,27 @@ from rodwell.analysis.branch.functionals import Number
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.discrete.measures import Measured, measured
+from rodwell.analysis.endless.endless import Endless
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
+from rodwell.plots.drag import plot_drag
+from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
+from rodwell.plots.maps.figure import plot_map
+from rodwell.plots.packer import plot_packer
+from rodwell.plots.path import plot_path
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
 from rodwell.quantities.scales import Scales
+from rodwell.studies.drag.drag import Drag
+from rodwell.studies.maps.result import Map
+from rodwell.studies.packer.packer import PackerAnswer
 
 
 def plot(result: object, ax: Any = None, **options: Any) -> Any:
@@ -97,8 +107,33 @@ def _(result: CriticalLoads, axes: Any, **options: Any) -> Any:
 
 
 @_plot.register
+def _(result: Drag, axes: Any) -> Any:
+    return plot_drag(result, ax=axes)
+
+
+@_plot.register
 def _(result: Curve, axes: Any) -> Any:
     return plot_curves([result], ax=axes)
+
+
+@_plot.register
+def _(result: Map, axes: Any, **options: Any) -> Any:
+    return plot_map(result, axes, **options)
+
+
+@_plot.register
+def _(result: Endless, axes: Any, **options: Any) -> Any:
+    return plot_endless(result, ax=axes, **options)
+
+
+@_plot.register
+def _(result: PackerAnswer, axes: Any) -> Any:
+    return plot_packer(result, ax=axes)
+
+
+@_plot.register
+def _(result: LoadPath, axes: Any) -> Any:
+    return plot_path(result, ax=axes)
 
 
 @_plot.register

@@ -12,6 +12,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
+from rodwell.plots.string import mark_steps
 from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
 from rodwell.plots.units import axis
 from rodwell.quantities.scales import Scales
@@ -34,6 +35,7 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
             s * fs, mode.shape(s), color=MODES[mode.number - 1], lw=2.2 if mode.number == 1 else 1.3,
             label=minus(f"mode {mode.number}: F = {plain(mode.force * ff, 4)} {uf}"),
         )  # fmt: skip
+    mark_steps(ax, critical[0].problem, fs)
     ax.axhline(0.0, color=INK, lw=0.8)
     ax.set_xlim(0.0, part * fs)
     ax.set_ylim(-1.25, 1.55)
@@ -70,6 +72,7 @@ def plot_contact_pressure(
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
         label = minus(f"F = {plain(state.force * ff, 4)} {uf}")
         ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
+    mark_steps(ax, branch.problem, fs)
     _lift_off_marks(ax, branch, fs, part)
     low, high = ax.get_ylim()
     high = max(high, -0.12 * low)
@@ -129,6 +132,7 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     ff, uf = axis("force", scales, max(abs(state.force) for state in states))
     for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
         ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {plain(state.force * ff, 4)} {uf}"))
+    mark_steps(ax, states[0].problem, fs)
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, part * fs)
     ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")

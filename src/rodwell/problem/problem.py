@@ -6,10 +6,12 @@ import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends
+from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
@@ -37,9 +39,10 @@ STEEP = 1.01 * max(RADIANS)
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
-    """End conditions in words: their names, or what ``words`` says of each."""
+    """End conditions in words: their names, or what ``words`` says of each; and how many sections a string has."""
     first, last = (words[end] if words else end for end in problem.ends)
-    return f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+    ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
+    return f"{ends}, string of {len(problem.sections)} sections" if problem.sections else ends
 
 
 @dataclass(frozen=True)
@@ -78,12 +81,18 @@ class Problem:
     torsion
         C/B as measured, for shafts that are not round rods of one material (braided, coiled, slotted); ``poisson`` then
         has no effect. None: that of ``poisson``.
+    sections
+        A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
+        adding up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a
+        uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
+        ``poisson`` give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
 
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
     end force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
-    resultant is N(s) = F + γ cos α (s − 1). The end s = 0 bears what is left of it, whatever its condition.
+    resultant is N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left
+    of it, whatever its condition.
 
     Raises
     ------
@@ -101,6 +110,7 @@ class Problem:
     outside: bool = False
     ends: tuple[str, str] = ("clamped", "clamped")
     torsion: float | None = None
+    sections: tuple[Section, ...] = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.weight, int | float) and self.weight < 0.0:
@@ -117,6 +127,7 @@ class Problem:
             if not isinstance(getattr(self, flag), bool):
                 raise InputError(flag, getattr(self, flag), "must be True or False")
         object.__setattr__(self, "ends", checked_ends(self.ends))
+        object.__setattr__(self, "sections", checked_sections(self.sections))
         if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
             allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
             raise InputError("clearance", self.clearance, allowed)
@@ -155,42 +166,60 @@ class Problem:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the problem is the same seen from either end: equal ends and no axial weight.
+        """Whether the problem is the same seen from either end: equal ends, no axial weight, sections alike.
 
         A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
-        return self.axial_weight == 0.0 and self.ends[0] == self.ends[1] and not loose
+        if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose:
+            return False
+        return not self.sections or self.rod.symmetric
 
     @property
     def pressed(self) -> bool:
         """Whether lateral weight presses the straight rod on the wall: at the bottom inside, or outside on top."""
         return self.lateral_weight > 0.0 and self.on_top == self.outside
 
+    @cached_property
+    def rod(self) -> Rod:
+        """Stiffness and weight along s."""
+        return Rod(self.sections or PLAIN)
+
+    @property
+    def hung_weight(self) -> float:
+        """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one."""
+        return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
+
     @property
     def axial_weight(self) -> float:
-        """wₐ = γ cos α, exactly zero for a horizontal cylinder; negative where the end s = 1 is the lower one."""
+        """wₐ = γ cos α, exactly zero for a horizontal cylinder; negative where the end s = 1 is the lower one.
+
+        Of sections, that of weight ratio 1.
+        """
         if self.alpha > 90.0:  # exactly what it is for 180° − α, but for the sign
             return -self.weight * math.cos(math.radians(180.0 - self.alpha))
         return self.weight * (0.0 if self.alpha == 90.0 else math.cos(math.radians(self.alpha)))
 
     @property
     def lateral_weight(self) -> float:
-        """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`."""
+        """wₗ = γ sin α, exactly zero for a vertical cylinder; the sense of ξ₂ is in :attr:`foundation`.
+
+        Of sections, that of weight ratio 1.
+        """
         return self.weight * math.sin(math.radians(min(self.alpha, 180.0 - self.alpha)))
 
     @property
     def heaviest(self) -> float:
         """Max wₐ, 0: by how much compression may be larger somewhere along the rod than at s = 1."""
-        return max(self.axial_weight, 0.0)
+        return max(self.hung_weight, 0.0)
 
     @property
     def turned_round(self) -> Problem:
         """The same rod seen from its other end, y(s) → y(1 − s): inclination 180° − α, ends exchanged.
 
-        Its end force, which acts at the other end, is F − wₐ.
+        Its end force, which acts at the other end, is F − wₐ (of sections, less their axial weight).
         """
-        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1])
+        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1], sections=self.sections[::-1])
 
     @property
     def foundation(self) -> float:
@@ -208,9 +237,20 @@ class Problem:
         return 1.0 / (1.0 + self.poisson) if self.torsion is None else self.torsion
 
     @property
-    def given_torsion(self) -> dict[str, float]:
-        """C/B by name where it was given and does not follow from ν: for what lists the data of a problem."""
-        return {} if self.torsion is None else {"torsion": self.torsion}
+    def whole_torsion(self) -> float:
+        """Torsional stiffness of the whole straight rod, whose end s = 1 turns by T₁ over it: C, or 1/∫ ds/C(s)."""
+        if not self.sections:
+            return self.torsional_stiffness
+        return self.torsional_stiffness / sum(length / torsion for length, *_, torsion in self.sections)
+
+    @property
+    def given_more(self) -> dict[str, float | list[float]]:
+        """What was given besides, by name: C/B where it does not follow from ν, and each column of the sections."""
+        out: dict[str, float | list[float]] = {} if self.torsion is None else {"torsion": self.torsion}
+        if self.sections:
+            columns = zip(*self.sections, strict=True)
+            out |= {f"section_{name}": list(column) for name, column in zip(COLUMNS, columns, strict=True)}
+        return out
 
     def differences(self, other: Problem) -> str:
         """What differs in another problem, in words: names, its value, and that of this one."""

@@ -33,6 +33,9 @@ KINDS: dict[str, tuple[str, str]] = {
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),
     "torsional stiffness": ("N*m^2", '"7.5e5 N m^2", "1800 N·mm²"'),
     "acceleration": ("m/s^2", '"9.80665 m/s^2"'),
+    "speed": ("m/s", '"20 m/h", "60 ft/h", "0.3 m/s"'),
+    "temperature change": ("K", '"-20 °F", "35 K"'),
+    "thermal expansion": ("1/K", '"6.9e-6 /°F", "12.4e-6 /K"'),
 }
 """Kinds of quantity that case files hold: SI unit, and examples for messages."""
 
@@ -189,19 +192,21 @@ _UNITS: dict[str, dict[str, tuple[tuple[str, float], ...]]] = {
         "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("m", 1.0),), "curvature": (("1/m", 1.0),),
         "force": (("N", 1.0),), "force_per_length": (("N/m", 1.0),), "moment": (("N m", 1.0),),
         "energy": (("J", 1.0),), "stress": (("Pa", 1.0),), "density": (("kg/m³", 1.0),),
-        "stiffness": (("N m²", 1.0),),
+        "stiffness": (("N m²", 1.0),), "temperature": (("K", 1.0),),
     },
     "field": {
         "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("ft", FOOT), ("in", INCH)),
         "curvature": (("1/ft", 1.0 / FOOT),), "force": (("lbf", LBF),), "force_per_length": (("lbf/ft", LBF / FOOT),),
         "moment": (("ft·lbf", LBF * FOOT),), "energy": (("ft·lbf", LBF * FOOT),), "stress": (("psi", LBF / INCH**2),),
         "density": (("lb/gal", POUND / GALLON),), "stiffness": (("lbf·in²", LBF * INCH**2),),
+        "temperature": (("°F", 5.0 / 9.0),),
     },
     "mm": {
         "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("mm", 1e-3),), "curvature": (("1/mm", 1e3),),
         "force": (("N", 1.0),), "force_per_length": (("N/mm", 1e3),), "moment": (("N·mm", 1e-3),),
         "energy": (("N·mm", 1e-3),), "stress": (("MPa", 1e6),), "density": (("kg/m³", 1.0),),
         "stiffness": (("N·mm²", 1e-6),),
+        "temperature": (("K", 1.0),),
     },
 }  # fmt: skip
 """Units by system and dimension: text and SI value. The first is that of tables; a second is for small values."""

@@ -25,11 +25,19 @@ _CONTINENTAL = re.compile(r"\s*([+-]?\d{1,3}(?:\.\d{3})+),(\d+)\s*(.*?)\s*")
 _DOTS = re.compile(r"\s*([+-]?\d{1,3}(?:\.\d{3}){2,})\s*(.*?)\s*")
 _MIXED = re.compile(r"\s*([+-]?)(\d+)[\s-]+(\d+)/(\d+)\s*(.*?)\s*")
 
+_DEGREES = {
+    **dict.fromkeys(("°F", "degF", "deg F", "F", "° F"), "delta_degF"),
+    **dict.fromkeys(("°C", "degC", "deg C", "C", "° C"), "delta_degC"),
+}
+
 BY_KIND: dict[str, dict[str, str]] = {
     "length": {"mil": "thou", "mils": "thou", "Fr": "french_size", "F": "french_size", '"': "in", "″": "in", "''": "in",
                "'": "ft", "′": "ft"},
+    "temperature change": _DEGREES,
+    "thermal expansion": {f"/{name}": f"1/{unit}" for name, unit in _DEGREES.items()} | {"/K": "1/K"},
 }  # fmt: skip
-"""Names that mean one thing for one kind of quantity and another thing elsewhere: mils and French sizes of length."""
+"""Names that mean one thing for one kind of quantity and another thing elsewhere: mils and French sizes of length,
+degrees of a change of temperature, which have no zero."""
 
 OF_FORCE = ("force", "force per length", "moment")
 """Kinds in which klb and klbs, as the field writes them, are thousands of pounds-force."""

@@ -19,6 +19,8 @@ from rodwell.physics.on_wall.frames import AXES, FRAMES, frames
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
 from rodwell.quantities.table import Variable
+from rodwell.store.map_arrays import map_dataset
+from rodwell.studies.maps.result import Map
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,6 +117,11 @@ def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     data = dict(branch_variables(branch, places))
     coords = {name: data.pop(name) for name in ("s", "field")}
     return xr.Dataset(data, coords=coords, attrs=branch_attributes(branch))
+
+
+@dataset.register(Map)
+def _(result: Map) -> xr.Dataset:
+    return map_dataset(result)
 
 
 @dataset.register(Solution)
@@ -235,7 +242,7 @@ def _problem_attributes(problem: Problem) -> dict[str, Any]:
         "on_top": int(problem.on_top),
         "outside": int(problem.outside),
         "ends": "-".join(problem.ends),
-        **problem.given_torsion,
+        **problem.given_more,
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import tempfile
@@ -11,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rodwell.errors import InputError
-from rodwell.store.staging import PREFIX, finish_leftovers, staged
+from rodwell.store.staging import PREFIX, finish_leftovers, one_at_a_time, staged
 from rodwell.store.swap import put_in_place
 
 
@@ -21,9 +22,12 @@ def check_writable(out: Path, option: str = "--out") -> None:
     What a killed run left behind for ``out`` is tidied away.
     """
     try:
-        home = _nearest_folder(out, option)
+        target = out.resolve()
+        home = _home(out.absolute(), target, option)
         with tempfile.TemporaryDirectory(dir=home, prefix=PREFIX):
             pass
+        if target.exists() and not os.access(target, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     except OSError as error:
         raise _unwritable(out, error, option) from None
     finish_leftovers(out.resolve())
@@ -47,10 +51,39 @@ def whole_folder(out: Path, option: str = "--out") -> Iterator[Path]:
         target = out.resolve()
         with staged(target, _home(out, target, option), _undisturbed) as new:
             yield new
-            with _undisturbed():
+            with _undisturbed(), one_at_a_time(target):
                 _check_free(new, out, option)
                 _open_to_others(new)
                 put_in_place(new, target)
+    except OSError as error:
+        raise _unwritable(out, error, option) from None
+
+
+@contextmanager
+def appearing(out: Path, option: str = "--out", home: Path | None = None) -> Iterator[Path]:
+    """Yield a temporary folder that becomes ``out``, which is not there yet, or empty, when the block ends well.
+
+    Where another run was first, its folder stays. ``home`` is where the folder waits; beside ``out`` if not given.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written.
+    """
+    out = out.absolute()
+    try:
+        target = out.resolve()
+        place = _nearest_folder(out.parent, option) if home is None else home
+        with staged(target, place, _undisturbed) as new:
+            yield new
+            with _undisturbed():
+                new.chmod(0o777 & ~_mask())
+                target.parent.mkdir(parents=True, exist_ok=True)
+                try:
+                    new.rename(target)
+                except OSError as error:
+                    if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                        raise
     except OSError as error:
         raise _unwritable(out, error, option) from None
 
@@ -85,10 +118,16 @@ def _check_free(new: Path, out: Path, option: str) -> None:
 
 def _open_to_others(new: Path) -> None:
     """Give result files the permissions of ordinary new files."""
-    mask = os.umask(0)
-    os.umask(mask)
+    mask = _mask()
     for file in new.iterdir():
         file.chmod(0o666 & ~mask)
+
+
+def _mask() -> int:
+    """What this process takes from the permissions of new files."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
 
 
 @contextmanager

@@ -9,6 +9,12 @@ from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.result.answer import Answer
 from rodwell.studies.audit.audit import Audit
 from rodwell.studies.audit.plain import audit_dict
+from rodwell.studies.drag.drag import Drag
+from rodwell.studies.drag.plain import drag_dict
+from rodwell.studies.maps.plain import map_dict
+from rodwell.studies.maps.result import Map
+from rodwell.studies.packer.packer import PackerAnswer
+from rodwell.studies.packer.tables import packer_dict
 from rodwell.studies.sweep.plain import study_dict
 from rodwell.studies.sweep.study import Study
 
@@ -32,3 +38,18 @@ def _(result: Study) -> dict[str, Any]:
 @plain.register
 def _(result: Audit) -> dict[str, Any]:
     return audit_dict(result)
+
+
+@plain.register
+def _(result: Map) -> dict[str, Any]:
+    return map_dict(result)
+
+
+@plain.register
+def _(result: Drag) -> dict[str, Any]:
+    return drag_dict(result)
+
+
+@plain.register
+def _(result: PackerAnswer) -> dict[str, Any]:
+    return packer_dict(result)

@@ -33,6 +33,9 @@ LONGEST_NAME = 40
 LEVELS = 4
 """Folders, from the target up, in which something may have been left behind."""
 
+LONGEST_WAIT = 10.0
+"""Seconds for which a run waits for others that put results in place."""
+
 DAY = 86400.0
 """Seconds after which a hidden folder in which nothing was begun, and nothing is, counts as left behind."""
 
@@ -52,10 +55,32 @@ def staged(target: Path, home: Path, undisturbed: Callable[[], AbstractContextMa
         yield place / NEW
     finally:
         with undisturbed():
-            _finish(place, target)
+            with one_at_a_time(target):
+                _finish(place, target)
             _remove(place)
             if lock is not None:
                 lock.close()
+
+
+@contextmanager
+def one_at_a_time(target: Path) -> Iterator[None]:
+    """Let one run at a time put results in place at ``target``: the folder above it is locked for that moment.
+
+    A run that waits longer than any of them takes goes on all the same, and so does one without locks (Windows, some
+    network disks): then whoever is last wins, as among any programs.
+    """
+    folder = None
+    if sys.platform != "win32":
+        with suppress(OSError):
+            folder = os.open(next(place for place in target.parents if place.is_dir()), os.O_RDONLY)
+    until = time.monotonic() + LONGEST_WAIT
+    try:
+        while folder is not None and not _lock(folder) and time.monotonic() < until:
+            time.sleep(0.005)
+        yield
+    finally:
+        if folder is not None:
+            os.close(folder)
 
 
 def write_plan(place: Path, kind: str, names: list[str]) -> None:
@@ -85,7 +110,8 @@ def _finish_leftover(place: Path, target: Path) -> None:
     with lock:
         if not _lock(lock) or lock.read() != str(target):
             return
-        _finish(place, target)
+        with one_at_a_time(target):
+            _finish(place, target)
         _remove(place)
 
 
@@ -155,8 +181,8 @@ def _owned(place: Path, target: Path) -> IO[str] | None:
     return None
 
 
-def _lock(file: IO[str]) -> bool:
-    """Whether the lock of a file could be had."""
+def _lock(file: IO[str] | int) -> bool:
+    """Whether the lock of a file, or of an open folder, could be had."""
     if sys.platform == "win32":
         return False
     try:

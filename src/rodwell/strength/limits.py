@@ -100,8 +100,7 @@ def uses(case: Case) -> tuple[Use, ...]:
     """The strengths that a case tells of."""
     out, rod, scales = [], rod_section(case), case.scales
     if rod is not None and rod.strength is not None:
-        strength = rod.strength
-        out.append(Use(YIELDS, lambda mesh, n: mesh.largest(lambda f: rod.von_mises(f) / strength, n)))
+        out.append(Use(YIELDS, lambda mesh, n: mesh.largest(rod.used, n)))
     if case.cylinder is not None and scales is not None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
@@ -160,7 +159,7 @@ def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> 
         return use.of(LoadedRod("", problem, least + share * (critical - least)))[0] - 1.0
 
     # what is used is convex in the force, and least where neither end is far from zero force
-    forces = [force for force in np.linspace(0.0, problem.axial_weight, LOOKS) if force > critical]
+    forces = [force for force in np.linspace(0.0, problem.hung_weight, LOOKS) if force > critical]
     parts = [use.of(LoadedRod("", problem, float(force)))[0] for force in forces]
     if not parts or min(parts) >= 1.0:
         return None

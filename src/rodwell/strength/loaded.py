@@ -30,12 +30,12 @@ class OnMesh:
     space: SplineSpace | None = None
 
     def __call__(self, s: FloatArray) -> Fields:
-        """Fields at places s (m,), in units B = L = 1."""
-        return self.fields(s)
+        """Fields at places s (m,), in units B = L = 1, and the places themselves, "s"."""
+        return self.fields(s) | {"s": s}
 
     def largest(self, size: Callable[[Fields], FloatArray], zooms: int = ZOOMS) -> tuple[float, float]:
         """Largest value along the rod of something made from the fields, and its (first) place."""
-        return largest_of(lambda s: size(self.fields(s)), self.space, zooms)
+        return largest_of(lambda s: size(self(s)), self.space, zooms)
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class LoadedRod:
     @property
     def at_bottom(self) -> float:
         """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α."""
-        return self.force - self.problem.axial_weight
+        return self.force - self.problem.hung_weight
 
     @property
     def along(self) -> tuple[OnMesh, ...]:
@@ -103,7 +103,8 @@ class LoadedRod:
         """Contact force on the wall in all, all directions added, in B/L²."""
         if self.solution is not None:
             return self.solution.total_wall_force
-        return compared(self.problem.lateral_weight, self.problem.lateral_weight)
+        whole = self.problem.lateral_weight * self.problem.rod.whole_weight
+        return compared(whole, whole)
 
     @property
     def shortening(self) -> Value:

@@ -58,9 +58,9 @@ class Exceeded:
 
 
 def string_of(case: Case) -> PipeString | None:
-    """The local rod of a case, with its end conditions; None without dimensions or weight."""
+    """The local rod of a case, with its end conditions; None without dimensions or weight, and of a string."""
     problem, scales = case.problem, case.scales
-    if scales is None or not problem.weight > 0.0:
+    if problem.sections or scales is None or not problem.weight > 0.0:
         return None
     weight = problem.weight * scales.factor("force_per_length")
     return PipeString(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)
@@ -96,7 +96,7 @@ def exceeded(state: LoadedRod, limit: float, unit: float) -> Exceeded:
     Compression falls from the lower end s = 0 upwards, so the place is the lower part of the string; in a horizontal
     hole all of it or none.
     """
-    bottom, weight = -state.at_bottom * unit, state.problem.axial_weight * unit
+    bottom, weight = -state.at_bottom * unit, state.problem.hung_weight * unit
     if bottom <= limit:
         return Exceeded(limit, 0.0)
     return Exceeded(limit, 1.0 if weight == 0.0 else min((bottom - limit) / weight, 1.0))

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.case.case import Case
+from rodwell.case.pipe import PhysicalRod
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.text import amount, percent
 from rodwell.quantities.value import Value
@@ -177,28 +178,49 @@ def _slope(f: Fields) -> FloatArray:
 
 def _strains(case: Case, states: tuple[LoadedRod, ...], forces: tuple[tuple[str, float], ...]) -> list[Measure]:
     """Largest axial strain and strain in bending; both need the section."""
-    if case.rod is None or case.scales is None or not case.rod.area > 0.0:
+    if case.rod is None or case.scales is None or not all(rod.area > 0.0 for rod, _ in _parts(case)):
         why = "the case has no dimensions" if case.scales is None else "rod.outer_diameter is not given"
         return [_measure(name, None, why) for name in ("axial_strain", "bending_strain")]
-    rod, length = case.rod, case.scales.length
-    per_force = rod.inertia / rod.area / length**2  # B/L² over EA, with B = EI
     acting = [(name, force, 0.0) for name, force in forces] + [(s.name, s.force, s.error) for s in states]
-    ends = [
-        (name, abs(end), error) for name, force, error in acting for end in (force, force - case.problem.axial_weight)
-    ]
-    where, force, error = max(ends, key=lambda one: one[1], default=("", 0.0, 0.0))
-    radius = 0.5 * (rod.outer_diameter or 0.0) / length
-    bent = [
-        (state.largest(lambda f: np.hypot(f["rod_M2"], f["rod_M3"])), state.name)
-        for state in states
-        if not state.straight
-    ]
+    strains = [_largest_axial(case, rod, span, acting) for rod, span in _parts(case)]
+    where, strain = max(strains, key=lambda one: one[1].value, default=("", Value(0.0)))
+    bent = [(state.largest(lambda f: _bending(case, f)), state.name) for state in states if not state.straight]
     most, at = max(bent, key=lambda one: one[0].value, default=(None, ""))
-    bending = Value(0.0) if most is None else Value(most.value * radius, most.error * radius)
-    return [
-        _measure("axial_strain", Value(force * per_force, error * per_force), where),
-        _measure("bending_strain", bending, at),
-    ]
+    bending = Value(0.0) if most is None else Value(most.value, most.error)
+    return [_measure("axial_strain", strain, where), _measure("bending_strain", bending, at)]
+
+
+def _parts(case: Case) -> list[tuple[PhysicalRod, tuple[float, float]]]:
+    """The rod, or the sections of its string, and where each begins and ends, s/L."""
+    assert case.rod is not None
+    if case.string is None:
+        return [(case.rod, (0.0, 1.0))]
+    return [(one.rod, span) for one, span in zip(case.string.members, case.string.ends, strict=True)]
+
+
+def _largest_axial(
+    case: Case, rod: PhysicalRod, span: tuple[float, float], acting: list[tuple[str, float, float]]
+) -> tuple[str, Value]:
+    """Largest strain F/EA in a part of the rod, and in which state: forces are largest at either of its ends."""
+    assert case.scales is not None
+    problem, scales = case.problem, case.scales
+    per_force = scales.factor("force") * rod.inertia / (rod.stiffness * rod.area)
+    levers = problem.rod.lever(np.array(span))
+    weights = [problem.axial_weight * float(lever) for lever in levers]
+    ends = [(name, abs(force + weight), error) for name, force, error in acting for weight in weights]
+    where, largest, error = max(ends, key=lambda one: one[1], default=("", 0.0, 0.0))
+    return where, Value(largest * per_force, error * per_force)
+
+
+def _bending(case: Case, f: Fields) -> FloatArray:
+    """Strain of the outermost fibre in bending, κ r, along the rod (m,)."""
+    assert case.scales is not None
+    moment, out = np.hypot(f["rod_M2"], f["rod_M3"]) * case.scales.factor("moment"), np.zeros(f["s"].shape)
+    for rod, (start, end) in _parts(case):
+        inside = (f["s"] >= start) & (f["s"] <= end)
+        strain = moment[inside] * 0.5 * (rod.outer_diameter or 0.0) / rod.stiffness
+        out[inside] = np.maximum(out[inside], strain)
+    return out
 
 
 def _slenderness(case: Case, wavenumber: float) -> list[Measure]:
@@ -207,6 +229,7 @@ def _slenderness(case: Case, wavenumber: float) -> list[Measure]:
     if rod is None or not rod.area > 0.0:
         why = "the case has no dimensions" if rod is None else "rod.outer_diameter is not given"
         return [_measure(name, None, why) for name in names]
-    slender = rod.length / math.sqrt(rod.inertia / rod.area)
+    gyration = max(math.sqrt(one.inertia / one.area) for one, _ in _parts(case) if one.area > 0.0)
+    slender = rod.length / gyration
     parts = (1.0, math.pi / wavenumber if wavenumber > math.pi else 1.0)
     return [_measure(name, Value(slender * part)) for name, part in zip(names, parts, strict=True)]

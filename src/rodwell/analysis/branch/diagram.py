@@ -187,7 +187,7 @@ def diagram(
     NotConvergedError
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
-    first_run.begin()
+    first_run.begin(problem)
     how, modes = Following(checked_rtol(rtol), checked_step(largest_step)), checked_whole("modes", modes, 1, MOST_MODES)
     tell = progress or (lambda _what, _done: None)
     ways = _checked_ways(problem, search)

@@ -110,7 +110,7 @@ def follow(
     """
     watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
     how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
-    first_run.begin()
+    first_run.begin(problem)
     if parameter not in PATHS:
         raise unknown_name("parameter", parameter, PATHS)
     if start is not None:

@@ -55,7 +55,7 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     NotConvergedError
         If no minimum was found, with the reason.
     """
-    first_run.begin()
+    first_run.begin(problem)
     rtol = checked_rtol(rtol)
     force = checked_force("force", force)
     if problem.turns == 0:

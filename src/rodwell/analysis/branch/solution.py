@@ -9,7 +9,7 @@ from rodwell.analysis.state.balance import Reaction, end_rotation, energies, rea
 from rodwell.analysis.state.certificate import Certificate, certificate_of
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import GRID
-from rodwell.analysis.state.wall import WallLoads, wall_loads
+from rodwell.analysis.state.wall import StepLoad, WallLoads, step_loads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
@@ -48,6 +48,11 @@ class Solution(Equilibrium, Shown):
     def wall(self) -> WallLoads:
         """What wall and supports must bear: see :class:`rodwell.analysis.state.wall.WallLoads`."""
         return wall_loads(self)
+
+    @cached_property
+    def step_loads(self) -> tuple[StepLoad, ...]:
+        """What the wall exerts at steps of the bending stiffness: see :class:`rodwell.analysis.state.wall.StepLoad`."""
+        return step_loads(self)
 
     @cached_property
     def reactions(self) -> tuple[Reaction, ...]:

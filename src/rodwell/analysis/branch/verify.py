@@ -8,28 +8,25 @@ load, sampled coarsely: what agrees afterwards was found twice.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.other_program import Dense, Guess, highest_pressure, most_sections, solve_again
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.tracing import Progress
-from rodwell.analysis.state.certificate import load_of
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, NotConvergedError, checked_number
-from rodwell.physics.on_wall import equations
-from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
+from rodwell.physics.on_wall.equations import NAMES
 from rodwell.quantities.arrays import FloatArray
 
 RTOL = 1e-8
 """Relative residual that ``solve_bvp`` is asked for, and the tolerance of agreement."""
 
 FINEST, COARSEST = 1e-10, 1e-3
-
-MOST_NODES = 50_000
 
 START_NODES = 41
 """Places at which the start is sampled."""
@@ -41,8 +38,9 @@ SMALL = 1e-3
 """A field smaller than this part of its kind (forces, moments, angles, curvatures) is compared with that."""
 
 SECANT_STEPS = 12
-AWAY = 0.01
-"""The search for lift-off starts this part of the load away from the engine's answer."""
+AWAY, PART = 0.01, 0.2
+"""The search for lift-off starts this part of the load away from the engine's answer, or this part of the way back to
+the start of the branch, if that is less."""
 
 _KINDS = {
     "braid_F1": ("braid_F2", "braid_F3"),
@@ -51,9 +49,6 @@ _KINDS = {
     "omega2": ("omega3",),
 }
 """The leading field of each kind, and the others of it."""
-
-Guess = tuple[FloatArray, FloatArray]
-Dense = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True)
@@ -187,6 +182,7 @@ def verify(
     rtol = checked_number("rtol", rtol, FINEST, COARSEST, f"must be between {FINEST:g} and {COARSEST:g}")
     if branch.parameter != "force":
         raise InputError("branch", branch.parameter, "must be a branch in the end force")
+    most_sections(branch.problem)
     tell = progress or (lambda _force: None)
     lift = None if branch.lift_off_at_buckling else branch.lift_off
     if forces is None:
@@ -205,7 +201,7 @@ def verify(
 
 def _state(branch: Branch, force: float, rtol: float) -> Verified:
     state = branch.at(force)
-    nodes, residual, dense, message = _solve(load_of(branch.problem, force), _start(branch, force), rtol)
+    nodes, residual, dense, message = solve_again(branch.problem, force, _start(branch, force), rtol)
     return Verified(force, _differences(state, dense), rtol, nodes, residual, message)
 
 
@@ -222,23 +218,6 @@ def _fields(state: Solution, s: FloatArray) -> dict[str, FloatArray]:
     fields = state.fields(s)
     fields["xi2"] = fields["y"] / state.problem.clearance
     return fields
-
-
-def _solve(load: Load, start: Guess, rtol: float) -> tuple[int, float, Dense, str]:
-    """Mesh points, largest relative residual, the solution as a function (15, m) of s, and the program's message."""
-    from scipy.integrate import solve_bvp  # noqa: PLC0415 - slow to import
-
-    def conditions(first: FloatArray, last: FloatArray) -> FloatArray:
-        ends = equations.end_conditions(Fifteen(*first), Fifteen(*last), load)
-        return np.array([condition.residual for condition in ends.values()])
-
-    # a loose solution first: the mesh then grows where the solution, not the start, needs it
-    result = solve_bvp(lambda s, x: equations.rates(x, load), conditions, *start, tol=1e-4, max_nodes=MOST_NODES)
-    if result.status == 0 and rtol < 1e-4:
-        result = solve_bvp(
-            lambda s, x: equations.rates(x, load), conditions, result.x, result.y, tol=rtol, max_nodes=MOST_NODES
-        )
-    return result.x.size, float(np.max(result.rms_residuals)), result.sol, result.message
 
 
 def _differences(state: Solution, dense: Dense) -> dict[str, float]:
@@ -259,15 +238,16 @@ def _lift_off(branch: Branch, near: float, rtol: float) -> float:
 
     def highest(force: float) -> float:
         nonlocal guess
-        load = load_of(problem, force)
-        nodes, residual, dense, message = _solve(load, guess, rtol)
+        nodes, residual, dense, message = solve_again(problem, force, guess, rtol)
         if residual > 2.0 * rtol:
             raise NotConvergedError(f"solve_bvp did not converge near lift-off, at F = {force:.8g} B/L²: {message}")
         s = np.linspace(0.0, 1.0, nodes)
         guess = s, dense(s)
-        return _highest_pressure(load, dense, -1.0 if problem.outside else 1.0)
+        return highest_pressure(problem, force, dense)
 
-    forces = [near * (1.0 - AWAY), near * (1.0 - 0.5 * AWAY)]
+    back = float(branch.force[0]) - near  # not as far as the start of the branch, where there is the straight rod only
+    away = float(np.sign(back)) * min(AWAY * abs(near), PART * abs(back))
+    forces = [near + away, near + 0.5 * away]
     values = [highest(force) for force in forces]
     for _ in range(SECANT_STEPS):
         step = -values[-1] * (forces[-1] - forces[-2]) / (values[-1] - values[-2])
@@ -276,22 +256,3 @@ def _lift_off(branch: Branch, near: float, rtol: float) -> float:
             return forces[-1]
         values.append(highest(forces[-1]))
     raise NotConvergedError(f"the lift-off load did not settle with solve_bvp: last {forces[-1]:.10g} B/L²")
-
-
-def _highest_pressure(load: Load, dense: Dense, side: float) -> float:
-    """Largest p₂⁽¹⁾ over s (smallest, for a rod outside), by (55), refined between the places of a fine grid."""
-    from scipy.optimize import minimize_scalar  # noqa: PLC0415
-
-    def pressure(s: FloatArray) -> FloatArray:
-        return np.asarray(side * sum(equations.strands(Fifteen(*dense(s)), load).p))
-
-    s = np.linspace(0.0, 1.0, 10 * GRID)
-    values = pressure(s)
-    i = int(np.argmax(values))
-    highest = minimize_scalar(
-        lambda x: -float(pressure(np.array([x]))[0]),
-        bounds=(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)]),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    return max(float(values[i]), -float(highest.fun))

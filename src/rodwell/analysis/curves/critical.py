@@ -15,6 +15,7 @@ from rodwell.analysis.straight.slopes import load_slope, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import lower_half
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 SMOOTH = 1e-5
@@ -238,10 +239,11 @@ def _half(problem: Problem, parity: int) -> Problem:
     the foundation wₗ/Δ a sixteenth. Each symmetry on its own has no double loads.
     """
     middle = "guided" if parity > 0 else "pinned"
-    return problem.but(weight=problem.weight / 16.0, ends=(problem.ends[0], middle))
+    sections = lower_half(problem.sections)
+    return problem.but(weight=problem.weight / 16.0, ends=(problem.ends[0], middle), sections=sections)
 
 
 def _load(mode: Mode, rates: tuple[float, float], times: float = 1.0) -> _Load:
     """Load, error and slope of a mode, ``times`` as large; ``rates`` are those of wₐ and wₗ/Δ along the curve."""
-    slope = load_slope(mode.space, mode.coefficients, *rates)
+    slope = load_slope(mode.problem, mode.space, mode.coefficients, *rates)
     return _Load(times * mode.force, times * mode.error, times * slope)

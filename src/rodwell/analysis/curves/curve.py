@@ -217,7 +217,7 @@ class Curve:
             "on_top": int(self.problem.on_top),
             "outside": int(self.problem.outside),
             "ends": "-".join(self.problem.ends),
-            **self.problem.given_torsion,
+            **self.problem.given_more,
             "ended_because": self.ended_because,
         }
 

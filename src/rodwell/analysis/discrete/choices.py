@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from rodwell.errors import checked_number
 
 DEGREE = 9
@@ -28,6 +30,10 @@ ELEMENTS_PER_RADIAN = 0.85
 
 LINEAR_ELEMENTS_PER_RADIAN = 0.8
 """The same for critical loads: an eigenvalue converges with order 2(degree − 1), twice as fast as the shape."""
+
+
+LEAST_WAVENUMBER = 6.0 * math.pi
+"""Wavenumber in rad/L that is resolved everywhere: for light rods, where frozen coefficients say little."""
 
 
 def checked_step(largest_step: float) -> float:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.numerics.equilibria.family import MIRROR, Family
+from rodwell.numerics.equilibria.family import MIRROR, Family, Given
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray
 
 HELD = {
@@ -110,7 +111,7 @@ def family(
     """
     refuse_off_wall(problem.ends, "buckled states")
     return Family(
-        model=RodOnCylinder(),
+        model=RodOfSections() if problem.sections else RodOnCylinder(),
         path=path(problem, parameter, force),
         space=space,
         ends=spline_ends(problem),
@@ -119,7 +120,11 @@ def family(
         slope_scale=problem.clearance * wavenumber,
         lam_scale=scale,
         reflections=reflections(problem, parameter),
-        first_integral=problem.axial_weight == 0.0 and problem.ends == ("clamped", "clamped") and parameter != "alpha",
+        given=given_along(problem),
+        first_integral=problem.axial_weight == 0.0
+        and problem.ends == ("clamped", "clamped")
+        and parameter != "alpha"
+        and not problem.sections,
         cells=_cells(problem, parameter),
     )
 
@@ -129,11 +134,24 @@ def _cells(problem: Problem, parameter: str) -> tuple[int, ...]:
 
     Of a horizontal rod: a pinned end asks y(−x) = −y(x), a guided one y(−x) = y(x), which the twisting moment forbids.
     """
-    if problem.axial_weight != 0.0 or parameter == "alpha" or problem.turns != 0:
+    if problem.axial_weight != 0.0 or parameter == "alpha" or problem.turns != 0 or problem.sections:
         return ()
     signs = (-1,) if problem.twist != 0.0 or parameter == "twist" else (-1, 1)
     ends = {"pinned": -1, "guided": 1}
     return signs if all(ends.get(end) in signs for end in problem.ends) else ()
+
+
+def given_along(problem: Problem) -> Given | None:
+    """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3)."""
+    return given_of(problem.rod) if problem.sections else None
+
+
+def given_of(rod: Rod) -> Given:
+    """The same of a rod of sections."""
+    columns = np.stack(
+        [rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1
+    )
+    return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 
 
 def reflections(problem: Problem, parameter: str = "force") -> tuple[tuple[int, bool], ...]:

@@ -19,6 +19,7 @@ from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import Tolerances, newton
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.problem.problem import Problem
 
 _VECTOR = types.Array(types.float64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
@@ -58,9 +59,12 @@ def done() -> bool:
     return on_disk(*KERNELS[1])
 
 
-def begin() -> None:
-    """Start the second process, on the first run; where the largest kernel is at hand already, nothing is asked."""
-    if not newton.overloads and newton.stats.cache_path is not None and not done():
+def begin(problem: Problem) -> None:
+    """Start the second process, on the first run; where the largest kernel is at hand already, nothing is asked.
+
+    Kernels of a string of sections are compiled as they are needed: most rods are uniform.
+    """
+    if not problem.sections and not newton.overloads and newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE
+from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE, STIFFNESS
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.parameters import RAMP
@@ -26,6 +26,8 @@ def load_noise(family: Family, fold: State) -> float:
     functions = np.repeat(space.starts, space.per_element)[:, None] + np.arange(space.degree + 1)
     terms = np.abs(space.table[:, 2] * c[functions]).sum(axis=1)
     stiffness = 1.0 / (1.0 - (slope + family.parameters(fold.lam)[RAMP]) ** 2)
+    if family.mesh.given.shape[1]:
+        stiffness = stiffness * family.mesh.given[:, STIFFNESS]
     work = 4.0 * COEFFICIENT_NOISE * float(np.linalg.norm(space.weights * bend * stiffness * terms))
     step, free = SIDE * max(abs(fold.lam), family.lam_scale), family.held
     above, below = (free.gather(family.assemble(c, fold.lam + sign * step)[1]) for sign in (1.0, -1.0))

@@ -114,7 +114,8 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
     shortening, torque, bending, torque_size, sharpest, widest, steepest = totals(
         mesh, knots, landmarks, c, parameters, shear
     )
-    balanced(mesh, knots, c, parameters, shear, tabulated(mesh.local, knots, mesh.points, places), values, left)
+    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
+    balanced(mesh, knots, c, parameters, shear, tables, values, left)
     balanced(mesh, knots, c, parameters, shear, probes, at_probes, unused)
     highest = np.max(values)
     u = np.empty((3, 3))  # place, derivative
@@ -185,13 +186,34 @@ def measure(family: Family, state: State) -> FloatArray:
     spline's derivatives comes out of these enlarged by h⁻¹, h⁻².
     """
     space, p = state.space, family.parameters(state.lam)
-    wait_for("maxima")
-    found = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    found = _maxima(family, state.c, p)
     probes = _probed.get(space)
     if probes is None:
-        probes = _probed[space] = tabulated(space.tags[0], space.knots, space.points, np.array(PROBES))
+        probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
     numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
     return np.asarray(numbers)
+
+
+def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """Places and values (k,) of maxima of the contact pressure near its highest, and its lowest sample.
+
+    Between steps of the stiffness, where the pressure jumps, each stretch has its own; at its upper end that is the
+    value just below the step.
+    """
+    space, mesh = family.space, family.mesh
+    wait_for("maxima")
+    if not space.kinks.size:
+        places, values, lowest = _quick_maxima(mesh, space.knots, *space.samples, c, parameters, NEAR_THE_TOP)
+        return places, values, lowest
+    found = []
+    for elements, functions, knots, grid, table in space.pieces:
+        points = slice(elements.start * space.per_element, elements.stop * space.per_element)
+        piece = mesh._replace(starts=space.starts[elements] - functions.start, given=mesh.given[points])
+        found.append(_quick_maxima(piece, knots, grid, table, c[functions], parameters, NEAR_THE_TOP))
+    places, values = (np.concatenate([one[k] for one in found]) for k in (0, 1))
+    lowest = min(one[2] for one in found)
+    high = values >= np.max(values) - NEAR_THE_TOP * (np.max(values) - lowest)
+    return places[high], values[high], float(lowest)
 
 
 def pressure_maxima(
@@ -199,7 +221,6 @@ def pressure_maxima(
 ) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
-    wait_for("maxima")
-    places, _, lowest = _quick_maxima(family.mesh, space.knots, *space.samples, state.c, p, NEAR_THE_TOP)
+    places, _, lowest = _maxima(family, state.c, p)
     values = balanced_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
     return places, values, float(lowest)

@@ -12,16 +12,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.choices import DEGREE, ELEMENTS_PER_RADIAN, LINEAR_ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH
+from rodwell.analysis.discrete import sectioned
+from rodwell.analysis.discrete.choices import (
+    DEGREE,
+    ELEMENTS_PER_RADIAN,
+    LEAST_WAVENUMBER,
+    LINEAR_ELEMENTS_PER_RADIAN,
+    POINTS_OF_BRANCH,
+)
 from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 SPARE_MODES = 4
 """How many modes more than asked for the mesh is made for."""
-
-LEAST_WAVENUMBER = 6.0 * np.pi
-"""Wavenumber in rad/L that is resolved everywhere: for light rods, where frozen coefficients say little."""
 
 DEAD = 30.0
 """Where a solution has fallen by exp(−30) it need not be resolved any more."""
@@ -44,6 +48,8 @@ PLACES = 257
 
 def linear_space(problem: Problem, count: int) -> SplineSpace:
     """Return a spline space for the first ``count`` critical loads."""
+    if problem.sections:
+        return sectioned.linear_space(problem, count + SPARE_MODES)
     if problem.axial_weight < 0.0:
         return _mirrored(linear_space(problem.turned_round, count))
     load = wkb_load(problem, count + SPARE_MODES)
@@ -68,6 +74,8 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
 
     Elements grow where states have died away: beyond the part of the rod in which the lowest end force makes waves.
     """
+    if problem.sections:
+        return sectioned.first_space(problem, compression, tension)
     if problem.axial_weight < 0.0:
         ends = (force - problem.axial_weight for force in (compression, tension))
         return _mirrored(first_space(problem.turned_round, *ends))
@@ -98,6 +106,8 @@ def _waves(problem: Problem, load: float) -> bool:
 
 def wkb_load(problem: Problem, number: float) -> float:
     """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
+    if problem.sections:
+        return sectioned.wkb_load(problem, number)
     if problem.axial_weight < 0.0:
         return wkb_load(problem.turned_round, number) - problem.axial_weight
     b, weight, whole = problem.foundation / problem.clearance, problem.axial_weight, number * np.pi
@@ -180,6 +190,8 @@ def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
 
 def free_space(problem: Problem, count: int) -> SplineSpace:
     """Spline space for the first ``count`` critical loads without a wall: modes turn with the twist along s as well."""
+    if problem.sections:
+        return sectioned.free_space(problem, count + SPARE_MODES)
     if problem.axial_weight < 0.0:
         return _mirrored(free_space(problem.turned_round, count))
     upright = problem.but(weight=problem.axial_weight, alpha=0.0, twist=0.0, on_top=False)

@@ -7,6 +7,8 @@ the balance of moments,
 
     V(0) = ∫ ∂e/∂y′ ds − ∫ (1 − s) ∂e/∂y ds − [∂e/∂y″]₀¹.
 
+Where the stiffness jumps, V and ∂e/∂y″ do not: nothing changes.
+
 What is left of round-off is that of y″, enlarged by h⁻², and where an end does not hold y′ it is zero: y″ = 0 there.
 """
 
@@ -19,12 +21,10 @@ import numpy as np
 
 from rodwell.compiling.kernels import direct, formula, kernel
 from rodwell.numerics.splines.assembly import SHARED, at_points
-from rodwell.numerics.splines.basis import AT_ONCE, MOST_ORDERS, find_span, side_by_side
+from rodwell.numerics.splines.basis import AT_ONCE, MOST_ORDERS, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.records import Discretisation
-from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
-from rodwell.physics.on_wall.strand import towards_lift_off
 from rodwell.quantities.arrays import FloatArray
 
 COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
@@ -33,6 +33,9 @@ place."""
 
 TOTALS = 9
 
+STIFFNESS, WEIGHT = 0, 1
+"""Columns of what is given of a string of sections: constant in each element."""
+
 CHANGED = (0,) * 5
 """As long as the stencil in which y′ and y″ are changed one at a time."""
 
@@ -40,17 +43,24 @@ CHANGE = 1e-5
 """By which part of the size of their terms."""
 
 
-def _added(rows: Any, parameters: Any) -> Sequence[Any]:
+STILL = (0.0,) * (RAMP + 1)
+"""No parameter changes."""
+
+
+def _adding(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
     """Totals over the points of an element, added to those that follow what is known at the points in ``rows``."""
-    s, weight, y, y1, y2, *totals = (rows[i] for i in range(SHARED + 3 + TOTALS))
+    count = len(model.given())
+    s, weight, y, y1, y2 = (rows[i] for i in range(SHARED + 3))
+    given, totals = ([rows[SHARED + 3 + i] for i in part] for part in (range(count), range(count, count + TOTALS)))
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
+    _, _, gradient, _, _ = model.density(s, (y, y1, y2), given, parameters, STILL)
     y, y1 = y + ramp * s, y1 + ramp
     cos_eta = np.sqrt(1.0 - y1 * y1)
     omega2 = y2 / cos_eta
-    _, _, gradient, _, _ = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
+    stiffness = given[0] if given else 1.0
     lateral = clearance * gradient[0]
     sums = (
-        y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * omega2 * omega2, np.absolute(lateral),
+        y1 * y1 / (1.0 + cos_eta), -lateral, 0.5 * stiffness * omega2 * omega2, np.absolute(lateral),
         gradient[1], (1.0 - s) * gradient[0],
     )  # fmt: skip
     sizes = omega2, y / clearance, y1
@@ -58,13 +68,25 @@ def _added(rows: Any, parameters: Any) -> Sequence[Any]:
     return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]
 
 
-_add = on_lanes(lambda _: _added)
+_add = on_lanes(lambda model: lambda rows, parameters: _adding(model, rows, parameters))
+
+
+def _pressed(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
+    """Contact pressure, negative in contact, from s, y, y′, y″, V and what is given."""
+    s, y, y1, y2, shear = (rows[i] for i in range(5))
+    given = [rows[5 + i] for i in range(len(model.given()))]
+    _, _, gradient, _, hessian = model.density(s, (y, y1, y2), given, parameters, STILL)
+    y3 = (gradient[1] - shear - hessian[1][2] * y2) / hessian[2][2]
+    return (model.observed(s, (y, y1, y2, y3), given, parameters),)
+
+
+_pressure = on_lanes(lambda model: lambda rows, parameters: _pressed(model, rows, parameters))
 
 
 @formula
 def free_ends(mesh):
     """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
-    last = mesh.starts.size + len(mesh.local) - 2
+    last = mesh.starts[mesh.starts.size - 1] + len(mesh.local) - 1
     loose_0 = turns_0 = loose_1 = turns_1 = True
     for k in range(mesh.held.size):
         i, tied = mesh.held[k], mesh.follows[k] != mesh.held[k]
@@ -90,7 +112,7 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
         for i in range(count):
-            if knots[local - 1 + i] > 0.5:
+            if i == count - 1 or knots[local - 1 + mesh.starts[i]] > 0.5:
                 shear[i] -= whole
         return
     start = 0.0
@@ -106,6 +128,8 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
                 for a in range(local):
                     slope += basis[1, a] * c[first + a]
                     bend += basis[2, a] * c[first + a]
+                if mesh.given.shape[1] > 0:
+                    bend *= mesh.given[0 if sign > 0.0 else mesh.given.shape[0] - 1, STIFFNESS]
                 start += sign * bend / (1.0 - slope * slope)
     for i in range(count):
         shear[i] += start
@@ -121,8 +145,9 @@ def totals(mesh, knots, ends, c, parameters, shear):
     -------
     ∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|
     """
-    rows = np.zeros((SHARED + 3 + TOTALS, len(mesh.per_element)))
-    found = rows[SHARED + 3 :]
+    known = SHARED + 3 + mesh.given.shape[1]
+    rows = np.zeros((known + TOTALS, len(mesh.per_element)))
+    found = rows[known:]
     uniforms = (parameters,)
     shear[0] = 0.0
     for element in range(mesh.starts.size):
@@ -136,23 +161,12 @@ def totals(mesh, knots, ends, c, parameters, shear):
     )  # fmt: skip
 
 
-def _pressed(rows: Any, parameters: Any) -> Sequence[Any]:
-    """Contact pressure, negative in contact, from s, y, y′, y″ and V."""
-    s, y, y1, y2, shear = (rows[i] for i in range(5))
-    _, _, gradient, _, hessian = rod_density(s, y, y1, y2, parameters, (0.0,) * (RAMP + 1))
-    y3 = (gradient[1] - shear - hessian[1][2] * y2) / hessian[2][2]
-    return (towards_lift_off(s, y, y1, y2, y3, parameters),)
-
-
-_pressure = on_lanes(lambda _: _pressed)
-
-
 @kernel
-def tabulated(local_tag, knots, points, places):
+def tabulated(local_tag, knots, starts, points, places):
     """Everything at ``places`` (k,) that does not depend on a state.
 
-    ``points`` are the Gauss points of all elements: those of a place's element are moved to where only the part of it
-    before the place is integrated over. ``local_tag`` is a tuple of p + 1 zeros.
+    ``starts`` are the first functions, ``points`` the Gauss points of all elements: those of a place's element are
+    moved to where only the part of it before the place is integrated over. ``local_tag`` is a tuple of p + 1 zeros.
 
     Returns
     -------
@@ -166,13 +180,13 @@ def tabulated(local_tag, knots, points, places):
         Basis functions at the moved Gauss points, (k, points of an element, p+1).
     """
     degree = len(local_tag) - 1
-    per_element = points.size // (knots.size - 2 * degree - 1)
+    per_element = points.size // starts.size
     elements, shares = np.empty(places.size, np.int64), np.empty(places.size)
     basis, inner = np.empty((places.size, 3, degree + 1)), np.empty((places.size, per_element, degree + 1))
     x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, degree + 1, AT_ONCE))
     for k in range(places.size):
         span = find_span(knots, degree, places[k])
-        low, element = knots[span], span - degree
+        low, element = knots[span], element_of(starts, span - degree)
         elements[k], shares[k] = element, (places[k] - low) / (knots[span + 1] - low)
         for first in range(0, per_element + 1, AT_ONCE):  # the place itself, and then the points
             for i in range(AT_ONCE):
@@ -194,12 +208,14 @@ def _shear_at(mesh, knots, c, parameters, shear, element, share, inner):
     degree, count = len(mesh.local) - 1, len(mesh.per_element)
     if share == 1.0:
         return shear[element + 1]
-    total, low = shear[element], knots[degree + element]
+    total, low = shear[element], knots[degree + mesh.starts[element]]
     for i in range(count if share > 0.0 else 0):
         y = parameters[RAMP] * (low + (mesh.points[element * count + i] - low) * share)
         for a in range(degree + 1):
             y += inner[i, a] * c[mesh.starts[element] + a]
         rate = parameters[LATERAL_WEIGHT] * np.sin(y / parameters[CLEARANCE])
+        if mesh.given.shape[1] > 0:
+            rate *= mesh.given[element * count, WEIGHT]
         total += mesh.weights[element * count + i] * share * rate
     return total
 
@@ -223,7 +239,7 @@ def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
 
     ``shear`` (elements + 1,) is V at mesh points, ``tables`` what :func:`tabulated` returns.
     """
-    known, out = np.empty((5, len(CHANGED))), np.empty((1, len(CHANGED)))
+    known, out = np.empty((5 + mesh.given.shape[1], len(CHANGED))), np.empty((1, len(CHANGED)))
     places, elements, shares, basis, inner = tables
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
     for i in range(places.size):
@@ -239,8 +255,9 @@ def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
         elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
             slope = size_1 = 0.0
         for k in range(5):
-            known[0, k], known[1, k], known[4, k] = s, y + parameters[RAMP] * s, force
-            known[2, k], known[3, k] = slope + parameters[RAMP], bend
+            known[0, k], known[1, k], known[2, k], known[3, k], known[4, k] = s, y, slope, bend, force
+            for j in range(mesh.given.shape[1]):
+                known[5 + j, k] = mesh.given[elements[i] * len(mesh.per_element), j]
         known[2, 1] -= CHANGE * size_1
         known[2, 2] += CHANGE * size_1
         known[3, 3] -= CHANGE * size_2
@@ -259,5 +276,6 @@ def balanced_pressures(
     """Contact pressure (k,) at ``places`` (k,); ``ends`` has the basis functions at both ends, first and last."""
     shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
     _quick_totals(mesh, knots, ends, c, parameters, shear)
-    _quick_balanced(mesh, knots, c, parameters, shear, tabulated(mesh.local, knots, mesh.points, places), values, noise)
+    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
+    _quick_balanced(mesh, knots, c, parameters, shear, tables, values, noise)
     return values

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
+from rodwell.analysis.discrete.family import given_of
 from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.state.fields import pressure_at
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
-from rodwell.physics.on_wall.strand import towards_lift_off
+from rodwell.numerics.splines import banded
+from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along
@@ -33,7 +39,10 @@ def pressure_rates(
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:
         direction = state.tangent / state.tangent_lam
-        p = {k: _pressure(family, state, state.c + k * h * direction, state.lam + k * h, at) for k in (-2, -1, 1, 2)}
+        p = {
+            k: _pressure(solution.problem, family, state, state.c + k * h * direction, state.lam + k * h, at)
+            for k in (-2, -1, 1, 2)
+        }
         return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
 
     fine = rate(meshes.fine, point.fine, step)
@@ -42,6 +51,55 @@ def pressure_rates(
     return tuple(map(float, fine)), tuple(map(float, errors))
 
 
-def _pressure(family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray) -> np.ndarray:
-    u = shape(family, state, places, 4, c)
-    return np.asarray(towards_lift_off(places, u[0], u[1], u[2], u[3], family.parameters(lam)))
+def _pressure(
+    problem: Problem, family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray
+) -> np.ndarray:
+    sense = -1.0 if problem.outside else 1.0
+    return sense * pressure_at(problem.rod, family.parameters(lam), places, shape(family, state, places, 4, c))
+
+
+SECTION_RATIOS = ("stiffness", "weight")
+"""Ratios of a section on which states depend."""
+
+SECTION_STEP = 1e-4
+"""Half the step in a ratio, relative, of the differences of the pressure."""
+
+
+def section_pressure_rates(
+    solution: Solution, places: tuple[float, ...], number: int, ratio: str
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0).
+
+    Returned as by :func:`pressure_rates`. States move along δc = −H⁻¹ ∂g/∂q.
+    """
+    problem, at = solution.problem, np.array(places)
+    which = 1 + SECTION_RATIOS.index(ratio)
+    size = problem.sections[number][which] or 1.0
+
+    def changed(step: float) -> Rod:
+        sections = list(problem.sections)
+        length, stiffness, weight, clearance, twisting = sections[number]
+        more = (step, 0.0) if ratio == "stiffness" else (0.0, step)
+        sections[number] = (length, stiffness + more[0], weight + more[1], clearance, twisting)
+        return Rod(tuple(sections))  # not checked: a weight may be below zero by the step
+
+    def rate(family: Family, state: State, h: float) -> np.ndarray:
+        factors = family.held.free_part(family.assemble(state.c, state.lam)[2])
+        banded.factorise(factors)
+        half = 0.5 * size
+        low, high = (  # the gradient is linear in both ratios
+            replace(family, given=given_of(changed(step))).assemble(state.c, state.lam)[1] for step in (-half, half)
+        )
+        moved = family.held.gather(low - high) / size
+        banded.solve(factors, moved)
+        direction, parameters = family.held.spread(moved), family.parameters(state.lam)
+        p = {
+            k: pressure_at(changed(k * h), parameters, at, shape(family, state, at, 4, state.c + k * h * direction))
+            for k in (-2, -1, 1, 2)
+        }
+        return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
+
+    sense, h = -1.0 if problem.outside else 1.0, SECTION_STEP * size
+    (coarse, fine) = (rate(*level, h) for level in solution.levels)
+    errors = estimated_error(fine, coarse) + np.abs(rate(*solution.levels[1], 2.0 * h) - fine)
+    return tuple(map(float, sense * fine)), tuple(map(float, errors))

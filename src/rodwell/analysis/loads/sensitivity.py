@@ -19,10 +19,10 @@ import numpy as np
 
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
-from rodwell.analysis.loads.pressure import pressure_rates
+from rodwell.analysis.loads.pressure import SECTION_RATIOS, pressure_rates, section_pressure_rates
 from rodwell.analysis.straight.critical import Mode, critical_loads
-from rodwell.analysis.straight.scale import twisted_load_scale
-from rodwell.analysis.straight.slopes import load_slope, weight_rates
+from rodwell.analysis.straight.scale import load_scale, twisted_load_scale
+from rodwell.analysis.straight.slopes import load_slope, section_slopes, weight_rates
 from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.errors import InputError, checked_whole
 from rodwell.numerics.equilibria.error import NUMBER_NOISE
@@ -56,6 +56,10 @@ class Sensitivity:
         ∂f/∂T₁. Critical loads of a rod kept on the wall do not depend on T₁.
     note
         What to know about them, or nothing.
+    sections
+        Of a string, for each section from s = 0: ∂f by its ratios "stiffness" and "weight", and, of critical loads, by
+        the place "upper_end" of the step above it (all but the last), with error estimates. Torsional stiffness does
+        not enter: T₁ is a dead load.
     converged
         Whether the load, and the state that the derivatives are taken at, meet the tolerance asked for.
     """
@@ -65,6 +69,7 @@ class Sensitivity:
     force: float
     derivatives: Derivatives
     note: str = ""
+    sections: tuple[Derivatives, ...] = ()
     converged: bool = True
 
     def elasticities(self) -> Derivatives:
@@ -104,6 +109,7 @@ class Sensitivity:
             "elasticities": pairs(self.elasticities()) if self.force != 0.0 else None,
             "note": self.note,
             "converged": self.converged,
+            **({"sections": [pairs(one) for one in self.sections]} if self.sections else {}),
         }
 
 
@@ -149,7 +155,24 @@ def of_critical_load(mode: Mode) -> Sensitivity:
     for name, scale in scales.items():
         round_off = NUMBER_NOISE * (abs(fine[name]) + abs(mode.force) / scale)
         derivatives[name] = Value(fine[name], abs(fine[name] - coarse[name]) + round_off)
-    return Sensitivity(f"critical load of mode {mode.number}", mode.problem, mode.force, derivatives)
+    name = f"critical load of mode {mode.number}"
+    return Sensitivity(name, mode.problem, mode.force, derivatives, sections=_by_sections(mode))
+
+
+def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
+    """Derivatives of a critical load by the data of each section."""
+    problem = mode.problem
+    if not problem.sections:
+        return ()
+    fine, coarse = (section_slopes(problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
+    size = abs(mode.force) + load_scale(problem)
+    out: list[Derivatives] = []
+    for i in range(len(problem.sections)):
+        values = {name: (row[i], coarse[name][i]) for name, row in fine.items() if i < row.size}
+        out.append(
+            {k: Value(float(a), float(abs(a - b)) + NUMBER_NOISE * (abs(a) + size)) for k, (a, b) in values.items()}
+        )
+    return tuple(out)
 
 
 def of_first_met(mode: SpatialMode) -> Sensitivity:
@@ -168,7 +191,7 @@ def of_first_met(mode: SpatialMode) -> Sensitivity:
 
 
 def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:
-    return {name: load_slope(space, coefficients, *weight_rates(problem, name)) for name in PARAMETERS}
+    return {name: load_slope(problem, space, coefficients, *weight_rates(problem, name)) for name in PARAMETERS}
 
 
 def of_lift_off(lift: SpecialPoint) -> Sensitivity:
@@ -187,4 +210,14 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         out[name] = Value(float(each[which]), float(spread[which]))
         if np.ptp(each) > 10.0 * np.max(spread):
             note = "lifts off at several places at once: the derivative by α is that towards smaller α"
-    return Sensitivity("lift-off load", solution.problem, solution.force, out, note)
+    by_section = []
+    for i in range(len(solution.problem.sections)):
+        each = {}
+        for name in SECTION_RATIOS:
+            rates, errors = (np.array(part) for part in section_pressure_rates(solution, lift.s, i, name))
+            slopes = -rates / by_force
+            spread = np.abs(errors / by_force) + np.abs(slopes * force_error / by_force)
+            which = int(np.argmax(spread))
+            each[name] = Value(float(slopes[which]), float(spread[which]))
+        by_section.append(each)
+    return Sensitivity("lift-off load", solution.problem, solution.force, out, note, tuple(by_section))

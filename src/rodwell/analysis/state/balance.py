@@ -60,11 +60,15 @@ def _energies(problem: Problem, family: Family, state: State) -> dict[str, float
     y, y1, y2 = shape(family, state, s, 3)
     cos = np.sqrt(1.0 - y1**2)
     sagging = y1**2 / (1.0 + cos)  # 1 − cos η = 1 − z'
+    rod = problem.rod
+    b, weight, lever = (rod.stiffness(s), rod.weight(s), -rod.lever(s)) if problem.sections else (1.0, 1.0, 1.0 - s)
+    bending = b * (y2**2 / cos**2 + y1**4 / p[CLEARANCE] ** 2)
+    height = weight * np.sin(0.5 * y / p[CLEARANCE]) ** 2
     return {
-        "bending_energy": float(0.5 * w @ (y2**2 / cos**2 + y1**4 / p[CLEARANCE] ** 2)),
-        "twist_energy": float(0.5 * p[TWIST] ** 2 / problem.torsional_stiffness),
-        "lateral_energy": float(2.0 * p[CLEARANCE] * p[LATERAL_WEIGHT] * (w @ np.sin(0.5 * y / p[CLEARANCE]) ** 2)),
-        "axial_energy": float(-p[AXIAL_WEIGHT] * (w @ (sagging * (1.0 - s)))),
+        "bending_energy": float(0.5 * w @ bending),
+        "twist_energy": float(0.5 * p[TWIST] ** 2 / problem.whole_torsion),
+        "lateral_energy": float(2.0 * p[CLEARANCE] * p[LATERAL_WEIGHT] * (w @ height)),
+        "axial_energy": float(-p[AXIAL_WEIGHT] * (w @ (sagging * lever))),
         "end_work": float(-p[FORCE] * (w @ sagging) + p[TWIST] * (w @ (y1 * sagging)) / p[CLEARANCE]),
     }
 

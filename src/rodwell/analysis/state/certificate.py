@@ -16,7 +16,7 @@ import numpy as np
 
 from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.equilibrium import Equilibrium
-from rodwell.analysis.state.fields import element_fields, gauss_calculus
+from rodwell.analysis.state.fields import element_fields, gauss_calculus, gauss_places
 from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
@@ -35,6 +35,9 @@ SMALL = 1e-2
 
 _TINY = 1e-300
 
+AT_FIRST_END = ("(B1)", "(B2)", "(B3)", "(B4)", "(B5)", "(B6)")
+"""End conditions at s = 0; the others are at s = 1."""
+
 
 @dataclass(frozen=True)
 class Certificate:
@@ -44,9 +47,10 @@ class Certificate:
     ----------
     residuals
         By number in the paper, or by name: the equations (22)–(27), (32)–(36), (41)–(44), the relations (37)–(39) and
-        (52)–(58), the end conditions (B1)–(B15), "T₂ by two routes" (distributed torque (33), and moment balance
-        of the whole, relative to the largest T₂), "h by two routes" ((56), and force balance along the rod)
-        and "work and energy" (change of stored energy against work of the end loads along the branch).
+        (52)–(58), the end conditions (B1)–(B15), of a string "moment at steps" (continuity of b ω₂), "T₂ by two routes"
+        (distributed torque (33), and moment balance of the whole, relative to the largest T₂), "h by two routes" ((56),
+        and force balance along the rod) and "work and energy" (change of stored energy against work of the end loads
+        along the branch).
     limit
         Up to which the largest of them counts as zero.
     """
@@ -101,12 +105,42 @@ def load_of(problem: Problem, force: float) -> Load:
     )
 
 
+LOADS = ("F1", "F2", "F3", "M1", "M2", "M3", "T2", "lam", "mu")
+"""Variables that are forces or moments: in a section of stiffness b they count in units of b."""
+
+
+def own_units(problem: Problem, load: Load, s: FloatArray) -> tuple[float | FloatArray, Load]:
+    """Stiffness b at ``s`` (m,), and what the paper's system is given there, with forces and moments in units of b.
+
+    A section is a uniform rod; in its own units it has the stiffness 1 that the equations are written for.
+    """
+    if not problem.sections:
+        return 1.0, load
+    rod = problem.rod
+    b, q = rod.stiffness(s), rod.weight(s)
+    offset = rod.lever(s) - q * (s - 1.0)
+    return b, load._replace(
+        force=(load.force + load.axial_weight * offset) / b,
+        twist=load.twist / b,
+        axial_weight=load.axial_weight * q / b,
+        lateral_weight=load.lateral_weight * q / b,
+        C=load.C * rod.torsion(s) / b,
+    )
+
+
+def in_units(x: Fifteen, b: float | FloatArray) -> Fifteen:
+    """The fifteen variables with forces and moments in units of b."""
+    return x._replace(**{name: getattr(x, name) / b for name in LOADS})
+
+
 def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
-    half, fields = element_fields(solution.problem, solution.meshes.fine, solution.point.fine)
+    problem = solution.problem
+    half, fields = element_fields(problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]
-    load = load_of(solution.problem, solution.force)
-    fields["xi2"] = fields["y"] / load.clearance
+    whole = load_of(problem, solution.force)
+    b, load = own_units(problem, whole, gauss_places(solution.meshes.fine.space))
+    fields["xi2"] = fields["y"] / whole.clearance
 
     def inside(name: str) -> FloatArray:
         return fields[name][1:-1]
@@ -114,25 +148,56 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     def rate(name: str) -> FloatArray:
         return np.asarray(inside(name).reshape(half.size, -1) @ derivative.T / half).ravel()
 
-    x = Fifteen(*(inside(name) for name in NAMES))
+    x = in_units(Fifteen(*(inside(name) for name in NAMES)), b)
     ends: Any = fields  # Fifteen of numbers
-    first, last = (Fifteen(*(ends[name][i] for name in NAMES)) for i in (0, -1))
     out: dict[str, float] = {}
-    bending_rate = rate("omega2")
-    for number, name, terms in zip(NUMBERS, NAMES, equations.right_hand_sides(x, load), strict=True):
+    bending_rate = b * rate("omega2")
+    rows = zip(NUMBERS, NAMES, Fifteen._fields, equations.right_hand_sides(x, load), strict=True)
+    for number, name, symbol, terms in rows:
         # the variable itself counts as a term: where it is constant, its derivative is round-off and has no size
         sizes = (inside(name), bending_rate) if name == "mu" else (inside(name),)
-        out[number] = _scaled((rate(name), *(-term for term in terms)), sizes)
-    for number, terms in equations.moments(x, rate("mu"), load).items():
-        out[number] = _scaled(terms, (load.clearance * bending_rate,))
-    out |= _strands(x, load, inside)
+        unit = b if symbol in LOADS else 1.0
+        out[number] = _scaled((rate(name), *(-unit * term for term in terms)), sizes)
+    for number, terms in equations.moments(x, rate("mu") / b, load).items():
+        out[number] = _scaled(tuple(b * term for term in terms), (load.clearance * bending_rate,))
+    out |= _strands(x, load, b, inside)
     extent = {k: float(np.max(np.abs(fields[name]))) for k, name in zip(Fifteen._fields, NAMES, strict=True)}
-    for number, condition in equations.end_conditions(first, last, load).items():
-        out[number] = abs(float(condition.residual)) / (max(extent[k] for k in condition.against) + _TINY)
-    out["T₂ by two routes"] = _torque(fields, solution.problem)
+    out |= _end_conditions(problem, whole, [Fifteen(*(ends[name][i] for name in NAMES)) for i in (0, -1)], extent)
+    out["T₂ by two routes"] = _torque(fields, problem)
     out["h by two routes"] = _scaled((fields["tangential_balance"],), (fields["rod_F1"],))
-    out["work and energy"] = _work_and_energy(solution, load)
+    out["work and energy"] = _work_and_energy(solution, whole)
+    if problem.sections:
+        out["moment at steps"] = _moment_at_steps(solution, extent["M2"])
     return Certificate(out, max(LIMIT, SLACK * solution.meshes.rtol))
+
+
+def _end_conditions(problem: Problem, whole: Load, ends: list[Fifteen], extent: dict[str, float]) -> dict[str, float]:
+    """(B1)–(B15) at both ``ends``, against the largest values of what they are about."""
+    units, loads = zip(*(own_units(problem, whole, np.array([s])) for s in (0.0, 1.0)), strict=True)
+    first, last = (in_units(x, float(np.squeeze(b))) for x, b in zip(ends, units, strict=True))
+    at_first, at_last = (equations.end_conditions(first, last, load) for load in loads)
+    out = {}
+    for number, there in at_last.items():
+        end = 0 if number in AT_FIRST_END else 1
+        condition = at_first[number] if end == 0 else there
+        unit = float(np.squeeze(units[end])) if condition.against[0] in LOADS else 1.0
+        size = max(extent[k] for k in condition.against) + _TINY
+        out[number] = unit * abs(float(np.squeeze(condition.residual))) / size
+    return out
+
+
+def _moment_at_steps(solution: Equilibrium, size: float) -> float:
+    """Jumps of b ω₂ at steps of the stiffness, where it is continuous, against the largest braid moment."""
+    rod = solution.problem.rod
+    steps = rod.breaks[1:-1]
+    if not steps.size:
+        return 0.0
+    stiffness = rod.stiffness.coefficients[:, 0]
+    moments = []
+    for places, b in ((np.nextafter(steps, 0.0), stiffness[:-1]), (steps, stiffness[1:])):
+        _, y1, y2 = shape(solution.meshes.fine, solution.point.fine, places, 3)
+        moments.append(b * y2 / np.sqrt(1.0 - y1**2))
+    return float(np.max(np.abs(moments[1] - moments[0]))) / (size + _TINY)
 
 
 def _scaled(terms: tuple[Any, ...], sizes: tuple[FloatArray, ...] = ()) -> float:
@@ -144,7 +209,7 @@ def _scaled(terms: tuple[Any, ...], sizes: tuple[FloatArray, ...] = ()) -> float
     return float(left / (np.abs(stacked, out=stacked).max() + _TINY))
 
 
-def _strands(x: Fifteen, load: Load, inside: Any) -> dict[str, float]:
+def _strands(x: Fifteen, load: Load, b: float | FloatArray, inside: Any) -> dict[str, float]:
     """(52)–(58): forces of rod and cylinder by force and moment balance, against the paper's expressions."""
     names = {"(52)": "rod_F1", "(53)": "rod_F2", "(54)": "rod_F3", "(56)": "cylinder_F1", "(57)": "cylinder_F2"}
     names |= {"(58)": "cylinder_F3", "(55)": "contact_pressure"}
@@ -152,7 +217,10 @@ def _strands(x: Fifteen, load: Load, inside: Any) -> dict[str, float]:
     sums = {"(52)": s.F11, "(53)": s.F12, "(54)": s.F13, "(56)": s.F21, "(57)": s.F22, "(58)": s.F23, "(55)": s.p}
     rod = (inside("rod_F3"),)  # the cylinder's forces are differences F − F⁽¹⁾, (45), and known no better than these
     sizes = {"(56)": rod, "(57)": rod, "(58)": rod}
-    return {number: _scaled((-inside(name), *sums[number]), sizes.get(number, ())) for number, name in names.items()}
+    return {
+        number: _scaled((-inside(name), *(b * term for term in sums[number])), sizes.get(number, ()))
+        for number, name in names.items()
+    }
 
 
 def _torque(fields: dict[str, FloatArray], problem: Problem) -> float:
@@ -172,7 +240,9 @@ def _work_and_energy(solution: Equilibrium, load: Load) -> float:
     height, F on z(1) and T₁ on the turn ξ₁ + ξ₂ of the end; the torsion T₁/C of the rod does not change.
     """
     state = solution.point.fine
-    space = state.space
+    space, rod = state.space, solution.problem.rod
+    s = space.points
+    b, q, lever = (rod.stiffness(s), rod.weight(s), rod.lever(s)) if solution.problem.sections else (1.0, 1.0, s - 1.0)
     y, y1, y2 = shape(solution.meshes.fine, state, space.points, 3)
     u, u1, u2 = space.evaluate(state.tangent, space.points, 3)
     cos, D, angle = np.sqrt(1.0 - y1**2), load.clearance, y / load.clearance
@@ -180,10 +250,10 @@ def _work_and_energy(solution: Equilibrium, load: Load) -> float:
     bend = -(u2 + y1 * y2 * u1 / cos**2) / cos  # δω₂ = −(δη)′
     twist = cos - 1.0 + 2.0 * y1**2  # ξ₁′ + ξ₂′ = T₁/C + sin η (1 − cos η)/Δ, derivative by η: cos η − cos 2η
     powers = (
-        -y2 / cos * bend,  # ω₂ δω₂
-        y1**2 / D * 2.0 * y1 * u1 / D,  # ω₃ δω₃
-        load.lateral_weight * np.sin(angle) * u,
-        -(load.force + load.axial_weight * (space.points - 1.0)) * (-y1 * turn),  # −F δz(1) + wₐ ∫δz ds
+        -b * y2 / cos * bend,  # b ω₂ δω₂
+        b * y1**2 / D * 2.0 * y1 * u1 / D,  # b ω₃ δω₃
+        q * load.lateral_weight * np.sin(angle) * u,
+        -(load.force + load.axial_weight * lever) * (-y1 * turn),  # −F δz(1) + wₐ ∫δz ds
         -load.twist * twist * turn / D,
     )
     totals = [space.weights @ power for power in powers]

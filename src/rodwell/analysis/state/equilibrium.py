@@ -134,16 +134,16 @@ class Equilibrium:
         """What the fitting at s = 1 exerts on the rod across the axis, each with its error estimate.
 
         ``shear``: circumferential force in B/L², at a clamped end F₃(1) = ω₂′(1) along u₁; ``moment``: bending moment
-        M₂(1) = ω₂(1) in B/L, about d₁. What the end does not hold is zero. The axial force there is F, the twisting
+        M₂(1) = b ω₂(1) in B/L, about d₁. What the end does not hold is zero. The axial force there is F, the twisting
         moment −T₁.
         """
-        coarse, fine = (end_force(f, state) for f, state in self.levels)
+        coarse, fine = (end_force(self.problem, f, state) for f, state in self.levels)
         return {
             "shear": compared(coarse.shear, fine.shear),
-            "moment": compared(coarse.omega2, fine.omega2),
+            "moment": compared(coarse.moment, fine.moment),
         }
 
     @cached_property
     def total_wall_force(self) -> Value:
         """∫|p| ds, the contact force with all directions added, with its error estimate."""
-        return compared(*(total_wall_force(f, state) for f, state in self.levels))
+        return compared(*(total_wall_force(self.problem, f, state) for f, state in self.levels))

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.family import given_of
 from rodwell.analysis.discrete.measures import shape
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall import braid
+from rodwell.physics.on_wall.parameters import CLEARANCE
+from rodwell.physics.on_wall.sections import of_section, step_loads
 from rodwell.physics.on_wall.strand import contact_pressure
 from rodwell.problem.problem import Problem
-from rodwell.quantities.arrays import FloatArray
+from rodwell.problem.rod import Rod
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 GRID = 201
 """Places along the rod at which fields are reported by default."""
@@ -42,25 +48,84 @@ _GAUSS = {count: np.polynomial.legendre.leggauss(count) for count in (3, 6)}
 Rates = Callable[[FloatArray, FloatArray], FloatArray]
 
 
-def end_force(family: Family, state: State) -> braid.EndForce:
+@dataclass(frozen=True)
+class Local:
+    """What the rod is at some places (m,): parameters in their order, the ratios of B and C, the section of each place.
+
+    Of a uniform rod these are single numbers, and there is no section to tell.
+    """
+
+    parameters: Sequence[Any] | FloatArray
+    stiffness: float | FloatArray
+    torsion: float | FloatArray
+    piece: IntArray | None
+
+
+def local(rod: Rod, parameters: FloatArray, s: FloatArray) -> Local:
+    """The rod at places ``s`` (m,), with ``parameters`` as kernels take them; C as a ratio."""
+    if rod.plain:
+        return Local(parameters, 1.0, 1.0, None)
+    own = given_of(rod)(s).T
+    return Local(of_section(own, parameters), own[0], rod.torsion(s), rod.stiffness.piece_of(s))
+
+
+def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
     """What acts on the rod at s = 1, and where that is."""
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
-    return braid.end_force(*family.end_reactions(state), float(y), float(y1), family.parameters(state.lam))
+    stiffness = float(problem.sections[-1][1]) if problem.sections else 1.0
+    moment, reaction = family.end_reactions(state)
+    return braid.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), stiffness)
 
 
-def total_wall_force(family: Family, state: State) -> float:
-    """∫|p| ds in B/L²."""
-    space = state.space
-    u = shape(family, state, space.points, 4)
-    pressure = contact_pressure(space.points, u[0], u[1], u[2], u[3], family.parameters(state.lam))
-    return float(space.weights @ np.abs(pressure))
+def pressure_at(rod: Rod, parameters: FloatArray, s: FloatArray, u: FloatArray) -> FloatArray:
+    """Contact pressure (m,) at ``s`` (m,) from y and three derivatives there, (4, m)."""
+    here = local(rod, parameters, s)
+    return np.asarray(contact_pressure(s, u[0], u[1], u[2], u[3], here.parameters, here.stiffness))
+
+
+def total_wall_force(problem: Problem, family: Family, state: State) -> float:
+    """∫|p| ds in B/L², and of a string the forces of the wall at single places, at steps of the stiffness."""
+    space, parameters = state.space, family.parameters(state.lam)
+    pressure = pressure_at(problem.rod, parameters, space.points, shape(family, state, space.points, 4))
+    total = float(space.weights @ np.abs(pressure))
+    if problem.sections:
+        total += float(np.sum(np.abs(steps_of(problem, family, state)[1])))
+    return total
+
+
+def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps, and the rod's jumps (2, k).
+
+    See :func:`rodwell.physics.on_wall.sections.step_loads` and :func:`rodwell.physics.on_wall.braid.step_jumps`.
+    """
+    rod, parameters = problem.rod, family.parameters(state.lam)
+    y, y1, y2 = shape(family, state, rod.breaks[1:-1], 3)
+    stiffness = rod.stiffness.coefficients[:, 0]
+    moment = -stiffness[1:] * y2 / np.sqrt(1.0 - y1**2)
+    couple, radial = step_loads(y1, moment, np.array([stiffness[:-1], stiffness[1:]]), parameters)
+    return couple, radial, braid.step_jumps(y, y1, (couple, radial), float(parameters[CLEARANCE]))
+
+
+def _with_steps(
+    problem: Problem, family: Family, state: State, s: FloatArray, integrals: tuple[FloatArray, FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Integrals from 0 to s and from s to 1 with what jumps at steps above s: the rod's force along i and j."""
+    if not problem.sections:
+        return integrals
+    left, right = integrals
+    jumps = steps_of(problem, family, state)[2]
+    above = np.concatenate([np.cumsum(jumps[:, ::-1], axis=1)[:, ::-1], np.zeros((2, 1))], axis=1)
+    right = right.copy()
+    right[6:] += above[:, problem.rod.stiffness.piece_of(s)]
+    return left, right
 
 
 def fields_at(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,), in units B = L = 1."""
-    space, end, p = state.space, end_force(family, state), family.parameters(state.lam)
+    space, end, p = state.space, end_force(problem, family, state), family.parameters(state.lam)
     rates = _rates(problem, p, end)
     integrals = _running_integrals(lambda places: rates(places, shape(family, state, places, 4)), s, space)
+    integrals = _with_steps(problem, family, state, s, integrals)
     return _rebuilt(problem, s, shape(family, state, s, 4), integrals, p, end)
 
 
@@ -69,10 +134,10 @@ def element_fields(problem: Problem, family: Family, state: State) -> tuple[Floa
 
     One evaluation of the spline serves everything: the integrals are those of polynomials through the Gauss points.
     """
-    space, end, p = state.space, end_force(family, state), family.parameters(state.lam)
-    nodes, weights, running, _ = gauss_calculus()
+    space, end, p = state.space, end_force(problem, family, state), family.parameters(state.lam)
+    _, weights, running, _ = gauss_calculus()
     half = 0.5 * np.diff(space.breaks)[:, None]
-    inside = (space.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
+    inside = gauss_places(space)
     s = np.concatenate([[0.0], inside, [1.0]])
     u = shape(family, state, s, 4)
     values = _rates(problem, p, end)(inside, u[:, 1:-1])
@@ -85,7 +150,14 @@ def element_fields(problem: Problem, family: Family, state: State) -> tuple[Floa
     right = (after[:, :-1, None] - part).reshape(len(values), -1)
     from_left = np.concatenate([before[:, :1], left, before[:, -1:]], axis=1)
     from_right = np.concatenate([after[:, :1], right, after[:, -1:]], axis=1)
-    return half, _rebuilt(problem, s, u, (from_left, from_right), p, end)
+    integrals = _with_steps(problem, family, state, s, (from_left, from_right))
+    return half, _rebuilt(problem, s, u, integrals, p, end)
+
+
+def gauss_places(space: SplineSpace) -> FloatArray:
+    """Gauss points of :func:`element_fields` in each element in turn."""
+    half = 0.5 * np.diff(space.breaks)[:, None]
+    return np.asarray(space.breaks[:-1, None] + half * (gauss_calculus()[0] + 1.0)).ravel()
 
 
 @lru_cache
@@ -116,6 +188,8 @@ def largest_of(
     s = np.linspace(0.0, 1.0, GRID)
     if space is not None and space.samples[0].size > GRID:
         s = space.samples[0]
+    if space is not None and space.kinks.size:  # just below a step fields have other values than just above
+        s = np.union1d(s, np.concatenate([space.kinks, np.nextafter(space.kinks, 0.0)]))
     s, sizes = s[None, :], size(s)[None, :]
     peaks = _peaks(sizes[0]) if zooms > 1 else np.argmax(sizes, axis=1)
     for _ in range(zooms - 1):
@@ -138,7 +212,12 @@ def _peaks(sizes: FloatArray) -> FloatArray:
 
 
 def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:
-    return lambda s, u: braid.rates(s, u, parameters, problem.torsional_stiffness, end)
+    def rates(s: FloatArray, u: FloatArray) -> FloatArray:
+        here = local(problem.rod, parameters, s)
+        torsion = problem.torsional_stiffness * here.torsion
+        return braid.rates(s, u, here.parameters, torsion, end, here.stiffness)
+
+    return rates
 
 
 def _rebuilt(
@@ -149,7 +228,9 @@ def _rebuilt(
     parameters: FloatArray,
     end: braid.EndForce,
 ) -> dict[str, FloatArray]:
-    out = braid.reconstruct(s, u, *integrals, parameters, problem.torsional_stiffness, end)
+    here = local(problem.rod, parameters, s)
+    torsion = problem.torsional_stiffness * here.torsion
+    out = braid.reconstruct(s, u, *integrals, here.parameters, torsion, end, here.stiffness, here.piece)
     if problem.on_top:
         out["xi2"] = out["xi2"] + np.pi
     return out

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
+from rodwell.analysis.state.fields import steps_of
 from rodwell.quantities.value import Peak, Value
 
 SELF_BALANCED = 1e-6
@@ -56,6 +58,46 @@ class WallLoads:
         if self.needs_torque:
             return "the end supports must provide a torque: the twisting moment does not balance itself"
         return "the end supports need not provide a torque: the twisting moment balances itself"
+
+
+@dataclass(frozen=True)
+class StepLoad:
+    """What the wall exerts on the rod where its bending stiffness has a step, to keep it on the wall.
+
+    Attributes
+    ----------
+    s
+        Place of the step, in L.
+    couple
+        Moment about u₁ (normal to the rod, along the wall) in B/L: two opposite radial forces close together, one of
+        which pulls. A wall only pushes: where it is not zero the true rod, unless something there holds its slope
+        across the wall, leaves the wall over a short stretch beside the step.
+    force
+        Force towards the axis in B/L²; zero without twist.
+    """
+
+    s: float
+    couple: Value
+    force: Value
+
+    @property
+    def lifts(self) -> bool:
+        """Whether the rod, held by nothing else there, leaves the wall beside the step."""
+        return abs(self.couple.value) > self.couple.error
+
+
+def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
+    """Return what the wall exerts at steps of the bending stiffness, from s = 0; nothing of a uniform rod."""
+    problem = solution.problem
+    if not problem.sections:
+        return ()
+    coarse, fine = (steps_of(problem, family, state)[:2] for family, state in solution.levels)
+    stiffness = problem.rod.stiffness.coefficients[:, 0]
+    return tuple(
+        StepLoad(float(s), *(compared(float(old[k]), float(new[k])) for old, new in zip(coarse, fine, strict=True)))
+        for k, s in enumerate(problem.rod.breaks[1:-1])
+        if stiffness[k] != stiffness[k + 1]
+    )
 
 
 def wall_loads(solution: Equilibrium) -> WallLoads:

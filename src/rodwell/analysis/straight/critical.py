@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
-from rodwell.analysis.discrete.family import parameters, spline_ends
+from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
 from rodwell.analysis.straight.scale import LOAD_NOISE, load_scale
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
@@ -143,7 +143,8 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     count
         How many, 1 to 200.
     rtol
-        Relative tolerance; the error is judged against abs(F) + γ cos α + 4π².
+        Relative tolerance; the error is judged against abs(F) + γ cos α + 4π² (of sections: their axial weight, and
+        4π² over the mean of 1/B(s)).
 
     Returns
     -------
@@ -186,10 +187,16 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     )
 
 
+def _factors(problem: Problem, space: SplineSpace) -> FloatArray:
+    """Factors of v², v′², v″² in the second variation at the quadrature points, (3, m)."""
+    given = given_along(problem)
+    return second_variation(space.points, parameters(problem), None if given is None else given(space.points))
+
+
 def _starting_space(problem: Problem, count: int) -> SplineSpace:
     """Mesh for the first ``count`` modes, with unknowns enough for the block of vectors that looks for them."""
     space = linear_space(problem, count)
-    while space.elements + space.degree < 3 * count + 8:
+    while space.size < 3 * count + 8:
         space = space.refined()
     return space
 
@@ -198,7 +205,7 @@ def _solve(
     problem: Problem, space: SplineSpace, count: int, start: tuple[FloatArray, FloatArray] | None
 ) -> tuple[FloatArray, FloatArray]:
     """λ = −F, rising, and full coefficient vectors (k, size); k ≥ ``count``, the first ``count`` converged."""
-    factors = second_variation(space.points, parameters(problem))
+    factors = _factors(problem, space)
     held = spline_ends(problem).among(space.size)
     stiffness, gram = held.free_part(space.form(factors)), held.free_part(space.slope_gram)
 
@@ -209,7 +216,7 @@ def _solve(
         return space.grams(factors, full(block))
 
     # ∫φ² ≤ 4∫φ'²/π² for functions that vanish at one end bounds what a negative foundation can do
-    below = -problem.heaviest + 4.0 * min(problem.foundation, 0.0) / problem.clearance / np.pi**2 - 1.0
+    below = -problem.heaviest + 4.0 * float(min(np.min(factors[0]), 0.0)) / np.pi**2 - 1.0
     guess = None if start is None else (start[0], np.ascontiguousarray(start[1][:, held.free]))
     try:
         near = wkb_load(problem, 0.5), wkb_load(problem, eigen.block_size(count) + 1.0)
@@ -226,7 +233,7 @@ def _with_symmetry(
     if not problem.symmetric:
         return values, vectors
     out, values = vectors[: len(values)].copy(), values.copy()
-    factors = second_variation(space.points, parameters(problem)) * space.weights
+    factors = _factors(problem, space) * space.weights
     i = 0
     while i < len(values):
         j = i + 1

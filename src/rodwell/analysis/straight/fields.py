@@ -14,16 +14,23 @@ ZERO = ("y", "eta", "rod_F2", "rod_F3", "rod_M2", "rod_M3", "cylinder_F1", "cyli
 def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, FloatArray]:
     """Fields of the straight rod at ``s`` (m,), in units B = L = 1; names as in the nomenclature.
 
-    ``force`` is the end force at s = 1, tension positive: the axial force is N(s) = F + γ cos α (s − 1), the contact
-    pressure that of the lateral weight.
+    ``force`` is the end force at s = 1, tension positive: the axial force is N(s) = F + γ cos α (s − 1) (of
+    sections with their weights), the contact pressure that of the lateral weight.
     """
     s = np.asarray(s, dtype=float)
     out = {name: np.zeros_like(s) for name in ZERO}
+    axial, foundation = problem.axial_weight * (s - 1.0), np.full_like(s, problem.foundation)
+    turned = problem.twist / problem.torsional_stiffness * s
+    if problem.sections:
+        rod = problem.rod
+        axial, foundation = problem.axial_weight * rod.lever(s), problem.foundation * rod.weight(s)
+        angles = np.concatenate([[0.0], np.cumsum(np.diff(rod.breaks) / rod.torsion.coefficients[:, 0])])
+        turned = problem.twist / problem.torsional_stiffness * np.interp(s, rod.breaks, angles)
     return out | {
         "z": s,
-        "xi1": problem.twist / problem.torsional_stiffness * s,
+        "xi1": turned,
         "xi2": np.full_like(s, np.pi if problem.on_top else 0.0),
-        "rod_F1": force + problem.axial_weight * (s - 1.0),
+        "rod_F1": force + axial,
         "rod_M1": np.full_like(s, -problem.twist),
-        "contact_pressure": np.full_like(s, -problem.foundation),
+        "contact_pressure": -foundation,
     }

@@ -14,10 +14,13 @@ EULER = 4.0 * np.pi**2
 
 
 def load_scale(problem: Problem) -> float:
-    """γ |cos α| + 4π², of a rod that is kept on the wall."""
+    """γ |cos α| + 4π², of a rod that is kept on the wall; of sections, their axial weight and softness count."""
+    if problem.sections:
+        return abs(problem.hung_weight) + EULER / problem.rod.compliance
     return abs(problem.axial_weight) + EULER
 
 
 def twisted_load_scale(problem: Problem) -> float:
-    """γ cos α + 4π² + T₁²/4, of a rod that nothing presses to the wall."""
-    return load_scale(problem) + 0.25 * problem.twist**2
+    """γ cos α + 4π² + T₁²/4, of a rod that nothing presses to the wall; of sections with their softness."""
+    softness = problem.rod.compliance if problem.sections else 1.0
+    return load_scale(problem) + 0.25 * problem.twist**2 * softness

@@ -4,20 +4,64 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 
-def load_slope(space: SplineSpace, coefficients: FloatArray, axial: float, foundation: float) -> float:
+def lever_at(problem: Problem, places: FloatArray) -> FloatArray:
+    """N(s) at F = 0 and wₐ = 1, at places (m,): s − 1, or what hangs below the upper end of sections."""
+    return problem.rod.lever(places) if problem.sections else places - 1.0
+
+
+def load_slope(
+    problem: Problem, space: SplineSpace, coefficients: FloatArray, axial: float, foundation: float
+) -> float:
     """dF/dq of a critical load with the mode given by ``coefficients``, from the rates of wₐ and wₗ/Δ by q.
 
     With the coefficients of (64): dF/dq = −(∫ (∂wₐ/∂q)(s − 1) v′² ds + ∫ ∂(wₗ/Δ)/∂q v² ds) / ∫ v′² ds.
     """
     y, slope, _ = space.at_points(coefficients)
     w, s = space.weights, space.points
-    above = axial * (w @ ((s - 1.0) * slope**2)) + foundation * (w @ y**2)
+    shares = w * problem.rod.weight(s) if problem.sections else w
+    above = axial * (w @ (lever_at(problem, s) * slope**2)) + foundation * (shares @ y**2)
     return float(-above / (w @ slope**2))
+
+
+def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, FloatArray]:
+    """Derivatives of a critical load by the data of each of n sections.
+
+    "stiffness" and "weight", (n,), are those by the ratios b and q; "upper_end", (n − 1,), those by the place of the
+    step above a section, which becomes longer as the next becomes shorter. With the bending moment m = b v″, which is
+    continuous, the change [x] of x at the step towards s = 1, and h′ = q,
+
+        dF/db = −∫ v″² ds,   dF/dq = −∫ wₐ ∂h/∂q v′² + (wₗ/Δ) v² ds,
+        dF/ds = −(m² [1/b] − (wₗ/Δ)[q] v² + wₐ [q] ∫₀ˢ v′² ds),
+
+    the first two integrals over the section (∂h/∂q is minus the length of it that is above), all over ∫ v′² ds.
+    """
+    rod, breaks = problem.rod, problem.rod.breaks
+    y, slope, bend = space.at_points(coefficients)
+    w, piece = space.weights, rod.stiffness.piece_of(space.points)
+    whole, n = w @ slope**2, len(problem.sections)
+
+    def each(values: FloatArray) -> FloatArray:
+        return np.asarray(np.bincount(piece, w * values, n), dtype=float)
+
+    below = np.concatenate([[0.0], np.cumsum(each(slope**2))])
+    lateral, axial = problem.foundation / problem.clearance, problem.axial_weight
+    inside = each((breaks[piece + 1] - space.points) * slope**2)
+    hung = -(np.diff(breaks) * below[:-1] + inside)
+    at, _, curvature = space.evaluate(coefficients, breaks[1:-1], 3)
+    b, q = rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0]
+    moved = (b[1:] * curvature) ** 2 * np.diff(1.0 / b) - lateral * np.diff(q) * at**2
+    return {
+        "stiffness": -each(bend**2) / whole,
+        "weight": -(axial * hung + lateral * each(y**2)) / whole,
+        "upper_end": -(moved + axial * np.diff(q) * below[1:-1]) / whole,
+    }
 
 
 def weight_rates(problem: Problem, over: str) -> tuple[float, float]:

@@ -18,7 +18,7 @@ from rodwell.analysis.discrete.family import pair_ends
 from rodwell.analysis.discrete.meshes import free_space
 from rodwell.analysis.straight.pencil import Pencil
 from rodwell.analysis.straight.scale import LOAD_NOISE, twisted_load_scale
-from rodwell.analysis.straight.slopes import weight_rates
+from rodwell.analysis.straight.slopes import lever_at, weight_rates
 from rodwell.analysis.straight.touching import first_inwards
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.splines import pair
@@ -96,7 +96,8 @@ class SpatialMode:
         if over == "twist":
             rate = w @ torque_density(slope, bend)
         else:
-            rate = weight_rates(self.problem, over)[0] * (w @ ((self.space.points - 1.0) * np.abs(slope) ** 2))
+            lever = lever_at(self.problem, self.space.points)
+            rate = weight_rates(self.problem, over)[0] * (w @ (lever * np.abs(slope) ** 2))
         return float(-rate / (w @ np.abs(slope) ** 2)) + 0.0
 
 
@@ -215,7 +216,7 @@ def _loads(problem: Problem, count: int, rtol: float) -> LoadsWithoutWall:
     alike = _alike(problem)
     wanted = count * alike
     space = free_space(problem, count)
-    while space.elements + space.degree < 2 * wanted + 8:
+    while space.size < 2 * wanted + 8:
         space = space.refined()
     values, vectors = pencil.lowest(space, wanted, None)
     while True:
@@ -254,4 +255,4 @@ def _alike(problem: Problem) -> int:
 
 
 def _pencil(problem: Problem) -> Pencil:
-    return Pencil(problem.axial_weight, problem.twist, *pair_ends(problem))
+    return Pencil(problem.axial_weight, problem.twist, *pair_ends(problem), problem.rod if problem.sections else None)

@@ -65,7 +65,7 @@ class ExactLoad:
 def critical(problem: Problem, rtol: float = RTOL) -> ExactLoad:
     """First critical load of the straight rod."""
     mode = critical_loads(problem, 1, rtol=rtol).first_met
-    return ExactLoad("critical", "first critical load", mode.force, mode.error, problem.axial_weight)
+    return ExactLoad("critical", "first critical load", mode.force, mode.error, problem.hung_weight)
 
 
 def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, ...], tuple[str, ...]]:
@@ -106,7 +106,7 @@ def _lift_off(branch: Branch) -> ExactLoad:
     lift = branch.lift_off
     if lift is None or not branch.converged:
         raise NotConvergedError(f"not found to the tolerance ({branch.ending})")
-    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, branch.problem.axial_weight)
+    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, branch.problem.hung_weight)
 
 
 def _coil(problem: Problem, wind: Callable[..., Branch]) -> list[ExactLoad]:
@@ -127,7 +127,7 @@ def _coil(problem: Problem, wind: Callable[..., Branch]) -> list[ExactLoad]:
     if best is None:
         raise NotConvergedError("no coil in contact throughout was found that has the energy of the straight rod")
     point, turns, branch = best
-    name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.axial_weight
+    name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.hung_weight
     loads = [ExactLoad("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
     touch = _first(branch, "touch_down")
     if touch is not None:

@@ -24,13 +24,17 @@ NOTES = ("s = 0 is the lower end; tension positive. Elastic states without frict
 
 @dataclass(frozen=True)
 class Along:
-    """One state along the rod: places s/L (m,), fields in units B = L = 1, and stresses in Pa where they are known."""
+    """One state along the rod: places s/L (m,), fields in units B = L = 1, stresses and yield strengths in Pa.
+
+    These are None where they are not known; strengths where that of any section is not.
+    """
 
     state: LoadedRod
     s: FloatArray
     fields: Fields
     loading: Loading | None
     stresses: Stresses | None
+    strength: FloatArray | None = None
 
 
 def along(a: Assessment, places: int | None = None) -> tuple[Along, ...]:
@@ -41,11 +45,17 @@ def along(a: Assessment, places: int | None = None) -> tuple[Along, ...]:
     if places is None:
         solutions = [state.solution for state in a.states if state.solution is not None]
         places = max([GRID, *(2 * solution.point.fine.space.elements + 1 for solution in solutions)])
-    s, out = np.linspace(0.0, 1.0, places), []
+    s, out = np.linspace(0.0, 1.0, places), list[Along]()
+    if a.case.problem.sections:  # both sides of each step
+        steps = a.case.problem.rod.breaks[1:-1]
+        s = np.union1d(s, np.concatenate([steps, np.nextafter(steps, 0.0)]))
     for state in a.states:
         f = state.fields(s)
-        loading = None if a.section is None else a.section.loading(f)
-        out.append(Along(state, s, f, loading, None if a.section is None else a.section.stresses(f)))
+        if a.section is None:
+            out.append(Along(state, s, f, None, None))
+            continue
+        strength = None if a.section.strength is None else a.section.strength_at(f)
+        out.append(Along(state, s, f, a.section.loading(f), a.section.stresses(f), strength))
     return tuple(out)
 
 
@@ -117,7 +127,7 @@ def _rows(case: Case, one: Along) -> list[tuple[Cell, ...]]:
         f["T2"] * moment,
     ]
     if one.stresses is not None and one.loading is not None:
-        t, strength = one.stresses, case.yield_strength
+        t, strength = one.stresses, one.strength
         parts += [one.loading.force, t.axial, t.bending, t.torsion, t.hoop_outer, t.hoop_inner, t.von_mises]
         if strength is not None:
             parts.append(strength / np.maximum(t.von_mises, strength / LARGEST_SAFETY))

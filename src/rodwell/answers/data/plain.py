@@ -146,7 +146,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
             "poisson": problem.poisson,
             "twist": problem.twist,
             "ends": list(problem.ends),
-            **problem.given_torsion,
+            **problem.given_more,
         },
         **_critical_loads(answer),
         "until": _until(answer),

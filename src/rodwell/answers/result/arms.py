@@ -3,9 +3,26 @@
 from __future__ import annotations
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.follow import LARGEST_STEP, follow
+from rodwell.analysis.branch.symmetry import arms_differ
+from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.problem.problem import Problem
 from rodwell.strength.limits import end_of_the_way
+
+
+def to_lift_off(
+    problem: Problem, mode: Mode, rtol: float, largest_step: float = LARGEST_STEP
+) -> tuple[Branch, Branch | None]:
+    """Follow the branch of a mode to lift-off; where twist makes the two arms differ, as :func:`with_other_arm` does.
+
+    Raises
+    ------
+    NotConvergedError
+        If the branch cannot even be started.
+    """
+    branch = follow(problem, mode, rtol=rtol, largest_step=largest_step)
+    return with_other_arm(branch, rtol) if arms_differ(problem, mode.parity) else (branch, None)
 
 
 def with_other_arm(branch: Branch, rtol: float) -> tuple[Branch, Branch | None]:

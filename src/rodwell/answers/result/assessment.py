@@ -16,7 +16,7 @@ from rodwell.strength.cylinder import Stress, cylinder_stress
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.local import Exceeded, LocalLimits, exceeded, local_limits
-from rodwell.strength.section import RodSection, RodStress, rod_section
+from rodwell.strength.section import RodSection, RodStress, StringSections, rod_section
 from rodwell.strength.supports import Support, support_loads
 from rodwell.strength.validity import Validity, validity
 
@@ -115,7 +115,7 @@ class Assessment:
         self.buckling, self.branch = computed.buckling, computed.first
 
     @cached_property
-    def section(self) -> RodSection | None:
+    def section(self) -> RodSection | StringSections | None:
         """The rod's section, None where stresses cannot be had."""
         return rod_section(self.case)
 
@@ -201,7 +201,7 @@ class Assessment:
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
         gives = limits(self.case, self.branch, self.buckling)
-        bottom = self.case.problem.axial_weight - self.buckling.value
+        bottom = self.case.problem.hung_weight - self.buckling.value
         return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
     @cached_property
@@ -217,8 +217,13 @@ class Assessment:
 
     @cached_property
     def formulas(self) -> tuple[FormulaRow, ...]:
-        """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer."""
-        weight = self.case.problem.axial_weight
+        """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer.
+
+        None of a string of sections: they are those of a uniform rod.
+        """
+        if self.case.problem.sections:
+            return ()
+        weight = self.case.problem.hung_weight
         loads = [ExactLoad("critical", "first critical load", self.buckling.value, self.buckling.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.branch.lift_off_at_buckling:

@@ -27,7 +27,7 @@ def assessment_numbers(a: Assessment) -> list[KeyNumber]:
 
 def _at_bottom(a: Assessment) -> list[KeyNumber]:
     """Critical and lift-off load as effective force at the lower end, where it differs from that at the upper one."""
-    weight = a.case.problem.axial_weight
+    weight = a.case.problem.hung_weight
     if weight == 0.0:
         return []
     note = "N(0) = F − mg L cos α: the most compressed place"
@@ -57,7 +57,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
         if limit.kind == LIFTS_OFF or limit.load is None:
             continue
         label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
-        scale = force_scale(limit.load.value) + a.case.problem.axial_weight
+        scale = force_scale(limit.load.value) + a.case.problem.hung_weight
         out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _place(limit)))
     return out
 

@@ -18,7 +18,7 @@ from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
-from rodwell.answers.result.arms import with_other_arm
+from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
@@ -153,7 +153,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
-    first_run.begin()
+    first_run.begin(case.problem)
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
@@ -182,14 +182,12 @@ def _first_branch(case: Case, critical: CriticalLoads) -> tuple[Branch, Branch |
     until, asked = case.until, case.until is not None and case.until < first.force
     if until is not None and asked and not arms_differ(case.problem, first.parity):
         return follow(case.problem, first, until=until, rtol=case.rtol), None, until
-    to_lift_off, other = follow(case.problem, first, rtol=case.rtol), None
-    if arms_differ(case.problem, first.parity):
-        to_lift_off, other = with_other_arm(to_lift_off, case.rtol)
+    lifted, other = to_lift_off(case.problem, first, case.rtol)
     if until is not None and asked:
-        mirror = to_lift_off.origin.mirror
+        mirror = lifted.origin.mirror
         return follow(case.problem, first, until=until, mirror=mirror, rtol=case.rtol), other, until
-    until = _reach(critical, to_lift_off)
-    branch = extended(to_lift_off, until) if to_lift_off.reached_end else to_lift_off
+    until = _reach(critical, lifted)
+    branch = extended(lifted, until) if lifted.reached_end else lifted
     return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), other, until
 
 

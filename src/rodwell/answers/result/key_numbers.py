@@ -22,7 +22,7 @@ def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
     """Critical load of a mode; ``kept``: it is that of a rod kept on the wall, and twist makes it buckle before."""
     symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
     label = f"Critical load of mode {mode.number}{' if kept on the wall' if kept else ''}, end force at s = 1"
-    scale = force_scale(mode.force) + mode.problem.axial_weight
+    scale = force_scale(mode.force) + mode.problem.hung_weight
     return KeyNumber(f"critical_load_{mode.number}", label, mode.load, "force", scale, symmetry)
 
 
@@ -41,7 +41,7 @@ def without_wall(mode: SpatialMode) -> KeyNumber:
 
 def _size(mode: Mode | SpatialMode) -> float:
     """Size against which the error of such a load is judged."""
-    return force_scale(mode.force) + mode.problem.axial_weight + 0.25 * mode.problem.twist**2
+    return force_scale(mode.force) + mode.problem.hung_weight + 0.25 * mode.problem.twist**2
 
 
 STANDING = {
@@ -61,7 +61,7 @@ ROUNDED = 5e-7
 def critical_length(problem: Problem) -> list[KeyNumber]:
     """Length at which a vertical rod of this stiffness and weight just stands without end force, if it is known."""
     number = STANDING.get(problem.ends)
-    if number is None or problem.axial_weight != problem.weight or problem.weight == 0.0:
+    if number is None or problem.axial_weight != problem.weight or problem.weight == 0.0 or problem.sections:
         return []
     length = (number / problem.weight) ** (1.0 / 3.0)
     value = Value(length, length * ROUNDED / number / 3.0)
@@ -103,7 +103,7 @@ def rotations(state: Solution) -> list[KeyNumber]:
     problem = state.problem
     if problem.twist == 0.0:
         return []
-    straight = Value(problem.twist / problem.torsional_stiffness)
+    straight = Value(problem.twist / problem.whole_torsion)
     label, note = "Rotation of the end s = 1 about its axis", "positive as T₁ turns it"
     return [
         KeyNumber("end_rotation_straight", f"{label}, straight rod", straight, "angle", RADIAN, "T₁ L/C"),

@@ -49,3 +49,15 @@ def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
 def _ending(branch: Branch) -> str:
     """Why a branch ends, in words."""
     return "its state there could not be followed" if branch.ended_because == END else branch.ended_because
+
+
+def no_lift_off(scales: Scales | None, branch: Branch) -> str:
+    """Why the first branch has no lift-off, in words."""
+    load = float(branch.force[-1])
+    text = minus(f"{load:.6g} B/L²") if scales is None else scales.text(load, "force", 6)
+    if branch.ended_because == END:
+        return (
+            f"was not found: the branch was followed to the end force {text} at s = 1 (tension positive), where the "
+            "search ends, and the rod stays on the wall all the way"
+        )
+    return f"was not found: the branch could be followed to the end force {text} at s = 1 only: {branch.ended_because}"

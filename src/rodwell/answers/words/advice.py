@@ -108,7 +108,7 @@ def _margin(case: Case, force: float, limit: Value) -> tuple[str, str]:
     """Level of a force that has not reached a limit, and how far from it that is, measured where the load was given."""
     most = _most(case)
     at_bottom = most is not None and most.bottom
-    size = abs(limit.value - case.problem.axial_weight) if at_bottom else abs(limit.value)
+    size = abs(limit.value - case.problem.hung_weight) if at_bottom else abs(limit.value)
     if size < SMALL_LOAD:
         return GOOD, "above"
     share = (force - limit.value) / size

@@ -15,6 +15,7 @@ from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.first_met import other_arm, without_wall
 from rodwell.answers.words.reach import unreached
+from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
 from rodwell.case.case import Case
@@ -36,6 +37,9 @@ EFFECTIVE = (
 )
 """What is assumed of mud and pressures."""
 
+HELD_AT_STEPS = "at steps of the bending stiffness something holds the rod's slope across the wall"
+"""What is assumed of a string of sections."""
+
 LOWER_PART = 0.5
 """A mode that reaches less far up the rod is said to be confined to its lower end."""
 
@@ -52,8 +56,10 @@ ENDS_HOLD = {
 
 def assumptions(case: Case) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
-    fluids = (EFFECTIVE,) if case.with_fluids else ()
-    return (ends_text(case.problem, ENDS_HOLD), *fluids, *ASSUMPTIONS)
+    more = (EFFECTIVE,) if case.with_fluids else ()
+    if case.problem.sections:
+        more = (*more, HELD_AT_STEPS)
+    return (ends_text(case.problem, ENDS_HOLD), *more, *ASSUMPTIONS)
 
 
 def sentences(answer: Answer) -> list[str]:
@@ -67,6 +73,7 @@ def sentences(answer: Answer) -> list[str]:
         _mode(answer.critical, answer.case, kept=answer.untouched),
         _asked(answer),
         _lift_off(answer),
+        "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case.scales),
     ]
     out += [_stability(answer), *window_sentences(a)]
     out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]

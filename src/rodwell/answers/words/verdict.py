@@ -81,7 +81,7 @@ def _window(a: Assessment) -> str:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    bottom = " of the compression at s = 0" if a.case.problem.axial_weight > 0.0 else ""
+    bottom = " of the compression at s = 0" if a.case.problem.hung_weight > 0.0 else ""
     share = "" if window.share is None else f" ({percent(window.share)}{bottom})"
     text = f"; buckled, it stays on the wall, stable, for another {size_text(scales, width)}{share} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
@@ -147,7 +147,7 @@ def _left(a: Assessment, at: AtLoad) -> str:
 
 def _apart(case: Case, at: AtLoad, limit: Value, what: str) -> str:
     """How far a load lies from another, measured where it was given: "12 % short of lift-off (−38.5 kN there)"."""
-    more, scales = case.problem.axial_weight if at.load.bottom else 0.0, case.scales
+    more, scales = case.problem.hung_weight if at.load.bottom else 0.0, case.scales
     load, other = more - at.load.force, more - limit.value
     word = "short of" if load <= other else "beyond"
     far = (
@@ -193,7 +193,7 @@ def local_sentence(a: Assessment) -> str:
             f"{text}: exceeded all along the string when it buckles, since its ends hold it; the string's exact load "
             "decides."
         )
-    slope = a.case.problem.axial_weight * scales.factor("force")
+    slope = a.case.problem.hung_weight * scales.factor("force")
     lowest = size_text(scales, Value(over.to, error / slope), "length")
     return (
         f"{text}: when this string buckles, that is exceeded over its lowest {lowest}, where "

@@ -13,6 +13,7 @@ from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.RodInput,
+    "string": schema.StringInput,
     "hole": schema.Hole,
     "cylinder": schema.CylinderInput,
     "supports": schema.Supports,
@@ -21,6 +22,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "analysis": schema.Analysis,
     "mud": schema.Mud,
     "pressure": schema.PressureAtEnd,
+    "packer": schema.PackerInput,
     "catalogue": schema.CatalogueFiles,
 }
 """Sections of a case file."""
@@ -40,7 +42,7 @@ LIST = (
     "; a list of values is a parameter study: declare it with study = true at the top of the file, before the first "
     "section (`rodwell run` then computes one case for each value)"
 )
-TAPER = "; a taper is not taken, a rod has one section from end to end"
+TAPER = "; a taper, or a string of several pipes, is written as one [[string]] for each section"
 RANGE = "; this is a range, a parameter study: compute it with `rodwell run`, or give one value here"
 STUDY = "; the file is a parameter study: compute it with `rodwell run`, or give one value here"
 TAPERED = (
@@ -59,7 +61,7 @@ def explain(
     """
     out: list[tuple[str, object, str]] = []
     for item in error.errors()[:MOST_PROBLEMS]:
-        where = ".".join(str(part) or "''" for part in item["loc"])
+        where = _where(item["loc"])
         if item["type"] == "extra_forbidden":
             value = None if isinstance(item["input"], dict | list) else item["input"]
             out.append((where, value, unknown((*within, *item["loc"]))))
@@ -70,6 +72,13 @@ def explain(
             what = _reason(item["type"], item["msg"], where) + _several(location, item["input"], declared)
             out.append((where, item["input"], what))
     return out
+
+
+def _where(location: tuple[int | str, ...]) -> str:
+    """The key as it is named: "rod.length", "string 2.length"."""
+    if location[:1] == ("string",) and len(location) > 1:
+        return ".".join([f"string {int(location[1]) + 1}", *(str(part) for part in location[2:])])
+    return ".".join(str(part) or "''" for part in location)
 
 
 _WHOLE = f"must be a whole number from 1 to {schema.MOST_MODES}"
@@ -112,6 +121,8 @@ def _several(location: tuple[int | str, ...], value: object, declared: bool) -> 
 
 def unknown(location: tuple[int | str, ...]) -> str:
     """What to say of an unknown key or section: what is written instead, the nearest, or the section it belongs to."""
+    if location[0] == "string" and len(location) > 2:
+        return _unknown_key("string", str(location[2]))
     return (
         _unknown_section(str(location[0])) if len(location) == 1 else _unknown_key(str(location[0]), str(location[1]))
     )
@@ -133,8 +144,9 @@ def _unknown_key(section: str, key: str) -> str:
     known = list(SECTIONS[section].model_fields)
     if key in known:
         return "needs [rod] and [hole]: it has no meaning beside [dimensionless]"
-    if plain(key) in KEYS_ELSEWHERE.get(section, {}):
-        return KEYS_ELSEWHERE[section][plain(key)]
+    elsewhere = KEYS_ELSEWHERE.get("rod" if section == "string" else section, {})
+    if plain(key) in elsewhere:
+        return elsewhere[plain(key)]
     if not difflib.get_close_matches(key, known, n=1, cutoff=ALIKE):
         for other, model in SECTIONS.items():
             if key in model.model_fields:

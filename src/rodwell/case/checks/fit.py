@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from rodwell.case import schema
 from rodwell.case.physical import Physical
@@ -42,16 +43,29 @@ LEAST_YIELD = 2e-5
 
 def misfits(parsed: schema.CaseFile, load: schema.LoadInput, found: Physical) -> Iterator[Misfit]:
     """Key and what is wrong with it, for values that do not go together."""
-    assert parsed.rod is not None
     assert parsed.hole is not None
-    yield from _weight(parsed.rod, parsed.hole, found)
-    yield from _material(parsed.rod, found)
-    yield from _sizes(parsed.rod, parsed.hole, found)
-    yield from _torsion(parsed.rod, found)
+    if found.string is not None:
+        for one, member in zip(parsed.string or (), found.string.members, strict=True):
+            for key, what in _of_rod(one, parsed.hole, replace(found, rod=member.rod)):
+                mine = key.startswith("rod.")
+                yield (
+                    f"{member.key}.{key.removeprefix('rod.')}" if mine else key,
+                    what.replace("rod.", "") if mine else f"{what} (of {member.key})",
+                )
+    elif parsed.rod is not None:
+        yield from _of_rod(parsed.rod, parsed.hole, found)
     yield from _loads(load, found)
 
 
-def _weight(rod: schema.RodInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+def _of_rod(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+    """What does not go together in a rod, or in a section of a string."""
+    yield from _weight(rod, hole, found)
+    yield from _material(rod, found)
+    yield from _sizes(rod, hole, found)
+    yield from _torsion(rod, found)
+
+
+def _weight(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
     """Weight, gravity, density and section."""
     one, gravity = found.rod, found.gravity
     key = "rod.weight_per_length" if rod.weight_per_length is not None else "rod.pipe"
@@ -72,7 +86,7 @@ def _weight(rod: schema.RodInput, hole: schema.Hole, found: Physical) -> Iterato
         yield key, f"{what}: check its unit and the diameters"
 
 
-def _material(rod: schema.RodInput, found: Physical) -> Iterator[Misfit]:
+def _material(rod: schema.PipeInput, found: Physical) -> Iterator[Misfit]:
     """Modulus, density and strength of one material."""
     modulus, density, inertia = rod.youngs_modulus, found.rod.density, found.rod.inertia
     if modulus is not None and density is not None:
@@ -92,7 +106,7 @@ def _material(rod: schema.RodInput, found: Physical) -> Iterator[Misfit]:
         yield "rod.yield_strength", f"{what}: materials bear {LEAST_YIELD:g} of it and more; check the unit"
 
 
-def _sizes(rod: schema.RodInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+def _sizes(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
     """Diameters and stiffness."""
     outer = found.rod.outer_diameter
     if outer is None:
@@ -110,7 +124,7 @@ def _sizes(rod: schema.RodInput, hole: schema.Hole, found: Physical) -> Iterator
             yield "rod.bending_stiffness", f"{what}: check its unit (N m² or N mm²?) and the diameter's"
 
 
-def _torsion(rod: schema.RodInput, found: Physical) -> Iterator[Misfit]:
+def _torsion(rod: schema.PipeInput, found: Physical) -> Iterator[Misfit]:
     """Torsional beside bending stiffness."""
     if rod.torsional_stiffness is None:
         return

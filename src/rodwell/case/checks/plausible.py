@@ -13,6 +13,7 @@ from typing import Any
 from rodwell.case import schema
 from rodwell.case.checks.fit import misfits
 from rodwell.case.physical import Physical
+from rodwell.case.string import called
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import KINDS, in_unit_of, to_si
 from rodwell.quantities.written import direction, number_and_rest
@@ -64,6 +65,8 @@ _PRESSURE = Range(0.0, 4e8, "pressure", "pressures reach 400 MPa", (1e5, 2e8), o
 _FORCE = Range(0.0, 3e8, "force", "loads reach 300 MN (legs of platforms)", (1e-3, 5e6), or_zero=True)
 _MOMENT = Range(0.0, 1e8, "moment", "torques reach 100 MN m", (1e-6, 1e5), or_zero=True)
 
+_STROKE = Range(0.0, 500.0, "length", "seals slide up to 500 m", (0.01, 100.0), or_zero=True)
+
 _STIFFNESS = Range(
     1e-20, 1e13, "bending stiffness", "stiffnesses are from 1e-20 N m² (fibres) to 1e13 N m² (legs of platforms)",
     (1e-9, 1e9),
@@ -102,6 +105,21 @@ RANGES: dict[str, Range] = {
     "mud.outside": _FLUID,
     "pressure.inside": _PRESSURE,
     "pressure.outside": _PRESSURE,
+    "packer.bore": _HOLE,
+    "packer.up": _STROKE,
+    "packer.down": _STROKE,
+    "packer.slack_off": _FORCE,
+    "packer.pick_up": _FORCE,
+    "packer.inside": _FLUID,
+    "packer.outside": _FLUID,
+    "packer.inside_pressure": _PRESSURE,
+    "packer.outside_pressure": _PRESSURE,
+    "packer.temperature_change": Range(
+        0.0, 600.0, "temperature change", "tubing warms or cools by up to 600 K", (1.0, 300.0), or_zero=True
+    ),
+    "packer.thermal_expansion": Range(
+        1e-7, 5e-4, "thermal expansion", "materials expand by 1e-7 /K (Invar, glass) to 5e-4 /K (rubber)", (5e-6, 3e-5)
+    ),
     "load.until": _FORCE,
     "load.applied": _FORCE,
     "load.twist": _MOMENT,
@@ -122,6 +140,8 @@ UNITS: dict[str, tuple[str, ...]] = {
     "force per length": ("N/m", "lbf/ft", "mN/m", "N/mm"),
     "bending stiffness": ("N m^2", "N mm^2", "lbf in^2", "kN m^2", "N cm^2"),
     "acceleration": ("m/s^2", "ft/s^2", "cm/s^2"),
+    "temperature change": ("K", "°F", "°C"),
+    "thermal expansion": ("/K", "/°F", "/°C"),
 }
 """Units that may have been meant, the likeliest first."""
 
@@ -147,12 +167,27 @@ def implausible(
         for key, value, text in _values(parsed, load, data)
         if not RANGES[key].holds(value)
     ]
+    out += _sections(parsed, data)
     if out or found is None:
         return out
     out = [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in _from_catalogue(parsed, found)]
     if out:
         return out
     return [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in misfits(parsed, load, found)]
+
+
+def _sections(parsed: schema.CaseFile, data: Mapping[str, Any]) -> list[Problem]:
+    """What is not plausible in the sections of a string."""
+    out: list[Problem] = []
+    for number, (one, written) in enumerate(zip(parsed.string or (), data.get("string", ()), strict=False), 1):
+        for key, allowed in RANGES.items():
+            section, _, name = key.partition(".")
+            value = getattr(one, name, None) if section == "rod" and name in one.model_fields_set else None
+            if value is not None and not allowed.holds(value):
+                out.append(
+                    (f"{called(number, one.name or '')}.{name}", written[name], _outside(allowed, written[name]))
+                )
+    return out
 
 
 def _values(
@@ -173,7 +208,8 @@ def _values(
 def _from_catalogue(parsed: schema.CaseFile, found: Physical) -> Iterator[tuple[str, str]]:
     """What a named pipe, material or grade has that is not plausible: its key, and what to say."""
     given, rod = parsed.rod, found.rod
-    assert given is not None
+    if given is None:  # sections of a string: from the catalogue of the package, or as they stand in the file
+        return
     if given.pipe is None and given.material is None and given.grade is None:
         return
     modulus = rod.stiffness / rod.inertia if rod.inertia > 0.0 and given.bending_stiffness is None else None

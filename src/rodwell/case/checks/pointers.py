@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-TAPER = (
-    "is out of scope in this version: a rod has one section from end to end; compute the part that buckles as a rod of "
-    "its own"
-)
+TAPER = "is not taken: write one [[string]] for each section, from the bottom up, with its own diameters and length"
 STRAIGHT_HOLE = "is out of scope in this version: the hole of a case is straight"
 
 SECTIONS_ELSEWHERE = {
@@ -13,9 +10,8 @@ SECTIONS_ELSEWHERE = {
     "temperature": "is out of scope in this version: thermal strain is not treated; leave it out and give "
     "rod.youngs_modulus and the load as they are at that temperature",
     "thermal": "is out of scope in this version: thermal strain is not treated; leave it out",
-    "string": f"{TAPER}, under [rod]",
     "well": "is out of scope in this version: a case is one rod in a straight hole; for a whole well take "
-    "`rodwell screen SURVEY --case CASE`",
+    "`rodwell screen SURVEY --case CASE`, for torque and drag `rodwell drag WELL`",
     "report": "is out of scope in this version: the report takes its heading from `title` at the top of the file",
     "survey": "is not part of a case file: give it on the command line, `rodwell screen SURVEY --case CASE`",
     "torque": "is not a section; the end twisting moment is load.twist",

@@ -62,5 +62,5 @@ def check_loads(load: Mapping[str, Any], problem: Problem, applied: tuple[Applie
     for text, one in zip(written, applied, strict=False):
         if problem.twist != 0.0 or not isinstance(text, str) or direction(text)[1] or one.given <= 0.0:
             continue
-        if one.force > 0.0 and one.force - problem.axial_weight > 0.0:
+        if one.force > 0.0 and one.force - problem.hung_weight > 0.0:
             raise pulls("load.applied", text, " all along the rod, where nothing buckles")

@@ -1,14 +1,18 @@
 """Where what a model observes of a state is highest along s, and how high: also between grid points.
 
-The class of a model names it: ``observed(s, u, parameters)``, from the field and three derivatives.
+The class of a model names it: ``observed(s, u, given, parameters)``, from the field and three derivatives. What is
+given along s must be constant in each element.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.splines.basis import AT_ONCE, find_span, side_by_side
+from rodwell.numerics.splines.basis import AT_ONCE, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.products import dots
 
@@ -20,10 +24,17 @@ parabola gives the value at its end to round-off."""
 SIDE_BY_SIDE, ORDERS = (0,) * AT_ONCE, (0,) * 4
 """As long as there are samples that are computed at once, and as there are derivatives with the field."""
 
-_observed = on_lanes(
-    lambda model: lambda rows, parameters: [model.observed(rows[0], [rows[k] for k in range(1, 5)], parameters)]
-)
-"""What is observed, at places side by side, from rows of place, field and three derivatives."""
+
+def _observing(model: Any) -> Callable[..., Sequence[Any]]:
+    def formula(rows: Any, parameters: Any) -> Sequence[Any]:
+        given = [rows[5 + k] for k in range(len(model.given()))]
+        return [model.observed(rows[0], [rows[k] for k in range(1, 5)], given, parameters)]
+
+    return formula
+
+
+_observed = on_lanes(_observing)
+"""What is observed, at places side by side, from rows of place, field, three derivatives, and what is given."""
 
 
 @formula
@@ -32,12 +43,14 @@ def _sample(mesh, grid, table, c, parameters, sample):
     m = grid.size
     elements = mesh.starts.size
     per_element, count = (m - 1) // elements, len(SIDE_BY_SIDE)
-    known, values, u = np.empty((5, count)), np.empty((1, count)), np.empty(4)
+    known, values, u = np.empty((5 + mesh.given.shape[1], count)), np.empty((1, count)), np.empty(4)
     for start in range(0, m, count):
         for i in range(count):
             j = min(start + i, m - 1)
-            first = mesh.starts[min(j // per_element, elements - 1)]
-            dots(mesh.model, mesh.local, ORDERS, table, 4 * j, 1, c, first, u, 0)
+            element = min(j // per_element, elements - 1)
+            dots(mesh.model, mesh.local, ORDERS, table, 4 * j, 1, c, mesh.starts[element], u, 0)
+            for k in range(mesh.given.shape[1]):
+                known[5 + k, i] = mesh.given[element * len(mesh.per_element), k]
             known[0, i], known[1, i], known[2, i], known[3, i], known[4, i] = grid[j], u[0], u[1], u[2], u[3]
         _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), values)
         for i in range(min(count, m - start)):
@@ -64,6 +77,11 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
             for a in range(local):
                 total += basis[d, a, k] * c[span - local + 1 + a]
             known[1 + d, k] = total
+        for j in range(mesh.given.shape[1]):
+            known[5 + j, k] = mesh.given[element_of(mesh.starts, span - local + 1) * len(mesh.per_element), j]
+    for k in range(5, AT_ONCE):  # not looked at: the last again
+        for row in range(1, known.shape[0]):
+            known[row, k] = known[row, 4]
     _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), f)
 
 
@@ -98,7 +116,8 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
-    known, f, basis = np.empty((5, AT_ONCE)), np.empty((1, AT_ONCE)), np.empty((4, len(mesh.local), AT_ONCE))
+    known, f = np.empty((5 + mesh.given.shape[1], AT_ONCE)), np.empty((1, AT_ONCE))
+    basis = np.empty((4, len(mesh.local), AT_ONCE))
     for j in range(m):
         if (
             sample[j] < threshold

@@ -7,8 +7,8 @@ A *model* is a named tuple with one entry for each field. Its class gives the en
 where ``u[3 f + d]`` is derivative d of field f; the derivatives by u are ``gradient`` (3 nf) and ``hessian``
 (3 nf, 3 nf), and ``rate`` and ``mixed`` (3 nf) are those of energy and gradient along ``rates``, a direction in the
 space of the ``parameters``. ``given`` are the coefficients that vary along s, in the order in which the class's
-``given()`` names them. What is looked at along s, and maximised, is ``observed(s, u, parameters)``, from a field and
-three derivatives. Both formulas are compiled into the kernels: see :mod:`rodwell.numerics.splines.lanes`. And
+``given()`` names them. What is looked at along s, and maximised, is ``observed(s, u, given, parameters)``, from a field
+and three derivatives. Both formulas are compiled into the kernels: see :mod:`rodwell.numerics.splines.lanes`. And
 ``out_of_range()`` says in words what it means where the energy is no number.
 
 Coefficients are ordered basis function by basis function, fields inside: unknown ``i nf + f``; the half-bandwidth is

@@ -1,7 +1,8 @@
 """B-spline basis functions on a knot vector: values, derivatives, knot insertion.
 
-Knots ``t`` (n + p + 1,) are open (the end knots stand p + 1 times); element ``e`` is the knot span
-``[t[e+p], t[e+p+1])`` and carries the basis functions e … e+p. The matrix form of the recurrence is that
+Knots ``t`` (n + p + 1,) are open (the end knots stand p + 1 times); an element is a knot span
+``[t[i+p], t[i+p+1])`` that is not empty and carries the basis functions i … i+p, which it ``starts`` with number i:
+its own number, where no knot inside is repeated. The matrix form of the recurrence is that
 of T. Lyche and K. Mørken, *Spline Methods* (2018), section 2.4; the derivative formula is (2.7) of
 L. Piegl and W. Tiller, *The NURBS Book* (1997).
 """
@@ -140,19 +141,33 @@ def find_span(knots, degree, s):
 
 
 @kernel
-def tabulate(local_tag, knots, places, per_element, orders):
+def element_of(starts, first):
+    """Number of the element whose first function is number ``first``; ``starts`` (elements,) are all of these."""
+    low, high = 0, starts.size
+    while high - low > 1:
+        middle = (low + high) // 2
+        if first < starts[middle]:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+@kernel
+def tabulate(local_tag, knots, starts, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
-    Further ones count as the right end of the last element. The places must divide all elements alike: where knots
-    are evenly spaced, the table of one element is copied to the next.
+    ``starts`` (elements,) are the first functions of the elements. Further places count as the right end of the last
+    element. The places must divide all elements alike: where knots are evenly spaced, the table of one element is
+    copied to the next.
     """
     degree = len(local_tag) - 1
     table = np.empty((places.size, orders, degree + 1))
     x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, degree + 1, AT_ONCE))
     known, spacing = -1, 0.0  # first place of the last element that was tabulated among evenly spaced knots
-    elements = knots.size - 2 * degree - 1
     for first in range(0, places.size, per_element):
-        span, last = degree + min(first // per_element, elements - 1), min(first + per_element, places.size)
+        span = degree + starts[min(first // per_element, starts.size - 1)]
+        last = min(first + per_element, places.size)
         even, width = _evenly_spaced(knots, span, degree), knots[span + 1] - knots[span]
         whole = last - first == per_element
         if whole and even and known >= 0 and abs(width - spacing) <= SPACING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -30,7 +31,7 @@ def _gauss(count: int) -> tuple[FloatArray, FloatArray]:
 
 
 class SplineSpace:
-    """Splines of one degree and maximal smoothness on a mesh of [0, 1].
+    """Splines of one degree on a mesh of [0, 1]: of maximal smoothness, but for kinks, where u″ may jump.
 
     Parameters
     ----------
@@ -40,11 +41,14 @@ class SplineSpace:
         Polynomial degree p; the splines have p − 1 continuous derivatives.
     per_element
         Gauss points in each element: p − 1, unless said otherwise.
+    kinks
+        Mesh points inside at which only u and u′ are continuous, rising, (k,): where a coefficient of the equations
+        jumps. The knot there stands p − 1 times.
 
     Attributes
     ----------
     size
-        Number of coefficients, elements + degree.
+        Number of coefficients, elements + degree, and p − 2 more for each kink.
     starts
         First basis function of each element, (elements,).
     points, weights
@@ -52,16 +56,24 @@ class SplineSpace:
         exactly, which keeps the order of the energy.
     """
 
-    def __init__(self, breaks: FloatArray, degree: int, per_element: int | None = None) -> None:
+    def __init__(
+        self, breaks: FloatArray, degree: int, per_element: int | None = None, kinks: FloatArray | None = None
+    ) -> None:
         self.breaks = np.ascontiguousarray(breaks, dtype=float)
         self.degree = degree
         self.elements = self.breaks.size - 1
-        self.size = self.elements + degree
+        self.kinks = np.empty(0) if kinks is None else np.asarray(kinks, dtype=float)
+        self.kink_elements: IntArray = np.searchsorted(self.breaks, self.kinks).astype(np.int64)
+        if not np.array_equal(self.breaks[self.kink_elements], self.kinks):
+            raise ValueError("kinks must be mesh points")
+        times = np.ones(self.elements + 1, dtype=np.int64)
+        times[self.kink_elements] = degree - 1
         self.per_element = degree - 1 if per_element is None else per_element
         self.tags = (0,) * (degree + 1), (0,) * self.per_element  # their lengths: what compiled loops must know
         self._tables: dict[tuple[int, bytes], tuple[FloatArray, NDArray[np.int64]]] = {}
-        self.knots = np.concatenate([np.zeros(degree), self.breaks, np.ones(degree)])
-        self.starts: IntArray = np.arange(self.elements, dtype=np.int64)
+        self.knots = np.concatenate([np.zeros(degree), np.repeat(self.breaks, times), np.ones(degree)])
+        self.starts: IntArray = np.cumsum(times[:-1]) - 1
+        self.size = int(self.starts[-1]) + degree + 1
         nodes, weights = _gauss(self.per_element)
         half = 0.5 * np.diff(self.breaks)[:, None]
         self.points: FloatArray = (self.breaks[:-1, None] + half * (nodes + 1.0)).ravel()
@@ -80,14 +92,37 @@ class SplineSpace:
     @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
-        return np.asarray(basis.tabulate(self.tags[0], self.knots, self.points, self.per_element, 3))
+        return np.asarray(basis.tabulate(self.tags[0], self.knots, self.starts, self.points, self.per_element, 3))
 
     @cached_property
     def samples(self) -> tuple[FloatArray, FloatArray]:
         """Places (k,), a few in each element and both ends, and basis table (k, 4, degree + 1) there."""
         share = np.arange(SAMPLES_PER_ELEMENT) / SAMPLES_PER_ELEMENT
         grid = np.append((self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * share).ravel(), 1.0)
-        return grid, np.asarray(basis.tabulate(self.tags[0], self.knots, grid, SAMPLES_PER_ELEMENT, 4))
+        return grid, np.asarray(basis.tabulate(self.tags[0], self.knots, self.starts, grid, SAMPLES_PER_ELEMENT, 4))
+
+    @cached_property
+    def pieces(self) -> tuple[tuple[slice, slice, FloatArray, FloatArray, FloatArray], ...]:
+        """The space between kinks, each piece a space of its own: what there is of it, and where to look.
+
+        Elements and coefficients (slices), knots, and :attr:`samples` of the piece. A piece that ends in a kink is
+        looked at up to the number just below it: at the kink itself functions have the derivatives of the next piece.
+        """
+        edges = [0, *self.kink_elements.tolist(), self.elements]
+        grid, table = self.samples
+        found = []
+        for first, last in itertools.pairwise(edges):
+            start, end = int(self.starts[first]), int(self.starts[last - 1]) + self.degree + 1
+            if last == self.elements:
+                looked, values = grid[SAMPLES_PER_ELEMENT * first :], table[SAMPLES_PER_ELEMENT * first :]
+            else:
+                below = np.nextafter(self.breaks[last], 0.0)
+                inside = slice(SAMPLES_PER_ELEMENT * first, SAMPLES_PER_ELEMENT * last)
+                looked = np.append(grid[inside], below)
+                values = np.concatenate([table[inside], self.tabulated(np.array([below]), 4)[0]])
+            knots = self.knots[start : end + self.degree + 1]
+            found.append((slice(first, last), slice(start, end), knots, looked, np.ascontiguousarray(values)))
+        return tuple(found)
 
     @cached_property
     def landmarks(self) -> tuple[FloatArray, NDArray[np.int64]]:
@@ -161,14 +196,14 @@ class SplineSpace:
         """Return the space with the ``marked`` elements (all, by default) halved."""
         middles = 0.5 * (self.breaks[:-1] + self.breaks[1:])
         new = middles if marked is None else middles[marked]
-        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree, self.per_element)
+        return SplineSpace(np.sort(np.concatenate([self.breaks, new])), self.degree, self.per_element, self.kinks)
 
     def project(self, values: FloatArray, ends: Ends) -> FloatArray:
         """Coefficients of the L² projection of a function known at the quadrature points, (m,), held ends zero."""
         local = np.einsum("eqa,eq->ea", self._element_table[:, :, 0], self._by_element(self.weights * values))
         load = np.zeros(self.size)
         for a in range(self.degree + 1):
-            load[a : a + self.elements] += local[:, a]
+            load[self.starts + a] += local[:, a]
         held = ends.among(self.size)
         mass, free = held.free_part(self.form(np.array([1.0, 0.0, 0.0]))), held.gather(load)
         banded.factorise(mass)
@@ -177,8 +212,10 @@ class SplineSpace:
 
     @cached_property
     def symmetric(self) -> bool:
-        """Whether the mesh is symmetric about the middle."""
-        return bool(np.allclose(self.breaks, 1.0 - self.breaks[::-1], rtol=0.0, atol=1e-13))
+        """Whether the mesh is symmetric about the middle, kinks and all."""
+        mirrored = self.elements - self.kink_elements[::-1]
+        same = np.allclose(self.breaks, 1.0 - self.breaks[::-1], rtol=0.0, atol=1e-13)
+        return bool(same) and np.array_equal(self.kink_elements, mirrored)
 
     @property
     def _element_table(self) -> FloatArray:

@@ -47,6 +47,36 @@ def weightless_helix(eta: float, radius: float) -> Helix:
     )  # fmt: skip
 
 
+LARGEST = 2.0 / math.sqrt(27.0)
+"""Largest u √(1 − u), reached at u = 2/3."""
+
+
+def sine_squared(load: float) -> float:
+    """Return u = sin²η of the weightless helix under the compression P, from load = ½PΔ²/B = u √(1 − u).
+
+    It is the smaller root, that of the stable helix; ``load`` must lie from 0 to ``LARGEST``.
+    """
+    # u³ − u² + load² = 0: the middle one of three real roots, by the cosine of a third of an angle; for small loads
+    # that loses digits, which steps of Newton's method bring back
+    angle = math.acos(max(-1.0, min(1.0, 1.0 - 13.5 * load**2)))
+    u = 1.0 / 3.0 + 2.0 / 3.0 * math.cos(angle / 3.0 + 4.0 * math.pi / 3.0)
+    for _ in range(2 if u < 0.6 else 0):
+        u -= (u * math.sqrt(1.0 - u) - load) * math.sqrt(1.0 - u) / (1.0 - 1.5 * u)
+    return u
+
+
+def helix_shortening(load: float) -> float:
+    """Return the integral of 1 − cos η over compression from 0 to P, in B/Δ², for load = ½PΔ²/B.
+
+    A weightless helix whose compression P falls linearly along it, by w per length, is shorter by the integral over w.
+    With d = 1 − cos η and P = (2B/Δ²) sin²η cos η it is 2(d² − 2d³ + ¾d⁴); for small slopes P²Δ⁴/(8B²), whence the
+    Δ²P²/(8Bw) of A. Lubinski, W. S. Althouse and J. L. Logan, *J. Petroleum Technology* 14 (1962) 655.
+    """
+    u = sine_squared(load)
+    d = u / (1.0 + math.sqrt(1.0 - u))
+    return 2.0 * d**2 * (1.0 - 2.0 * d + 0.75 * d**2)
+
+
 def coil_energy(rate: float, force: float, lateral_weight: float, radius: float) -> float:
     """Energy per length of a rod wound uniformly at ``rate`` (rad per length), relative to the straight rod.
 

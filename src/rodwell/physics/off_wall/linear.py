@@ -15,6 +15,8 @@ eigenvalues μ of that string, which must satisfy ∫ exp(−½iT₁s) v ds = 0 
 It is stationary where u⁗ + iT₁u‴ − (Nu′)′ = 0; at an end that does not hold the slope u″ + ½iT₁u′ = 0, and at one that
 does not hold the position u‴ + iT₁u″ − Nu′ = 0. The other sign of T₁ gives the complex conjugate: loads are even in T₁.
 
+In a section of bending stiffness b the first term is b|u″|², so Q = ∫ b|u″ + ½i(T₁/b)u′|² + (N − ¼T₁²/b)|u′|² ds.
+
 *Which torque.* What T₁ does at an end that turns is decided by the first of these conditions. A dead moment T₁ about
 the fixed axis (axial) leaves a bending moment with u″ + iT₁u′ = 0, a moment that stays tangential none, u″ = 0. The
 energy has their mean: T₁ is *semi-tangential* (H. Ziegler, *Principles of Structural Stability*, 1968), the one of the
@@ -28,17 +30,20 @@ import numpy as np
 from rodwell.quantities.arrays import ComplexArray, FloatArray
 
 
-def square_factors(places: FloatArray, axial_weight: float, twist: float) -> FloatArray:
-    """Factors (3, m) of |u|², |u′|², |u″|² in Q + ¼T₁²∫|u′|² ds at F = 0, at ``places`` (m,).
+def square_factors(axial: FloatArray, stiffness: FloatArray, lift: float) -> FloatArray:
+    """Factors (3, m) of |u|², |u′|², |u″|² in Q + ``lift`` ∫|u′|² ds, from N at F = 0 and b at places, (m,) each.
 
-    They belong to each of the two fields, which are coupled by T₁ ∫ x′y″ − y′x″ ds besides.
+    They belong to each of the two fields, which are coupled by T₁ ∫ x′y″ − y′x″ ds besides. A lift of ¼T₁²/b, with the
+    least b, leaves a sum of squares but for the axial weight.
     """
-    weight = axial_weight * (places - 1.0)
-    return np.array([np.zeros_like(places), 0.25 * twist**2 + weight, np.ones_like(places)])
+    return np.array([np.zeros_like(axial), lift + axial, stiffness])
 
 
-def turned_curvature(slope: ComplexArray, bend: ComplexArray, twist: float) -> ComplexArray:
-    """u″ + ½iT₁u′, whose square is that of the bending energy and of the torque: the natural moment at an end."""
+def turned_curvature(slope: ComplexArray, bend: ComplexArray, twist: float | FloatArray) -> ComplexArray:
+    """u″ + ½iT₁u′, whose square is that of the bending energy and of the torque: the natural moment at an end.
+
+    In a section of stiffness b it is b times that with T₁/b for ``twist``.
+    """
     return np.asarray(bend + 0.5j * twist * slope)
 
 

@@ -9,12 +9,16 @@ integration follow from the same rule. An end that holds y bears the circumferen
 y′ the moment M₂(1); what an end does not hold vanishes (natural conditions). At an end that can turn (pinned,
 free) the rod keeps the curvature ω₃ = sin²η/Δ, though no fitting bends it: the moment ω₃ u₁ there comes from the
 rim of contact, as a pair of opposite radial forces close together, which does no work and acts on the cylinder
-in return. Where y is free, it is F₁ sin η + F₃ cos η of the rod together with ω₃ sin η/Δ from that pair that vanishes.
+in return. A step [b] of the stiffness does the same inside: the moment b ω₃ jumps there, and the wall's pair of forces
+bears it (:mod:`rodwell.physics.on_wall.sections`). Where y is free, it is F₁ sin η + F₃ cos η of the rod together with
+ω₃ sin η/Δ from that pair that vanishes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,45 +28,55 @@ from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_
 from rodwell.physics.on_wall.strand import axial_resultant, contact_pressure, curvatures, strand_force
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
 class EndForce:
     """What acts on the rod at s = 1 besides F and T₁, and where that is.
 
-    ``shear`` is the circumferential force, F₃(1) = ω₂'(1) at a clamped end, (B12); ``omega2`` the curvature there,
-    (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end.
+    ``shear`` is the circumferential force, F₃(1) = ω₂'(1) at a clamped end, (B12); ``moment`` the bending moment b ω₂
+    there, (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end; ``stiffness`` is b.
     """
 
     shear: float
-    omega2: float
+    moment: float
     angle: float = 0.0
     slope: float = 0.0
+    stiffness: float = 1.0
 
 
-def end_force(moment: float, reaction: float, y: float, y1: float, parameters: FloatArray) -> EndForce:
+def end_force(
+    moment: float, reaction: float, y: float, y1: float, parameters: FloatArray, stiffness: float = 1.0
+) -> EndForce:
     """Shear and bending moment at the end s = 1 from the natural boundary terms of the energy.
 
-    ``moment`` is ∂e/∂y″ = y″/cos²η, so ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a clamped
-    end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁
-    has a part T₁ (cos η − 1)/Δ in it.
-    They come from virtual work, which knows them far better than the derivatives of a spline at its end.
+    ``moment`` is ∂e/∂y″ = b y″/cos²η, so b ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a
+    clamped end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁ has a part T₁ (cos η −
+    1)/Δ in it. They come from virtual work, which knows them far better than the derivatives of a spline at its end.
     """
     clearance, twist = float(parameters[CLEARANCE]), float(parameters[TWIST])
     cos_eta = float(np.sqrt(1.0 - y1 * y1))
-    return EndForce(reaction - twist * (cos_eta - 1.0) / clearance, -moment * cos_eta, y / clearance, y1)
+    return EndForce(reaction - twist * (cos_eta - 1.0) / clearance, -moment * cos_eta, y / clearance, y1, stiffness)
 
 
 def rates(
-    s: FloatArray, u: FloatArray, parameters: FloatArray, torsional_stiffness: float, end: EndForce
+    s: FloatArray,
+    u: FloatArray,
+    parameters: Sequence[Any] | FloatArray,
+    torsional_stiffness: float | FloatArray,
+    end: EndForce,
+    stiffness: float | FloatArray = 1.0,
 ) -> FloatArray:
     """Derivatives along s of what has to be integrated, (8, m).
+
+    Of a string, ``parameters``, ``torsional_stiffness`` and ``stiffness`` are those of the section of each place.
 
     z' (44), ξ₁' (32), T₂' (33), M' = −t₁ × F (25)–(27) of the braid moment along i, j, k, with the braid
     force F = N(s) k + F₃(1) j, and (48) along i and j: lateral weight and contact pressure on the rod.
     """
     clearance = parameters[CLEARANCE]
-    pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters)
+    pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters, stiffness)
     angle, sin_eta = u[0] / clearance, u[1]
     cos_eta, omega1, *_ = curvatures(u[1], u[2], u[3], clearance)
     axial, shear = axial_resultant(s, parameters), end.shear
@@ -85,9 +99,11 @@ def reconstruct(
     u: FloatArray,
     from_left: FloatArray,
     from_right: FloatArray,
-    parameters: FloatArray,
-    torsional_stiffness: float,
+    parameters: Sequence[Any] | FloatArray,
+    torsional_stiffness: float | FloatArray,
     end: EndForce,
+    stiffness: float | FloatArray = 1.0,
+    piece: IntArray | None = None,
 ) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,).
 
@@ -98,22 +114,26 @@ def reconstruct(
     from_left, from_right
         Integrals of :func:`rates` (8, m): from 0 to s, and from s to 1.
     parameters
-        Physical parameters (6,).
+        Physical parameters (6,); of a string those of the section of each place, (m,) where they differ.
     torsional_stiffness
-        C, in units of B.
+        C, in units of B, one or (m,).
     end
         Loads at s = 1.
+    stiffness
+        b = B(s)/B, one or (m,).
+    piece
+        Number of the section of each place (m,), None of a uniform rod: ``from_right`` then has the step loads in it.
 
     Returns
     -------
     dict
         Field name to values (m,); names, symbols, units and equations are in ``rodwell.quantities.names``.
     """
-    out = _rod(s, u, from_left, parameters, torsional_stiffness)
+    out = _rod(s, u, from_left, parameters, torsional_stiffness, stiffness)
     frame = _Frame.along(u[0] / parameters[CLEARANCE], u[1])
     out |= _braid(s, frame, from_right[3:6], parameters, end)
     out |= _cylinder(frame, out, from_right, parameters, end)
-    out["tangential_balance"] = _tangential_balance(out, from_right[0], parameters)
+    out["tangential_balance"] = _tangential_balance(out, from_right[0], parameters, stiffness, piece)
     return out
 
 
@@ -138,12 +158,17 @@ class _Frame:
 
 
 def _rod(
-    s: FloatArray, u: FloatArray, from_left: FloatArray, parameters: FloatArray, torsional_stiffness: float
+    s: FloatArray,
+    u: FloatArray,
+    from_left: FloatArray,
+    parameters: Sequence[Any] | FloatArray,
+    torsional_stiffness: float | FloatArray,
+    stiffness: float | FloatArray,
 ) -> dict[str, FloatArray]:
     """Shape, curvatures, forces and moments of the rod, and the contact pressure on it."""
     clearance, twist = parameters[CLEARANCE], parameters[TWIST]
     _, omega1, omega2, omega3, _ = curvatures(u[1], u[2], u[3], clearance)
-    f1, f2, f3 = strand_force(s, u[1], u[2], u[3], parameters)
+    f1, f2, f3 = strand_force(s, u[1], u[2], u[3], parameters, stiffness)
     xi1 = from_left[1]
     material = material_curvatures(xi1, omega2, omega3, twist, torsional_stiffness)
     return {
@@ -158,18 +183,18 @@ def _rod(
         "material_omega3": material[2],
         "z": from_left[0],
         "xi1": xi1,
-        "contact_pressure": contact_pressure(s, u[0], u[1], u[2], u[3], parameters),
+        "contact_pressure": contact_pressure(s, u[0], u[1], u[2], u[3], parameters, stiffness),
         "rod_F1": f1,
         "rod_F2": f2,
         "rod_F3": f3,
         "rod_M1": np.full_like(s, -twist),
-        "rod_M2": omega2,
-        "rod_M3": omega3,
+        "rod_M2": stiffness * omega2,
+        "rod_M3": stiffness * omega3,
     }
 
 
 def _braid(
-    s: FloatArray, frame: _Frame, moment_from_right: FloatArray, parameters: FloatArray, end: EndForce
+    s: FloatArray, frame: _Frame, moment_from_right: FloatArray, parameters: Sequence[Any] | FloatArray, end: EndForce
 ) -> dict[str, FloatArray]:
     """Force and moment of rod and cylinder together, components along t₁, d₁, u₁."""
     force = np.array([np.zeros_like(s), np.full_like(s, end.shear), axial_resultant(s, parameters)])
@@ -179,7 +204,11 @@ def _braid(
 
 
 def _cylinder(
-    frame: _Frame, known: dict[str, FloatArray], from_right: FloatArray, parameters: FloatArray, end: EndForce
+    frame: _Frame,
+    known: dict[str, FloatArray],
+    from_right: FloatArray,
+    parameters: Sequence[Any] | FloatArray,
+    end: EndForce,
 ) -> dict[str, FloatArray]:
     """Forces, moments and loads of the cylinder.
 
@@ -209,33 +238,54 @@ def _cylinder(
 
 
 def _end_moment(end: EndForce, twist: float) -> FloatArray:
-    """Braid moment M(1) = −T₁ t₁ + ω₂ d₁ along i, j, k, (B13)–(B14)."""
+    """Braid moment M(1) = −T₁ t₁ + b ω₂ d₁ along i, j, k, (B13)–(B14)."""
     sin_a, cos_a, cos_eta = np.sin(end.angle), np.cos(end.angle), np.sqrt(1.0 - end.slope**2)
     t1 = np.array([end.slope * sin_a, end.slope * cos_a, cos_eta])
     d1 = np.array([cos_a, -sin_a, 0.0])
-    return np.asarray(end.omega2 * d1 - twist * t1)
+    return np.asarray(end.moment * d1 - twist * t1)
 
 
-def _cylinder_force_around(frame: _Frame, from_right: FloatArray, parameters: FloatArray, end: EndForce) -> FloatArray:
+def _cylinder_force_around(
+    frame: _Frame, from_right: FloatArray, parameters: Sequence[Any] | FloatArray, end: EndForce
+) -> FloatArray:
     """F₃⁽²⁾ = (F − F⁽¹⁾)·u₂ with the rod's force F⁽¹⁾ from weight and contact pressure, (48), integrated from s = 1.
 
     At s = 1 fitting and rim give the rod the force around the cylinder that (45) leaves, and F₂⁽¹⁾ towards the axis.
     """
     clearance, twist = parameters[CLEARANCE], parameters[TWIST]
     sin_a, cos_a, cos_eta = np.sin(end.angle), np.cos(end.angle), np.sqrt(1.0 - end.slope**2)
-    around = end.shear - end.slope**3 / clearance**2  # the rim's part is ω₃ sin η/Δ
-    inward = -end.omega2 * (twist - 3.0 * end.slope * cos_eta / clearance)
+    around = end.shear - end.stiffness * end.slope**3 / clearance**2  # the rim's part is b ω₃ sin η/Δ
+    inward = -end.moment * (twist / end.stiffness - 3.0 * end.slope * cos_eta / clearance)
     rod_i = inward * cos_a + around * sin_a - from_right[0]
     rod_j = -inward * sin_a + around * cos_a - from_right[1]
     return np.asarray(-rod_i * frame.sin_a + (end.shear - rod_j) * frame.cos_a)
 
 
-def _tangential_balance(known: dict[str, FloatArray], z_right: FloatArray, p: FloatArray) -> FloatArray:
-    """Residual of F₁⁽¹⁾ + ½(ω₂² + ω₃²) + Δ wₗ cos ξ₂ − wₐ z = const., the first integral of (22)–(24), (48).
+def _tangential_balance(
+    known: dict[str, FloatArray],
+    z_right: FloatArray,
+    p: Sequence[Any] | FloatArray,
+    stiffness: float | FloatArray,
+    piece: IntArray | None,
+) -> FloatArray:
+    """Residual of F₁⁽¹⁾ + ½b(ω₂² + ω₃²) + Δ wₗ cos ξ₂ − wₐ z = const., the first integral of (22)–(24), (48).
 
-    It must vanish: F₁⁽¹⁾ comes from h = 0, this from force balance along t₁, an independent route.
+    It must vanish, in each section: F₁⁽¹⁾ comes from h = 0, this from force balance along t₁, an independent route.
     """
-    bending = 0.5 * (known["omega2"] ** 2 + known["omega3"] ** 2)
+    bending = 0.5 * stiffness * (known["omega2"] ** 2 + known["omega3"] ** 2)
     height = p[CLEARANCE] * p[LATERAL_WEIGHT] * np.cos(known["xi2"]) + p[AXIAL_WEIGHT] * z_right
-    total = known["rod_F1"] + bending + height
-    return np.asarray(total - total[-1])
+    total = np.asarray(known["rod_F1"] + bending + height)
+    if piece is None:
+        return np.asarray(total - total[-1])
+    return np.asarray(total - total[np.searchsorted(piece, piece, side="right") - 1])
+
+
+def step_jumps(y: FloatArray, slope: FloatArray, loads: tuple[FloatArray, FloatArray], clearance: float) -> FloatArray:
+    """Jumps (2, k) of the rod's force along i and j at k steps of b, towards s = 1, where y and y′ are (k,).
+
+    ``loads`` are those of :func:`rodwell.physics.on_wall.sections.step_loads`: the force along d₁, and the couple c
+    about u₁, which leaves the force c d₁′ = c (ω₁ u₁ − ω₃ t₁) = −c sin η/Δ u₂.
+    """
+    couple, radial = loads
+    sin_a, cos_a, around = np.sin(y / clearance), np.cos(y / clearance), -couple * slope / clearance
+    return np.array([-(radial * cos_a + around * sin_a), -(-radial * sin_a + around * cos_a)])

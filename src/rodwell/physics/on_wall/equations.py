@@ -55,15 +55,16 @@ class Load(NamedTuple):
     """What the system is given: loads, weight, geometry, stiffness ratio and where the rod starts and ends.
 
     ``force`` F and ``twist`` T₁ act at s = 1; ``axial_weight`` mg cos α and ``lateral_weight`` mg sin α; ``C`` is the
-    torsional stiffness; ``turn`` is ξ₂(1), where ξ₂(0) = 0; ``ends`` are the conditions at both ends.
+    torsional stiffness; ``turn`` is ξ₂(1), where ξ₂(0) = 0; ``ends`` are the conditions at both ends. Numbers, or
+    arrays over s where sections of a string differ.
     """
 
-    force: float
-    twist: float
-    axial_weight: float
-    lateral_weight: float
+    force: Any
+    twist: Any
+    axial_weight: Any
+    lateral_weight: Any
     clearance: float
-    C: float
+    C: Any
     turn: float = 0.0
     ends: tuple[str, str] = ("clamped", "clamped")
 

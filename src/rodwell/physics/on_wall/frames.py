@@ -44,7 +44,7 @@ def _about_second(angle: FloatArray) -> FloatArray:
 
 
 def material_curvatures(
-    xi1: FloatArray, omega2: FloatArray, omega3: FloatArray, twist: float, torsional_stiffness: float
+    xi1: FloatArray, omega2: FloatArray, omega3: FloatArray, twist: float, torsional_stiffness: float | FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """ω̃₁ = −T₁/C, (3), (32), and ω̃₂, ω̃₃, (4), (5): rotation of the material frame along the rod."""
     cos, sin = np.cos(xi1), np.sin(xi1)

@@ -15,13 +15,18 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
-from rodwell.plots.along import plot_along
+from rodwell.errors import InputError
+from rodwell.plots.along import plot_along, upright
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.cylinder import plot_cylinder_moments
+from rodwell.plots.methods import plot
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
-from rodwell.plots.style import RC
+from rodwell.plots.string import name_sections, plot_string
+from rodwell.plots.style import RC, new_axes
+from rodwell.plots.units import axis
+from rodwell.store.folder import whole_folder
 
 DPI = 140
 PNG: Any = {"pil_kwargs": {"compress_level": 2}}
@@ -40,6 +45,8 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             "rod-3d": plot_rod(answer.shown, scales),
             "along-rod": _along(answer.assessment),
         }
+        if answer.case.string is not None:
+            axes["string"] = plot_string(answer.case)
         out = {}
         for name, ax in axes.items():
             if name == "rod-3d":
@@ -53,7 +60,11 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
 def _along(a: Assessment) -> Any:
     """Force and stress along the rod."""
     states = along(a)
-    return plot_along(states, shown(states), a.case.scales, a.local, a.case.yield_strength)
+    axes = plot_along(states, shown(states), a.case.scales, a.local, a.case.yield_strength)
+    if a.case.string is not None and a.case.scales is not None:
+        down = upright(a.case.problem, a.case.scales)
+        name_sections(axes, a.case, axis("z", a.case.scales, 1.0)[0], down=down)
+    return axes
 
 
 def draw_diagram(diagram: Diagram, folder: Path) -> None:
@@ -67,6 +78,24 @@ def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
     """Draw curves as PNG and SVG."""
     with mpl.rc_context(RC):
         save_figure(plot_curves(curves).figure, folder / "curves")
+
+
+def write_picture(result: object, file: Path, field: str = "path") -> None:
+    """Write what a result's ``plot`` draws to a file, whole or not at all; its suffix, .png, .svg, .pdf, is the format.
+
+    Raises
+    ------
+    InputError
+        For another suffix, or if the file cannot be written; ``field`` is the name of the file's input.
+    """
+    suffix = file.suffix.lower()
+    if suffix not in (".png", ".svg", ".pdf"):
+        raise InputError(field, str(file), "must end in .png, .svg or .pdf")
+    with whole_folder(file.parent, field) as folder, mpl.rc_context(RC):
+        undated: Any = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix)
+        axes = new_axes()
+        plot(result, axes)
+        axes.figure.savefig(folder / file.name, dpi=DPI, metadata=undated)
 
 
 def save_figure(figure: Any, path: Path) -> None:

@@ -8,6 +8,9 @@ from functools import singledispatch
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.endless.endless import Endless
+from rodwell.analysis.endless.state import NUMBERS
+from rodwell.analysis.path.load_path import ASSUMPTIONS, LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
@@ -20,7 +23,16 @@ from rodwell.quantities.text import minus
 from rodwell.report.pages.templates import template
 from rodwell.report.reports.case import key_numbers
 from rodwell.report.reports.content import Grid
+from rodwell.report.reports.drag import ends_grid
 from rodwell.report.reports.texts import KINDS, PLAIN_UNITS, conversions, derived, inputs, number, short
+from rodwell.studies.drag.drag import Drag
+from rodwell.studies.drag.words import sentences as drag_sentences
+from rodwell.studies.maps.result import Map
+from rodwell.studies.maps.words import sentences as map_sentences
+from rodwell.studies.maps.words import title as map_title
+from rodwell.studies.packer.packer import PackerAnswer
+from rodwell.studies.packer.tables import SIGNS, packer_table
+from rodwell.studies.packer.words import sentences as packer_sentences
 
 FORCE = "F is the end force at s = 1, tension positive; units B = L = 1 where no other stand."
 
@@ -113,6 +125,57 @@ def _(result: Solution) -> Card:
 
 
 @card.register
+def _(result: Drag) -> Card:
+    note = "Effective forces, tension positive; hook load at surface without the block."
+    return Card(f"Torque and drag: {result.well.title}", (drag_sentences(result)[0],), (ends_grid(result),), note)
+
+
+@card.register
+def _(result: Endless) -> Card:
+    slope = "small slopes" if result.slope == 0.0 else f"slope ε = {result.slope:g}"
+    loads = tuple(
+        (name.replace("_", " "), number(load), short(load.error))
+        for name, load in result.loads.named().items()
+        if load is not None
+    )
+    grids = [Grid(("load β at which", "value", "± error"), loads, (1, 2))]
+    for kind, state in result.states.items():
+        rows = [(name.replace("_", " "), getattr(state, name)) for name in NUMBERS]
+        cells = tuple((name, number(value), short(value.error)) for name, value in rows)
+        title = f"{kind} state" if state.in_contact else f"{kind} state, on paper only: the wall would pull"
+        grids.append(Grid((title, "value", "± error"), cells, (1, 2)))
+    title = "Endless rod" if result.beta is None else f"Endless rod at β = {_plain(result.beta)}"
+    note = "β = P/√(Bq/D), compression P positive; forces per length in q, lengths in ℓ = (BD/q)^¼."
+    return Card(title, (f"kept on the wall, {slope}",), tuple(grids), note)
+
+
+@card.register
+def _(result: PackerAnswer) -> Card:
+    table = packer_table(result)
+    cells = tuple((str(row[0]), *(f"{x:.6g}" for x in row[1:3]), *map(str, row[3:])) for row in table.rows)
+    title, *more = packer_sentences(result)
+    return Card(result.case.title, (title, *more), (Grid(table.columns, cells, (1, 2)),), " ".join(SIGNS[:2]))
+
+
+@card.register
+def _(result: LoadPath) -> Card:
+    ended = "followed to the end" if result.reached else f"not followed to the end: {result.ended_because}"
+    rows = tuple(
+        (
+            event.leg,
+            event.meaning,
+            number(event.force),
+            short(event.force.error),
+            ", ".join(f"{s:.6g}" for s in event.s),
+        )
+        for event in result.events
+    )
+    grid = Grid(("leg", "what", "F in B/L²", "± error", "s/L"), rows, (2, 3))
+    lines = (_problem(result.problem), ended, _converged(not result.missed))
+    return Card("Load path", lines, (grid,), f"{FORCE} {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
+
+
+@card.register
 def _(result: Answer) -> Card:
     found = tuple(f"{status.subject}: {status.word} ({status.reason})" for status in statuses(result))
     (grid,) = (block for block in key_numbers(result).blocks if isinstance(block, Grid))
@@ -130,3 +193,8 @@ def _converged(met: bool) -> str:
 
 def _plain(value: float) -> str:
     return minus(f"{value:.8g}")
+
+
+@card.register
+def _(result: Map) -> Card:
+    return Card(map_title(result), tuple(map_sentences(result)), ())

@@ -16,6 +16,7 @@ from rodwell.plots.bifurcation import ORDINATES, telling
 from rodwell.quantities.text import minus
 from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.strength import strength_sections
+from rodwell.report.reports.string import string_section
 from rodwell.report.reports.texts import (
     PLAIN_UNITS,
     certificate,
@@ -60,6 +61,7 @@ def case_report(answer: Answer) -> Report:
         sections=(
             ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
             key_numbers(answer),
+            *string_section(answer.assessment),
             *strength_sections(answer.assessment),
             _pictures(answer),
             _special_points(answer),

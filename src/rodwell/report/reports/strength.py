@@ -94,7 +94,10 @@ def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
     if _strong(a):
         head.append("Safety factor")
         strength = _system(a).text(a.case.yield_strength or 0.0, "stress")
-        note += f"Safety factor: yield strength {strength} over the von Mises stress."
+        if a.case.string is None:
+            note += f"Safety factor: yield strength {strength} over the von Mises stress."
+        else:
+            note += "Safety factor: yield strength of a section over its largest von Mises stress, the least of all."
     else:
         note += "Give rod.grade or rod.yield_strength for safety factors."
     return (ReportSection("Stress in the rod", (Grid(tuple(head), rows, (1, 2, 4, 5, 6, 7)), Words(note, "small"))),)
@@ -188,7 +191,7 @@ def _window_text(a: Assessment) -> str:
 
 def _limits(a: Assessment) -> Grid:
     """Buckling, and what gives after it, or before it."""
-    weight, first = a.case.problem.axial_weight, Limit("buckling", a.window.buckling)
+    weight, first = a.case.problem.hung_weight, Limit("buckling", a.window.buckling)
     rows = []
     for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
         if limit.load is None:

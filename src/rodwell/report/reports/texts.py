@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rodwell.analysis.branch.branch import Branch
@@ -56,8 +56,11 @@ def inputs(case: Case) -> list[tuple[str, str]]:
     """Inputs as given, and what follows from them."""
     out = []
     for section, values in case.given.items():
-        for key, value in values.items():
-            out.append((f"{section}.{key}", str(value)))
+        parts = {section: values} if isinstance(values, Mapping) else {}
+        if section == "string":
+            parts = {f"string {number}": one for number, one in enumerate(values, 1)}
+        for name, part in parts.items():
+            out += [(f"{name}.{key}", str(value)) for key, value in part.items()]
     return out
 
 

@@ -116,12 +116,23 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
+    refuse_sections(problem)
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)
     others = _others(rod, loads[0], problem)
     applied = () if not isinstance(case, Case) else tuple(_at(case, load, rod, loads[0]) for load in case.applied)
     return Audit(problem, scales, title, loads, notes, rows, others, applied)
+
+
+def refuse_sections(problem: Problem) -> None:
+    """Raise for a string of sections: formulas of practice are those of one pipe."""
+    if problem.sections:
+        raise InputError(
+            "sections",
+            f"{len(problem.sections)} of them",
+            "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
+        )
 
 
 def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Other, ...]:
@@ -133,5 +144,5 @@ def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) 
     given = f"{load.given:.6g} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
     number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
     label = f"applied load{number}, {minus(given)} at the {'bottom' if load.bottom else 'top'}"
-    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.axial_weight)
+    exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight)
     return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))

@@ -40,7 +40,7 @@ def _point_dict(study: Study, point: StudyPoint) -> dict[str, Any]:
         else {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "poisson": problem.poisson, "twist": problem.twist, "ends": list(problem.ends),
-            **problem.given_torsion,
+            **problem.given_more,
         },
         "half_waves": point.half_waves,
         "places": list(point.places),

@@ -7,21 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import follow
-from rodwell.analysis.branch.special import END
-from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.analysis.straight.scale import load_scale
-from rodwell.answers.result.arms import with_other_arm
+from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
-from rodwell.answers.result.reach import followed_on
+from rodwell.answers.result.reach import followed_on, no_lift_off
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
@@ -106,7 +102,7 @@ class StudyPoint:
         force: Value | None = getattr(self, name)
         if force is None or self.case is None:
             return None
-        extra = self.case.problem.axial_weight if bottom else 0.0
+        extra = self.case.problem.hung_weight if bottom else 0.0
         return Value(extra - force.value, force.error).times(self.factor("force"))
 
 
@@ -136,10 +132,7 @@ def computed(case: Case) -> SharedResults:
     except NotConvergedError as error:
         return SharedResults(None, why=str(error))
     try:
-        branch = follow(case.problem, critical[0], rtol=case.rtol)
-        if arms_differ(case.problem, critical[0].parity):
-            branch, _ = with_other_arm(branch, case.rtol)
-        return SharedResults(critical, branch)
+        return SharedResults(critical, to_lift_off(case.problem, critical[0], case.rtol)[0])
     except (InputError, NotConvergedError) as error:
         return SharedResults(critical, why=str(error))
 
@@ -188,24 +181,12 @@ def _used(case: Case, branch: Branch) -> dict[str, Value]:
     return out
 
 
-def _no_lift_off(case: Case, branch: Branch) -> str:
-    """Why the first branch has no lift-off, in words."""
-    load = float(branch.force[-1])
-    text = minus(f"{load:.6g} B/L²") if case.scales is None else case.scales.text(load, "force", 6)
-    if branch.ended_because == END:
-        return (
-            f"was not found: the branch was followed to the end force {text} at s = 1 (tension positive), where the "
-            "search ends, and the rod stays on the wall all the way"
-        )
-    return f"was not found: the branch could be followed to the end force {text} at s = 1 only: {branch.ended_because}"
-
-
 def _at_lift_off(
     case: Case, branch: Branch, buckling: Value, reasons: dict[str, str]
 ) -> tuple[Value | None, tuple[float, ...], Value | None]:
     lift = branch.lift_off
     if lift is None:
-        reasons.update(lift_off=_no_lift_off(case, branch), contact="no lift-off")
+        reasons.update(lift_off=no_lift_off(case.scales, branch), contact="no lift-off")
         return None, (), None
     if branch.lift_off_at_buckling:
         reasons["contact"] = "lift-off coincides with buckling: no lateral weight"

@@ -5,21 +5,19 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
+from rodwell.case.string import check_beside
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus
-from rodwell.quantities.units import in_unit_of
 from rodwell.quantities.written import number_and_rest, remedy
+from rodwell.studies.ranges import LONGEST_RANGE, RANGE, in_unit, tidy
 
 MOST_POINTS = 400
 """Points that one study may have."""
-
-LONGEST_RANGE = 200
-"""Characters of the longest text that is taken for a range: reading one takes more than linear time."""
 
 LISTS = ("catalogue", "load.applied")
 """Sections and keys in which a list is a list, not an input that varies; a range of ``load.applied`` varies."""
@@ -34,10 +32,6 @@ ALLOWED = 'write a list, ["30 deg", "45 deg"] or [10, 20], or a range, "30..90 d
 
 ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of loads that act, ["-20 kN", "-40 kN"]'
 
-LONGEST_RANGE = 150
-"""Characters that a range may have: the expressions below take their number to the third."""
-
-_RANGE = re.compile(r"\s*(?P<first>[^.].*?|\.\d.*?)\s*\.\.\s*(?P<last>.+?)\s+in\s+(?P<count>\d+)\s*")
 _RANGE_LIKE = re.compile(r"(?:\.\.|…).*\sin\s+\S+\s*$|^\s*[+-]?\.?\d.*?\.\.\s*[+-]?\.?\d")
 """What is meant as a range, well written or not; a path such as "../pipes.toml" is not."""
 
@@ -123,6 +117,12 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
     """
     out = []
     for section, values in data.items():
+        if section == "string":
+            check_beside(data.get("rod", {}), values)
+            for number, name, value in _ranges_of(values):
+                what = "cannot vary: a study goes over keys of [rod], [hole], [mud] and [load]; give one value"
+                raise InputError(f"string {number}.{name}", value, what)
+            continue
         if not isinstance(values, Mapping):
             if isinstance(values, list):
                 raise InputError(section, values, "cannot vary")
@@ -145,6 +145,14 @@ def varied_inputs(data: Mapping[str, Any]) -> tuple[Varied, ...]:
     return tuple(out)
 
 
+def _ranges_of(sections: list[Any]) -> Iterator[tuple[int, str, object]]:
+    """Ranges in the sections of a string: number, key and what was written."""
+    for number, section in enumerate(sections, 1):
+        for name, value in section.items() if isinstance(section, Mapping) else ():
+            if is_varied(value):
+                yield number, name, value
+
+
 def _range(section: str, key: str, text: str) -> Varied:
     """A range "30..90 deg in 13": both ends included, evenly spaced."""
     name = f"{section}.{key}"
@@ -152,7 +160,7 @@ def _range(section: str, key: str, text: str) -> Varied:
         meant = re.sub(r"\s*(?:\.{3}|…)\s*", "..", text, count=1)
         what = f'has three dots; a range has two: write "{meant}", or a nought before a decimal point, "0..0.5 m in 3"'
         raise InputError(name, text, what)
-    parts = _RANGE.fullmatch(text)
+    parts = RANGE.fullmatch(text)
     start = None if parts is None else number_and_rest(parts["first"])
     end = None if parts is None else number_and_rest(parts["last"])
     if parts is None or start is None or end is None:
@@ -161,14 +169,14 @@ def _range(section: str, key: str, text: str) -> Varied:
         raise InputError(name, text, f"is not a range; {f'write {how}' if how else ''}{allowed}")
     (first, own), (last, unit), count = start, end, int(parts["count"][:9])
     try:
-        first = _in(own or unit, unit, first)
+        first = in_unit(own or unit, unit, first)
     except ValueError as error:
         raise InputError(name, text, f"{error}; {ALLOWED}") from None
     if not 2 <= count <= MOST_POINTS:
         raise InputError(name, text, f"must have from 2 to {MOST_POINTS} values")
     if not (math.isfinite(first) and math.isfinite(last)) or first == last:
         raise InputError(name, text, "must go from one finite value to another")
-    numbers = tuple(_tidy(first + (last - first) * i / (count - 1)) for i in range(count))
+    numbers = tuple(tidy(first + (last - first) * i / (count - 1)) for i in range(count))
     turns = name in LISTS and min(numbers) < 0.0  # a range from compression to tension says that both are meant
     values = tuple(
         f"{number!r} {unit}{' tension' if turns and number > 0.0 else ''}" if unit else number for number in numbers
@@ -195,16 +203,7 @@ def _list(section: str, key: str, given: list[Any] | tuple[Any, ...]) -> Varied:
     unit = parsed[0][1] if parsed[0] else ""
     if all(part is not None for part in parsed):
         try:
-            numbers = tuple(_in(part[1], unit, part[0]) for part in parsed if part)
+            numbers = tuple(in_unit(part[1], unit, part[0]) for part in parsed if part)
         except ValueError:  # names that begin with a number; a wrong unit is explained where the case is made
             unit, numbers = "", None
     return Varied(section, key, list(given), tuple(given), unit if numbers else "", numbers)
-
-
-def _in(unit: str, to: str, number: float) -> float:
-    return number if unit == to else in_unit_of(number, unit, to)
-
-
-def _tidy(value: float) -> float:
-    """The number without what round-off adds in the sixteenth digit: 0.3, not 0.30000000000000004."""
-    return float(f"{value:.13g}")

@@ -1,0 +1,132 @@
+"""First meshes of a string of sections: a mesh point at every step, elements as the waves of each section ask for.
+
+In a section the equations are those of a uniform rod with bending stiffness b, compression P(s) and foundation
+a = q wₗ/Δ: solutions exp(iks) with b k⁴ − P k² + a = 0, waves with (k₃ − k₁)² = P/b − 2√(a/b) where that is positive,
+and abs(k) ≤ √(P/b) + (a/b)^¼ everywhere. Resolving the latter in all sections costs elements where a long string stays
+straight, and asks for nothing that a step could make wrong.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.discrete.choices import (
+    DEGREE,
+    ELEMENTS_PER_RADIAN,
+    LEAST_WAVENUMBER,
+    LINEAR_ELEMENTS_PER_RADIAN,
+    POINTS_OF_BRANCH,
+)
+from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray, IntArray
+
+PLACES = 9
+"""Places in each section between which the local wavenumber counts as linear; evenly spaced."""
+
+LONG = 257
+"""The same of the whole string, shared out by length."""
+
+ABOUT = 1e-6
+LEAST_ELEMENTS = 8
+
+
+def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
+    """Places (m,), rising, each step twice, and the section (m,) that each belongs to."""
+    breaks = problem.rod.breaks
+    lengths = np.diff(breaks)
+    counts = np.maximum(PLACES, np.ceil(LONG * lengths).astype(int))
+    section = np.repeat(np.arange(lengths.size), counts)
+    number = np.arange(section.size) - np.repeat(np.cumsum(counts) - counts, counts)
+    share = number / (counts[section] - 1)
+    places = np.where(share == 1.0, breaks[section + 1], breaks[section] + lengths[section] * share)
+    return places, section
+
+
+def _local(problem: Problem, places: FloatArray, section: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """B(s)/B, N(s) at F = 0, and wₗ/Δ with its sign at places, (m,) each."""
+    rod = problem.rod
+    offset, weight = rod.lever.coefficients[section].T
+    axial = problem.axial_weight * (offset + weight * (places - 1.0))
+    foundation = problem.foundation / problem.clearance * rod.weight.coefficients[section, 0]
+    return rod.stiffness.coefficients[section, 0], axial, foundation
+
+
+def wkb_load(problem: Problem, number: float) -> float:
+    """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
+    places, section = _places(problem)
+    stiffness, axial, foundation = _local(problem, places, section)
+    steps = np.diff(places)
+    floor = 2.0 * np.sqrt(np.maximum(foundation, 0.0) / stiffness)
+
+    def phase(load: float) -> float:
+        p = (load - axial) / stiffness
+        below = foundation < 0.0  # on top: waves of k₃ everywhere
+        squares = np.where(
+            below, 0.5 * (p + np.sqrt(p * p + 4.0 * np.maximum(-foundation, 0.0) / stiffness)), p - floor
+        )
+        root = np.sqrt(np.maximum(squares, 0.0))
+        return float(0.5 * (root[1:] + root[:-1]) @ steps)
+
+    whole = number * np.pi
+    euler = whole**2 / problem.rod.compliance
+    low = float(np.min(axial - 2.0 * np.sqrt(np.abs(foundation) * stiffness)))
+    high = low + euler
+    while phase(high) < whole:
+        low, high = high, low + 2.0 * (high - low)
+    middle = 0.5 * (low + high)
+    while high - low > ABOUT * euler and low < middle < high:
+        low, high = (middle, high) if phase(middle) < whole else (low, middle)
+        middle = 0.5 * (low + high)
+    return float(middle)
+
+
+def linear_space(problem: Problem, count: int) -> SplineSpace:
+    """Spline space for critical loads up to about number ``count``."""
+    load = wkb_load(problem, count)
+    return _space(problem, (load, load), LEAST_WAVENUMBER, LINEAR_ELEMENTS_PER_RADIAN, None)
+
+
+def free_space(problem: Problem, count: int) -> SplineSpace:
+    """The same without a wall: modes turn with the twist along s as well."""
+    weight, alpha = abs(problem.axial_weight), 0.0 if problem.axial_weight >= 0.0 else 180.0
+    upright = problem.but(weight=weight, alpha=alpha, twist=0.0, on_top=False)
+    load = wkb_load(upright, count)
+    least = LEAST_WAVENUMBER + abs(problem.twist) / min(section[1] for section in problem.sections)
+    return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, None)
+
+
+def first_space(problem: Problem, compression: float, tension: float) -> SplineSpace:
+    """Spline space for branches between the most compressive and the most tensile end force, tension positive."""
+    least = 2.0 * np.pi * (1 + abs(problem.turns))
+    return _space(problem, (-compression, -tension), least, ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH)
+
+
+def _space(
+    problem: Problem, loads: tuple[float, float], least: float, per_radian: float, per_element: int | None
+) -> SplineSpace:
+    """Space that resolves √(|P|/b) + (a/b)^¼ and ``least`` at compressions −F from one load to the other."""
+    places, section = _places(problem)
+    stiffness, axial, foundation = _local(problem, places, section)
+    most = np.maximum(np.abs(loads[0] - axial), np.abs(loads[1] - axial))
+    wavenumber = np.sqrt(most / stiffness) + (np.abs(foundation) / stiffness) ** 0.25 + least
+    phase = np.concatenate([[0.0], np.cumsum(0.5 * (wavenumber[1:] + wavenumber[:-1]) * np.diff(places))])
+    breaks = problem.rod.breaks
+    ends = (
+        np.searchsorted(section, np.arange(breaks.size - 1)),
+        np.searchsorted(section, np.arange(breaks.size - 1), side="right") - 1,
+    )
+    first, last = phase[ends[0]], phase[ends[1]]
+    lengths = np.diff(breaks)
+    counts = np.maximum(np.ceil(per_radian * (last - first)), np.ceil(LEAST_ELEMENTS * lengths)).astype(int)
+    middle = (breaks[:-1] < 0.5) & (breaks[1:] > 0.5)
+    counts[middle] += counts[middle] % 2  # a mesh point at s = ½, where a symmetric string is divided
+    owner = np.repeat(np.arange(counts.size), counts)
+    share = (np.arange(owner.size) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[owner]
+    mesh = np.append(np.interp(first[owner] + (last - first)[owner] * share, phase, places), 1.0)
+    starts = np.cumsum(counts) - counts
+    mesh[starts] = breaks[:-1]
+    if problem.symmetric:
+        mesh = 0.5 * (mesh + (1.0 - mesh[::-1]))
+        mesh[starts] = breaks[:-1]
+    return SplineSpace(mesh, DEGREE, per_element, mesh[starts[1:]])

@@ -1,0 +1,113 @@
+"""States of a pattern at chosen breaks: chains made for them, states carried over, solved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.pattern import DEGREE, Pattern, chain, counts
+from rodwell.numerics.stretches.carry import Sampler, fit, sampler
+from rodwell.numerics.stretches.chain import Shape
+from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
+from rodwell.numerics.stretches.walk import Motion, row_of
+from rodwell.quantities.arrays import FloatArray
+
+LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
+"""An element may become this much longer, or shorter, than a new one would be."""
+
+
+def wavenumber(model: RodInHole, load: float) -> float:
+    """√|F| at its largest along the rod, of a beam column, but at least that of a beam bedded on the wall."""
+    problem = model.problem
+    bed = (problem.lateral_weight / problem.clearance) ** 0.25
+    return math.sqrt(max(abs(load), abs(load - problem.axial_weight), bed**2, math.pi**2))
+
+
+def arranged(
+    model: RodInHole,
+    pattern: Pattern,
+    breaks: FloatArray,
+    load: float,
+    sample: Sampler,
+    *,
+    degree: int = DEGREE,
+    elements: tuple[int, ...] | None = None,
+) -> tuple[Shape, tuple[int, ...]]:
+    """A shape of a pattern that follows a sampler, not yet in equilibrium, and its numbers of elements."""
+    elements = elements or counts(pattern, breaks, wavenumber(model, load))
+    links, held = chain(model.problem, pattern, elements, degree)
+    return fit(links, breaks, load, sample, held), elements
+
+
+def solved(
+    model: RodInHole,
+    pattern: Pattern,
+    breaks: FloatArray,
+    load: float,
+    sample: Sampler,
+    *,
+    fixed: tuple[int, int] | None = None,
+    degree: int = DEGREE,
+    elements: tuple[int, ...] | None = None,
+) -> PatternedState | None:
+    """The equilibrium of a pattern near a sampled shape; None if Newton's method fails.
+
+    It is at the load; or, where ``fixed`` names two ends of stretches (−1 and the number of breaks: the ends of the
+    rod), at the distance they have now.
+    """
+    shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
+    row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
+    state: Solved | None = solve(model, shape, row)[1]
+    return None if state is None else PatternedState(pattern, elements, state)
+
+
+def _fixed_distance(shape: Shape, first: int, last: int) -> Row:
+    weights = np.zeros(shape.breaks.size)
+    if first >= 0:
+        weights[first] -= 1.0
+    if last < weights.size:
+        weights[last] += 1.0
+    return Row(np.zeros_like(shape.nodes), weights, 0.0, float(weights @ shape.breaks))
+
+
+def at_load(state: PatternedState, load: float) -> PatternedState | None:
+    """The state of the same pattern at another load."""
+    shape = state.solved.shape
+    found = solve(state.model, shape, fixed_load(shape.chain, load))[1]
+    return None if found is None else PatternedState(state.pattern, state.elements, found)
+
+
+def refined(state: PatternedState, more: int, along: Motion | None = None) -> PatternedState | None:
+    """The same state with elements of a degree higher by ``more``: appended bubbles start from zero.
+
+    At the same load; or, with ``along``, at the same place along a path in that direction, which may fold in the load.
+    """
+    shape = state.solved.shape
+    links, _ = chain(state.model.problem, state.pattern, state.elements, shape.chain.degree + more)
+    bubbles = np.concatenate([shape.bubbles, np.zeros((*shape.bubbles.shape[:2], more))], axis=2)
+    raised = Shape(links, shape.nodes, bubbles, shape.breaks, shape.load)
+    row = fixed_load(links, shape.load)
+    if along is not None:
+        row = row_of(along, links, shape.load)
+        row = replace(row, target=row.of(shape.nodes, shape.breaks, shape.load))
+    found = solve(state.model, raised, row)[1]
+    return None if found is None else PatternedState(state.pattern, state.elements, found)
+
+
+def needs_new_elements(state: PatternedState) -> bool:
+    """Whether elements have become too long, or far too short."""
+    wanted = counts(state.pattern, state.solved.shape.breaks, wavenumber(state.model, state.load))
+    return any(
+        have * LONGEST_ELEMENT < want or (have > 1 and have * SHORTEST_ELEMENT > want)
+        for have, want in zip(state.elements, wanted, strict=True)
+    )
+
+
+def with_new_elements(state: PatternedState) -> PatternedState | None:
+    """The same state on elements made for its stretches."""
+    shape = state.solved.shape
+    return solved(state.model, state.pattern, shape.breaks, shape.load, sampler(shape), degree=shape.chain.degree)

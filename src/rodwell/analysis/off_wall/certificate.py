@@ -1,0 +1,155 @@
+"""The certificate of a state off the wall: balance along the rod, signs of contact, reactions by two routes.
+
+The solver makes an energy stationary. Here the internal force is rebuilt from the shape by moment balance
+(:mod:`rodwell.physics.off_wall.forces`), and put into force balance, which the solver does not use:
+
+* along a free stretch n(b) − n(a) = ∫ wₗ i + wₐ k ds,
+* along a stretch in contact the same with p d₁, p from the formula of the rod kept on the wall,
+* at each break n jumps by −P d₁: P by the jump against P by virtual work, and nothing in any other direction.
+
+Complementarity: no penetration, no contact that pulls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.off_wall.conditions import OPENS, PatternedState, conditions
+from rodwell.analysis.off_wall.measured import position
+from rodwell.physics.off_wall.forces import in_space
+from rodwell.quantities.arrays import FloatArray
+
+LIMIT = 1e-7
+"""Largest residual of balance, relative to the end force, that counts as zero."""
+
+PENETRATION = 1e-8
+"""Largest penetration, in Δ, that counts as none."""
+
+PANELS, ORDER = 6, 8
+INSET = 1e-12
+
+
+@dataclass(frozen=True)
+class ContactCertificate:
+    """What is left of each condition.
+
+    Attributes
+    ----------
+    residuals
+        Relative to the end force (or the weight, if that is larger): "balance of free stretches", "balance of
+        stretches in contact", "point forces by two routes" and "jumps across the wall's normal".
+    penetration
+        Largest penetration of the wall, in Δ; 0 for none.
+    least_force
+        Least concentrated contact force in B/L² (infinite without one), and
+    least_pressure
+        least contact force per length in B/L³ (infinite without a stretch in contact): positive where contact pushes.
+    """
+
+    residuals: dict[str, float]
+    penetration: float
+    least_force: float
+    least_pressure: float
+
+    @property
+    def worst(self) -> float:
+        """The largest residual."""
+        return max(self.residuals.values())
+
+    @property
+    def passed(self) -> bool:
+        """Whether the state is an equilibrium with contact that pushes, to within the limits."""
+        pushes = self.least_force >= -LIMIT and self.least_pressure >= -LIMIT
+        return self.worst <= LIMIT and self.penetration <= PENETRATION and pushes
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON; what does not apply is null."""
+
+        def finite(number: float) -> float | None:
+            return number if np.isfinite(number) else None
+
+        return {
+            "worst": self.worst, "passed": self.passed, "residuals": self.residuals, "penetration": self.penetration,
+            "least_force": finite(self.least_force), "least_pressure": finite(self.least_pressure),
+        }  # fmt: skip
+
+
+def contact_certificate(state: PatternedState) -> ContactCertificate:
+    """Evaluate the certificate of a state."""
+    problem, bounds = state.model.problem, state.bounds
+    scale = max(abs(state.load), problem.weight, 1.0)
+    free, touching, routes, across = 0.0, 0.0, 0.0, 0.0
+    ends = []
+    for i, on in enumerate(state.pattern.touching):
+        left, right = bounds[i : i + 2]
+        inset = INSET * (right - left)
+        places = np.linspace(left + inset, right - inset, PANELS + 1)
+        n, _ = _force(state, places)
+        load = _loads(state, places)
+        if on:  # along the rod's own axis and around the wall; the normal one by the pressure
+            touching = max(touching, float(np.max(np.abs(np.diff(n, axis=1) - load))))
+        else:
+            free = max(free, float(np.max(np.abs(np.diff(n, axis=1) - load))))
+        ends.append((n[:, 0], n[:, -1]))
+    for i in range(state.pattern.breaks):
+        jump = ends[i + 1][0] - ends[i][1]
+        x, y, _ = position(state, bounds[i + 1 : i + 2])
+        inward = -np.array([x[0, 0], y[0, 0], 0.0]) / problem.clearance
+        force = problem.clearance * float(state.solved.forces[i])
+        routes = max(routes, abs(float(-jump @ inward) - force))
+        across = max(across, float(np.max(np.abs(jump - (jump @ inward) * inward))))
+    residuals = {
+        "balance of free stretches": free / scale,
+        "balance of stretches in contact": touching / scale,
+        "point forces by two routes": routes / scale,
+        "jumps across the wall's normal": across / scale,
+    }
+    return ContactCertificate(residuals, _penetration(state), *_least(state))
+
+
+def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    x, y, pressure = position(state, s)
+    problem = state.model.problem
+    return in_space(x, y, state.load + problem.axial_weight * (s - 1.0), problem.twist).n, pressure
+
+
+def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
+    """∫ wₗ i + wₐ k + p d₁ ds between places, (3, m−1)."""
+    problem = state.model.problem
+    points, weights = np.polynomial.legendre.leggauss(ORDER)
+    inner = state.solved.shape.places
+    out = np.zeros((3, places.size - 1))
+    for k, (a, b) in enumerate(pairwise(places)):
+        grid = np.concatenate([[a], inner[(inner > a) & (inner < b)], [b]])
+        for left, right in pairwise(grid):
+            for half in (0.0, 0.5):  # two panels of the rule
+                h = 0.5 * (right - left)
+                s = left + half * (right - left) + 0.5 * h * (points + 1.0)
+                x, y, pressure = position(state, s)
+                w = 0.5 * h * weights
+                out[0, k] += w @ (problem.foundation - pressure * x[0] / problem.clearance)
+                out[1, k] += w @ (-pressure * y[0] / problem.clearance)
+                out[2, k] += float(np.sum(w)) * problem.axial_weight
+    return out
+
+
+def _penetration(state: PatternedState) -> float:
+    """How deep free stretches reach into the wall."""
+    deepest = 0.0
+    for i, on in enumerate(state.pattern.touching):
+        if not on:
+            s = np.linspace(*state.bounds[i : i + 2], 400)
+            x, y, _ = position(state, s)
+            deepest = max(deepest, float(np.max(np.hypot(x[0], y[0]))) / state.model.problem.clearance - 1.0)
+    return max(deepest, 0.0)
+
+
+def _least(state: PatternedState) -> tuple[float, float]:
+    """Least concentrated force, and least contact force per length."""
+    forces = state.model.problem.clearance * state.solved.forces
+    pressing = [one.value for one in conditions(state) if one.kind == OPENS]
+    return float(np.min(forces, initial=np.inf)), float(min(pressing, default=np.inf))

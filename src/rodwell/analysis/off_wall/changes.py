@@ -1,0 +1,238 @@
+"""How the pattern of contact goes on where conditions on it cease to hold.
+
+A change starts from the state where a condition vanishes, or several at once, as in symmetric states. It gives the
+first state of the new pattern, and a number that grows in the sense in which the path goes on there. A gap or a stretch
+in contact starts with a small length, held while the load is solved for: right at its opening a gap has no height long
+before it has no length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import solved, wavenumber
+from rodwell.analysis.off_wall.bumps import Bump, beside, lowered, within
+from rodwell.analysis.off_wall.conditions import (
+    GROWS,
+    GROWS_AT_END,
+    LOST,
+    OPENS,
+    TOUCHES,
+    UNHELD,
+    Condition,
+    PatternedState,
+    conditions,
+    watched,
+)
+from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.numerics.stretches.carry import sampler
+from rodwell.numerics.stretches.newton import Solved
+
+FIRST_GAP = 0.25
+"""Half the length of a gap that opens, in wavelengths of a beam column over 2π."""
+
+FIRST_CONTACT = 5e-4
+"""Length of a contact stretch, in L, below which it is taken for a point: Newton's method is stiff there."""
+
+HALVINGS = 6
+
+NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
+         GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
+"""What a change is called along a path."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Changed:
+    """The first state of a new pattern, and what grows along the path from there."""
+
+    state: PatternedState
+    grows: Callable[[Solved], float]
+    name: str
+
+
+@dataclass(repr=False)
+class _Plan:
+    """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold."""
+
+    state: PatternedState
+    half: float
+    touching: list[bool]
+    breaks: list[float]
+    bumps: list[Bump] = field(default_factory=list)
+    pair: tuple[float, float] | None = None
+
+    @property
+    def fixed(self) -> tuple[int, int] | None:
+        """The numbers of the ends whose distance is held."""
+        if self.pair is None:
+            return None
+        places = [0.0, *self.breaks, 1.0]
+        first, last = (places.index(place) - 1 for place in self.pair)
+        return first, last
+
+
+def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0) -> Changed | None:
+    """The pattern after conditions have vanished at ``state``; None if no state of it was found that keeps the rest.
+
+    ``part``: of the first length that a gap usually starts with.
+    """
+    half, first = part * FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
+    vanished = list(vanished)
+    for _ in range(HALVINGS):
+        plan = _Plan(state, half, list(state.pattern.touching), list(state.solved.shape.breaks))
+        for condition in sorted(vanished, key=lambda one: -one.s):
+            _EDITS[condition.kind](plan, condition)
+        pattern = Pattern(tuple(plan.touching), state.pattern.turns)
+        sample = lowered(sampler(state.solved.shape), plan.bumps)
+        found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
+        if found is not None:
+            hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
+            if first.kind not in (OPENS,) or not hurt:
+                return Changed(found, _growing(first, found, plan), NAMES[first.kind])
+            spots = [one.s for one in hurt if one.kind == OPENS]
+            known = [one.s for one in vanished]
+            vanished += [
+                one for one in conditions(state)
+                if one.kind == OPENS and min(abs(one.s - s) for s in known) > 1e-6
+                and any(abs(one.s - s) < 2.0 * half for s in spots)
+            ]  # fmt: skip
+        half *= 0.5
+    return None
+
+
+def _just_now(condition: Condition) -> bool:
+    """Whether a condition is as good as met: contact without force, a gap without curvature."""
+    return condition.kind in (LOST, GROWS, GROWS_AT_END) and condition.value > -1e-6
+
+
+def _growing(first: Condition, found: PatternedState, plan: _Plan) -> Callable[[Solved], float]:
+    """What grows after the first of the conditions has vanished."""
+    if plan.pair is not None and plan.fixed is not None:
+        low, high = plan.fixed
+        return lambda one: _place(one, high) - _place(one, low)
+    place = first.s
+    if first.kind == TOUCHES:
+        point = int(np.argmin(np.abs(found.solved.shape.breaks - place)))
+        return lambda one: float(one.forces[point])
+    return lambda one: 1.0 - float(np.hypot(*sampler(one.shape)(np.array([place]))[0][:, 0, 0]))
+
+
+def _place(one: Solved, number: int) -> float:
+    return float(np.concatenate([[0.0], one.shape.breaks, [1.0]])[number + 1])
+
+
+def _open(plan: _Plan, condition: Condition) -> None:
+    """A gap opens on a stretch in contact: within it, or beside one of its ends."""
+    i, s, state = condition.number, condition.s, plan.state
+    left, right = state.bounds[i : i + 2]
+    half = min(plan.half, 0.3 * (right - left))
+    if min(s - left, right - s) <= 0.05 * half:
+        at_left = s - left < right - s
+        other = left + half if at_left else right - half
+        end = left if at_left else right
+        plan.touching[i : i + 1] = [False, True] if at_left else [True, False]
+        plan.breaks.insert(i, other)
+        plan.bumps.append(beside(state, i, end, other))
+        plan.pair = (left, other) if at_left else (other, right)
+        return
+    half = min(half, 0.8 * min(s - left, right - s))
+    plan.touching[i : i + 1] = [True, False, True]
+    plan.breaks[i:i] = [s - half, s + half]
+    plan.bumps.append(within(state, i, s, half))
+    plan.pair = (s - half, s + half)
+
+
+def _touch(plan: _Plan, condition: Condition) -> None:
+    """The rod reaches the wall within a free stretch: a point of contact, without force at first."""
+    plan.touching[condition.number : condition.number + 1] = [False, False]
+    plan.breaks.insert(condition.number, condition.s)
+
+
+def _lose(plan: _Plan, condition: Condition) -> None:
+    """A point of contact without force leaves the wall."""
+    del plan.touching[condition.number], plan.breaks[condition.number]
+
+
+def _grow(plan: _Plan, condition: Condition) -> None:
+    """A point of contact grows to a stretch."""
+    i, half = condition.number, 1.1 * FIRST_CONTACT
+    s = plan.breaks[i]
+    plan.touching.insert(i + 1, True)
+    plan.breaks[i : i + 1] = [s - half, s + half]
+    plan.pair = (s - half, s + half)
+
+
+def _grow_at_end(plan: _Plan, condition: Condition) -> None:
+    """Contact grows from a radially held end."""
+    size = 2.2 * FIRST_CONTACT
+    if condition.number:
+        plan.touching.append(True)
+        plan.breaks.append(1.0 - size)
+        plan.pair = (1.0 - size, 1.0)
+    else:
+        plan.touching.insert(0, True)
+        plan.breaks.insert(0, size)
+        plan.pair = (0.0, size)
+
+
+def _release(plan: _Plan, condition: Condition) -> None:
+    """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
+    problem = plan.state.model.problem
+    weight = max(problem.lateral_weight, 1e-3)
+    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 0.01, 0.3))
+    if condition.number:
+        plan.touching.append(False)
+        plan.breaks.append(1.0 - length)
+    else:
+        plan.touching.insert(0, False)
+        plan.breaks.insert(0, length)
+
+
+_EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}
+
+
+def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:
+    """The pattern without stretches that have become very short, and the condition that vanishes where the first goes.
+
+    A contact stretch becomes a point, or nothing at an end; a gap closes.
+    """
+    shape, bounds = state.solved.shape, state.bounds
+    touching, breaks = list(state.pattern.touching), list(shape.breaks)
+    first, where = stretches[0], float(np.mean(bounds[stretches[0] : stretches[0] + 2]))
+    for i in sorted(stretches, reverse=True):
+        last = i == len(state.pattern.touching) - 1
+        if touching[i] and i > 0 and not last:
+            del touching[i]
+            breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
+        elif touching[i]:
+            del touching[i], breaks[-1 if last else 0]
+        else:
+            _close(touching, breaks, i)
+    new = Pattern(tuple(touching), state.pattern.turns)
+    found = solved(state.model, new, np.array(breaks), state.load, sampler(shape))
+    if found is None:
+        return None
+    on, ends = state.pattern.touching[first], first in (0, len(state.pattern.touching) - 1)
+    kind = (GROWS_AT_END if ends else GROWS) if on else OPENS
+    name = ("contact_lost" if ends else "contact_point") if on else "gap_closes"
+    near = [one for one in conditions(found) if one.kind == kind]
+    if not near:
+        return None
+    condition = min(near, key=lambda one: abs(one.s - where))
+
+    def value(one: Solved) -> float:
+        return watched(condition, PatternedState(new, found.elements, one))
+
+    return Changed(found, value, name), condition
+
+
+def _close(touching: list[bool], breaks: list[float], i: int) -> None:
+    """Close a gap: its stretch and the contact beside it become one."""
+    touching[i] = True
+    if i + 1 < len(touching) and touching[i + 1]:
+        del touching[i + 1], breaks[i]
+    if i > 0 and touching[i - 1]:
+        del touching[i - 1], breaks[i - 1]

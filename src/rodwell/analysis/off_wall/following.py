@@ -1,0 +1,254 @@
+"""Following a path of partial contact through changes of its pattern."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import at_load, needs_new_elements, wavenumber, with_new_elements
+from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, changed, shortened
+from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
+from rodwell.analysis.off_wall.happening import (
+    BRANCH_POINT,
+    END,
+    FOLD,
+    Followed,
+    PathEvent,
+    load_rate,
+    together,
+    unresolved,
+    watch,
+)
+from rodwell.numerics.stretches.newton import softest, stiffness_along
+from rodwell.numerics.stretches.walk import Motion, locate, row_of, search, step, tangent, tangent_in_load
+
+FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.02, 0.25, 1e-7
+EASY, HARD = 5, 8
+"""Steps of Newton's method up to which the next step grows, and from which on it shrinks."""
+
+SHORT_GAP = 0.3
+"""Length of a gap, times the wavenumber, below which it is about to close."""
+
+SMALLEST_PART = 0.1
+"""A gap that opens is tried down to this part of its usual first length."""
+
+NEARLY = 1e-9
+"""A condition that is missed by no more than this is as good as met."""
+
+MOST_STATES = 2000
+
+
+def followed(
+    start: PatternedState,
+    until: float,
+    *,
+    along: Motion | None = None,
+    load_controlled: bool = True,
+    most_states: int = MOST_STATES,
+    progress: Callable[[float], None] | None = None,
+) -> Followed:
+    """Follow equilibria from a state to the end force ``until``.
+
+    With the load controlled, the path ends where it folds in the load, or loses stability; else it goes on there.
+    """
+    if along is None:
+        along = tangent_in_load(start.solved, until - start.load)
+    return _Walker(Followed(), start, along, until, load_controlled, progress=progress).walk(most_states)
+
+
+@dataclass(eq=False)
+class _Walker:
+    """A path being followed: where it is, in which direction, with which step."""
+
+    result: Followed
+    state: PatternedState
+    along: Motion
+    until: float
+    load_controlled: bool
+    size: float = FIRST_STEP
+    progress: Callable[[float], None] | None = None
+
+    def walk(self, most_states: int) -> Followed:
+        """Go on until the end of the range, or until it cannot."""
+        self.result.states.append(self.state)
+        self.sense = np.sign(self.until - self.state.load)
+        while not self.result.ended:
+            if len(self.result.states) >= most_states:
+                self.result.ended = f"it has more than {most_states} states"
+            elif not self._short_stretch():
+                self._next()
+        self.result.along = self.along
+        return self.result
+
+    def _next(self) -> None:
+        self._renew_elements()
+        state = self.state
+        outcome, solved, steps = step(state.model, state.solved, self.along, self.size)
+        if solved is None:
+            self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
+            return
+        new = PatternedState(state.pattern, state.elements, solved)
+        turned = tangent(solved, self.along)
+        found = self._first_event(new, turned)
+        if found is None:
+            self._accept(new, turned)
+            self.size *= 0.6 if steps >= HARD else (1.5 if steps <= EASY else 1.0)
+            self.size = min(self.size, LARGEST_STEP)
+        elif found.kind in (FOLD, BRANCH_POINT):
+            self._stability_lost(found, new, turned)
+        elif found.kind == END:
+            self._accept(found.state, turned)
+            self.result.events.append(found)
+            self.result.ended = END
+        elif found.kind:
+            self._change(found)
+
+    def _renew_elements(self) -> None:
+        """Make new elements where the old ones no longer fit; breaks and load tell the direction."""
+        if not needs_new_elements(self.state):
+            return
+        renewed = with_new_elements(self.state)
+        if renewed is not None:
+            old, chain = self.along, renewed.solved.shape.chain
+            guide = Motion(np.zeros((chain.elements + 1, 4)), old.breaks, old.load, np.zeros(0))
+            self.state = renewed
+            self.along = tangent(renewed.solved, guide)
+
+    def _first_event(self, new: PatternedState, turned: Motion) -> PathEvent | None:
+        """The first thing that happens within a step, located; kind "" where it could not be: the step is shortened."""
+        state = self.state
+        broken = [one for one in conditions(new) if one.value < 0.0]
+        candidates = [(one.kind, watch(one, state)) for one in broken]
+        if self.along.load * turned.load < 0.0:
+            candidates.append((FOLD, load_rate(self.along)))
+        elif new.solved.index != state.solved.index:
+            direction = softest(new.solved)
+            candidates.append((BRANCH_POINT, lambda one: stiffness_along(one, direction)))
+        if (new.load - self.until) * self.sense >= 0.0:
+            candidates.append((END, lambda one: one.shape.load - self.until))
+        located = []
+        row = row_of(self.along, state.solved.shape.chain, state.load)
+        for kind, value in candidates:
+            at = locate(state.model, state.solved, new.solved, value)
+            if at is None:
+                self._shorten(f"{kind} beyond F = {state.load:.8g} B/L² could not be located")
+                return PathEvent("", state)
+            there = PatternedState(state.pattern, state.elements, at)
+            order = row.of(at.shape.nodes, at.shape.breaks, at.shape.load)
+            located.append((order, PathEvent(kind, there, (), value, [], self.along, (state, new))))
+        if not located:
+            return None
+        number = int(np.argmin([order for order, _ in located]))
+        event = located[number][1]
+        if number >= len(broken):
+            return event
+        at_once = together(event.state, broken, number)
+        return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
+
+    def _stability_lost(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
+        self.result.events.append(event)
+        if self.load_controlled and (event.kind == FOLD or new.solved.index > self.state.solved.index):
+            self.result.states.append(event.state)
+            self.state, self.result.ended = event.state, event.kind
+        else:
+            self._accept(new, turned)
+
+    def _change(self, event: PathEvent) -> None:
+        """Go over to the pattern that follows."""
+        self.result.states.append(event.state)
+        self.state, before = event.state, self.along
+        if event.together[0].kind == LEAVES:  # a gap so short that its ends no longer push
+            free = [i for i in (event.together[0].number, event.together[0].number + 1)
+                    if not event.state.pattern.touching[i]]  # fmt: skip
+            if not self._without(free):
+                self.result.ended = unresolved(event)
+            return
+        after, part = None, 1.0
+        while part >= SMALLEST_PART:
+            found = changed(event.state, event.together, part)
+            if found is None:
+                break
+            after, along = found, self._direction(found)
+            beyond = (found.state.load - self.until) * self.sense > 0.0
+            if along.load * before.load > 0.0 and not beyond:
+                break
+            part *= 0.5  # the first state may lie behind a fold
+        if after is None:
+            self.result.ended = unresolved(event)
+            return
+        self.result.events.append(replace(event, kind=after.name))
+        self._enter(after)
+
+    def _direction(self, after: Changed) -> Motion:
+        """The sense in which a new pattern exists."""
+        start = after.state
+        along = tangent_in_load(start.solved, self.along.load or self.sense)
+        here, size = after.grows(start.solved), 1e-3
+        ahead = step(start.model, start.solved, along, size)[1]
+        return along.times(-1.0) if ahead is not None and after.grows(ahead) < here else along
+
+    def _enter(self, after: Changed) -> None:
+        """Start on a new pattern, in the sense in which it exists."""
+        along = self._direction(after)
+        turned_back = along.load * self.along.load < 0.0
+        self.state, self.size = after.state, max(min(self.size, 0.5 * FIRST_STEP), 1e-3)
+        self.along = along
+        if (self.state.load - self.until) * self.sense > 0.0:  # the first state lies beyond the end
+            last = at_load(self.state, self.until)
+            if last is not None and all(one.value > -NEARLY * abs(self.until) for one in conditions(last)):
+                self.state, self.result.ended = last, END
+                self.result.states.append(last)
+                return
+        if turned_back and self.load_controlled:
+            self.result.ended = FOLD
+            self.result.events.append(PathEvent(FOLD, self.result.last))
+        else:
+            self.result.states.append(self.state)
+
+    def _short_stretch(self) -> bool:
+        """Whether a stretch was about to vanish, and the pattern without it has been entered."""
+        state = self.state
+        lengths, rates = np.diff(state.bounds), np.diff(np.concatenate([[0.0], self.along.breaks, [0.0]]))
+        short = SHORT_GAP / wavenumber(state.model, state.load)
+        vanishing = [
+            i for i, on in enumerate(state.pattern.touching)
+            if lengths[i] < (FIRST_CONTACT if on else (short if self._beside_line(i) else 0.0)) and rates[i] < 0.0
+        ]  # fmt: skip
+        if not vanishing:
+            return False
+        first = min(vanishing, key=lambda i: lengths[i])
+        return self._without([first, *(i for i in vanishing if i != first and lengths[i] < 1.05 * lengths[first])])
+
+    def _without(self, stretches: list[int]) -> bool:
+        """Enter the pattern without stretches that vanish, at the place where they do; False if that was not found."""
+        found = shortened(self.state, stretches)
+        if found is None:
+            return False
+        after, condition = found
+        along = tangent_in_load(after.state.solved, self.along.load)
+        at = search(after.state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
+        if at is None:
+            return False
+        there = PatternedState(after.state.pattern, after.state.elements, at)
+        places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))
+        self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
+        self._enter(Changed(there, after.grows, after.name))
+        return True
+
+    def _beside_line(self, i: int) -> bool:
+        """Whether a gap has a stretch in contact beside it, that it can close up to."""
+        touching = self.state.pattern.touching
+        return any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))
+
+    def _accept(self, new: PatternedState, along: Motion) -> None:
+        self.state, self.along = new, along
+        self.result.states.append(new)
+        if self.progress is not None:
+            self.progress(new.load)
+
+    def _shorten(self, why: str) -> None:
+        self.size *= 0.4
+        if self.size < SMALLEST_STEP:
+            self.result.ended = why

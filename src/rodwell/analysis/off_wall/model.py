@@ -1,0 +1,125 @@
+"""The rod in its hole as a model for chains of stretches: both energies, in the unit of length Δ across the axis.
+
+Lateral position and y are measured in Δ, the energy in BΔ²/L³, so that numbers are of order one; places s stay in L.
+On the wall the density of :mod:`rodwell.physics.on_wall` serves, off it that of :mod:`rodwell.physics.off_wall`; they
+are equal where both hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rodwell.physics.off_wall._density import hole_density
+from rodwell.physics.off_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
+from rodwell.physics.on_wall import parameters as wall
+from rodwell.physics.on_wall._density import rod_density
+from rodwell.physics.on_wall.strand import contact_pressure
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+_FREE = ((0, 1), (0, 2), (1, 1), (1, 2))
+"""Field and derivative that the Hessian off the wall belongs to."""
+
+
+@dataclass(frozen=True)
+class RodInHole:
+    """The two densities of a problem."""
+
+    problem: Problem
+
+    @cached_property
+    def _free(self) -> FloatArray:
+        out, problem = np.zeros(5), self.problem
+        out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = problem.axial_weight, problem.foundation
+        out[CLEARANCE], out[TWIST] = problem.clearance, problem.twist
+        return out
+
+    @cached_property
+    def _rates(self) -> FloatArray:
+        out = np.zeros(5)
+        out[FORCE] = 1.0
+        return out
+
+    @property
+    def load_per_length(self) -> float:
+        """wₐ: the density depends on s only through N(s) = F + wₐ(s − 1)."""
+        return self.problem.axial_weight
+
+    def at_load(self, load: float) -> FloatArray:
+        """Parameters off the wall at an end force."""
+        out = self._free.copy()
+        out[FORCE] = load
+        return out
+
+    def wall_parameters(self, load: float) -> FloatArray:
+        """Parameters of the rod kept on the wall at an end force."""
+        out = np.zeros(wall.COUNT)
+        out[:5], out[wall.SIDE] = self.at_load(load), 1.0
+        return out
+
+    def rim(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+        """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
+        d = self.problem.clearance
+        y = d * u[0]
+        rates = np.zeros(wall.COUNT)
+        rates[wall.FORCE] = 1.0
+        e, rate, g, m, h = rod_density(s, y[0], y[1], y[2], self.wall_parameters(load), rates)
+        shape = s.shape
+        hessian = np.empty((1, 3, 1, 3, *shape))
+        for i in range(3):
+            for j in range(3):
+                hessian[0, i, 0, j] = h[i][j]
+        return e / d**2, rate / d**2, _stacked(g, shape) / d, _stacked(m, shape) / d, hessian
+
+    def interior(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+        """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
+        d = self.problem.clearance
+        (x, x1, x2), (_, y1, y2) = d * u
+        e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, self.at_load(load), self._rates)
+        shape = s.shape
+        gradient, mixed = np.zeros((2, 3, *shape)), np.zeros((2, 3, *shape))
+        gradient[0, 0], mixed[0, 0] = g[0], m[0]
+        hessian = np.zeros((2, 3, 2, 3, *shape))
+        for i, (f, k) in enumerate(_FREE):
+            gradient[f, k], mixed[f, k] = g[1 + i], m[1 + i]
+            for j, (other, order) in enumerate(_FREE):
+                hessian[f, k, other, order] = h[i][j]
+        return e / d**2, rate / d**2, gradient / d, mixed / d, hessian
+
+    def rim_reaction(self, u: FloatArray) -> tuple[float, float, float]:
+        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there.
+
+        They are ∂e/∂u″ · r̂, and Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′: what a variation of r and r′ at
+        the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4,). Weight and end
+        force do not enter; seen from the place itself, φ = 0 there.
+        """
+        d = self.problem.clearance
+        phi1, phi2, phi3 = u[1:4]
+        radial, around = np.array([-1.0, 0.0]), np.array([0.0, 1.0])
+        first = d * phi1 * around
+        second = d * (phi2 * around - phi1**2 * radial)
+        third = d * ((phi3 - phi1**3) * around - 3.0 * phi1 * phi2 * radial)
+        args: Any = (-d, first[0], second[0], first[1], second[1])
+        _, _, g, _, h = hole_density(1.0, *args, self.at_load(0.0), self._rates)
+        moment, by_slope = np.array([g[2], g[4]]), np.array([g[1], g[3]])
+        mixed = np.array([[h[1][0], h[1][2]], [h[3][0], h[3][2]]])  # of x″, y″ by x′, y′
+        bend = np.array([[h[1][1], h[1][3]], [h[3][1], h[3][3]]])
+        shear = by_slope - mixed @ second - bend @ third
+        by_rate = radial @ (mixed @ around - 2.0 * phi1 * bend @ radial)
+        return float(moment @ radial) / d, float(by_rate), float(shear @ radial + phi1 * moment @ around) / d
+
+    def pressure(self, s: FloatArray, angle: FloatArray, load: float) -> FloatArray:
+        """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""
+        y = self.problem.clearance * angle
+        return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], self.wall_parameters(load)))
+
+
+def _stacked(rows: Any, shape: tuple[int, ...]) -> FloatArray:
+    out = np.zeros((1, 3, *shape))
+    for i, row in enumerate(rows):
+        out[0, i] = row
+    return out

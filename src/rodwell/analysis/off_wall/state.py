@@ -1,0 +1,245 @@
+"""A state of partial contact as users hold it: numbers with errors, fields along the rod, certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import refined
+from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.measured import Numbers, measured, position
+from rodwell.analysis.off_wall.pattern import FINER
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.physics.off_wall.forces import in_space
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak, Value
+
+STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
+
+MOST_DEGREES = 6
+"""By how much the degree of the elements may be raised for a certificate that passes."""
+
+FLAT = 1e-6
+"""A rod that lies within this angle, in radians, of the bottom everywhere, in contact, is straight."""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A free stretch: from where to where in L, the largest gap in Δ and where."""
+
+    start: Value
+    end: Value
+    largest: Value
+    at: float
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A stretch in contact: from where to where in L, and its contact force ∫|p| ds in B/L², without its ends."""
+
+    start: Value
+    end: Value
+    force: Value
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """A concentrated contact force, from the wall on the rod, in B/L², at a place in L.
+
+    ``kind``: "point", a point of contact with gaps on both sides, or "end", an end of a stretch in contact.
+    """
+
+    s: Value
+    force: Value
+    kind: str
+
+
+@dataclass(frozen=True, eq=False)
+class ContactState:
+    """An equilibrium of a rod that may leave the wall; all numbers are in units B = L = 1.
+
+    Attributes
+    ----------
+    problem
+        The problem.
+    coarse, fine
+        The state on elements of two degrees: their difference tells the errors.
+    """
+
+    problem: Problem
+    coarse: PatternedState
+    fine: PatternedState
+
+    def __repr__(self) -> str:
+        return f"<ContactState {self.fine.pattern.text()} at F = {self.force:.10g} B/L², {self.kind}>"
+
+    @property
+    def force(self) -> float:
+        """End force F at s = 1 in B/L², tension positive."""
+        return float(self.fine.load)
+
+    @property
+    def stability_index(self) -> int:
+        """Negative eigenvalues of the second variation under dead loads, with contacts that push kept closed.
+
+        Disturbances of every symmetry count; contacts without force would make it one-sided.
+        """
+        return self.fine.solved.index
+
+    @property
+    def turns(self) -> int:
+        """Whole turns of the end s = 1 around the hole."""
+        return self.fine.pattern.turns
+
+    @cached_property
+    def kind(self) -> str:
+        """What the state is: "straight", "sinusoidal", "helix" (it winds around the hole) or "partial contact"."""
+        if self.turns:
+            return HELIX
+        if not self.fine.pattern.full:
+            return PARTIAL
+        return STRAIGHT if float(np.max(np.abs(self.fine.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
+
+    @cached_property
+    def _numbers(self) -> tuple[Numbers, Numbers]:
+        return measured(self.coarse), measured(self.fine)
+
+    def _value(self, name: str, i: int | None = None) -> Value:
+        coarse, fine = (getattr(numbers, name) for numbers in self._numbers)
+        if i is not None:
+            coarse, fine = coarse[i], fine[i]
+        return Value(float(fine), float(estimated_error(fine, coarse)))
+
+    @cached_property
+    def energy(self) -> Value:
+        """Energy relative to the straight rod at the same load, in B/L."""
+        return self._value("energy")
+
+    @cached_property
+    def shortening(self) -> Value:
+        """Approach of the ends ∫(1 − z′) ds in L: the derivative of the energy by F."""
+        return self._value("shortening")
+
+    @cached_property
+    def gaps(self) -> tuple[Gap, ...]:
+        """Free stretches from s = 0."""
+        places = self._numbers[1].gap_places
+        return tuple(
+            Gap(self._value("bounds", i), self._value("bounds", i + 1), self._value("gaps", i), float(places[i]))
+            for i, on in enumerate(self.fine.pattern.touching) if not on
+        )  # fmt: skip
+
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...]:
+        """Stretches in contact from s = 0."""
+        return tuple(
+            Contact(self._value("bounds", i), self._value("bounds", i + 1), self._value("stretches", i))
+            for i, on in enumerate(self.fine.pattern.touching) if on
+        )  # fmt: skip
+
+    @cached_property
+    def point_forces(self) -> tuple[PointForce, ...]:
+        """Concentrated contact forces from s = 0: at points of contact, and at both ends of stretches in contact."""
+        return tuple(
+            PointForce(
+                self._value("bounds", i + 1), self._value("points", i),
+                "point" if self.fine.pattern.is_point(i) else "end",
+            )
+            for i in range(self.fine.pattern.breaks)
+        )  # fmt: skip
+
+    @cached_property
+    def contact_total(self) -> Value:
+        """All contact forces, distributed and concentrated, added without regard to direction, in B/L²."""
+        coarse, fine = (float(np.sum(n.stretches) + np.sum(np.abs(n.points))) for n in self._numbers)
+        return Value(fine, float(estimated_error(fine, coarse)))
+
+    @cached_property
+    def largest_pressure(self) -> Peak:
+        """Largest contact force per length in B/L³, and where; 0 without a stretch in contact."""
+        value = self._value("largest_pressure")
+        return Peak(value.value, value.error, self._numbers[1].largest_pressure_at)
+
+    @cached_property
+    def certificate(self) -> ContactCertificate:
+        """Balance of forces, signs of contact, and reactions by two routes."""
+        return contact_certificate(self.fine)
+
+    def fields(self, s: FloatArray | int = 201) -> dict[str, FloatArray]:
+        """Fields along the rod at ``s`` (k,), or at that many evenly spaced places.
+
+        ``s``; ``x``, ``y`` across the hole in L, the bottom at x = −Δ; ``z`` along it; ``gap`` between rod and wall in
+        Δ; ``angle`` around the hole from the bottom in rad, between −π and π; ``curvature`` in 1/L, which is the
+        bending moment in B/L; ``tension`` along the rod in B/L²; ``contact_pressure`` p in B/L³, negative in contact,
+        without point forces.
+        """
+        places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
+        x, y, pressure = position(self.fine, places)
+        problem = self.problem
+        n = self.force + problem.axial_weight * (places - 1.0)
+        rod = in_space(x, y, n, problem.twist)
+        gap = 1.0 - np.hypot(x[0], y[0]) / problem.clearance
+        return {
+            "s": places, "x": x[0], "y": y[0], "z": self._axial(places), "gap": gap,
+            "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "tension": rod.tension,
+            "contact_pressure": pressure,
+        }  # fmt: skip
+
+    def _axial(self, places: FloatArray) -> FloatArray:
+        """z(s), by Gauss's rule on a fine grid."""
+        grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), self.fine.bounds]))
+        points, weights = np.polynomial.legendre.leggauss(4)
+        s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
+        x, y, _ = position(self.fine, s)
+        rate = np.sqrt(1.0 - x[1] ** 2 - y[1] ** 2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
+        return np.asarray(np.interp(places, grid, np.concatenate([[0.0], np.cumsum(rate)])))
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        return {
+            "force": self.force,
+            "kind": self.kind,
+            "turns": self.turns,
+            "energy": plain(self.energy),
+            "stability_index": self.stability_index,
+            "gaps": [
+                {"from": plain(g.start), "to": plain(g.end), "largest": plain(g.largest), "at": g.at} for g in self.gaps
+            ],
+            "contacts": [{"from": plain(c.start), "to": plain(c.end), "force": plain(c.force)} for c in self.contacts],
+            "point_contacts": [{"s": plain(p.s), "force": plain(p.force), "kind": p.kind} for p in self.point_forces],
+            "contact_total": plain(self.contact_total),
+            "shortening": plain(self.shortening),
+            "certificate": self.certificate.as_dict(),
+        }
+
+
+def plain(number: Value) -> dict[str, float]:
+    """A number with its error, for JSON."""
+    return {"value": number.value, "error": number.error}
+
+
+def contact_state(state: PatternedState) -> ContactState:
+    """A state with the same on elements of a higher degree: as high as its certificate needs.
+
+    Raises
+    ------
+    NotConvergedError
+        If Newton's method fails there.
+    """
+    found: ContactState | None = None
+    for more in range(FINER, MOST_DEGREES + 1, FINER):
+        fine = refined(state, more)
+        if fine is None:
+            break
+        found = ContactState(state.model.problem, state, fine)
+        if found.certificate.worst <= 0.5 * LIMIT:
+            break
+    if found is None:
+        raise NotConvergedError(f"the state at F = {state.load:.8g} B/L² was not found on finer elements")
+    return found

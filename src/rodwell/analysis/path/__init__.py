@@ -1,0 +1,1 @@
+"""Load paths: what happens as the load grows quasi-statically and comes back."""

@@ -1,0 +1,128 @@
+"""What a load path consists of: events, legs, and states at loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, plain
+from rodwell.quantities.value import Value
+
+LOADING, UNLOADING = "loading", "unloading"
+
+ROUND_OFF = 1e-12
+"""By how much of itself a load asked for may lie beyond the last state."""
+
+CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
+TOUCH_DOWN = "touch_down"
+
+MEANING = {
+    CRITICAL: "the straight rod buckles",
+    LIFT_OFF: "the rod lifts off the wall",
+    "gap_opens": "a gap opens",
+    "gap_closes": "a gap closes",
+    "contact_point": "a stretch in contact has shrunk to a point",
+    "contact_line": "a point of contact grows to a stretch",
+    "contact_lost": "a contact is lost",
+    "touches": "the rod touches the wall anew",
+    TOUCH_DOWN: "contact is complete again",
+    FOLD: "limit point: no equilibrium nearby beyond this load",
+    BRANCH_POINT: "the state gives way to one of another shape",
+    SNAP: "the rod snaps",
+}
+"""Kinds of events, in words."""
+
+
+@dataclass(frozen=True)
+class Destination:
+    """Where a snap leads: the kind of state, its turns around the hole, its energy at the load of the snap.
+
+    ``starts`` is how many disturbed starts were tried, ``agree`` how many ended in this state or its mirror image.
+    """
+
+    kind: str
+    turns: int
+    energy: Value
+    starts: int
+    agree: int
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        return {
+            "state": self.kind, "turns": self.turns, "energy": plain(self.energy), "starts": self.starts,
+            "agree": self.agree,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class PathPoint:
+    """An event of a load path.
+
+    Attributes
+    ----------
+    kind
+        One of :data:`MEANING`.
+    force
+        End force at s = 1 in B/L², tension positive, with the estimate of its error.
+    s
+        Where along the rod, in L; empty where it concerns the whole of it.
+    leg
+        "loading" or "unloading".
+    to
+        Where a snap leads; None for other events.
+    state
+        The state there; None for the straight rod's buckling. After a snap, the state the rod has snapped to.
+    met
+        Whether the load meets the tolerance.
+    """
+
+    kind: str
+    force: Value
+    s: tuple[float, ...]
+    leg: str
+    to: Destination | None = None
+    state: ContactState | None = None
+    met: bool = True
+
+    @property
+    def meaning(self) -> str:
+        """What happens, in words."""
+        if self.to is None:
+            return MEANING[self.kind]
+        if self.to.kind == STRAIGHT:
+            return "the rod falls back to the straight shape"
+        turns = f" of {abs(self.to.turns)} turn{'s' if abs(self.to.turns) != 1 else ''}" if self.to.turns else ""
+        return f"the rod snaps to {_ARTICLE.get(self.to.kind, 'another state of ')}{self.to.kind}{turns}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        return {
+            "kind": self.kind, "force": plain(self.force), "s": list(self.s), "leg": self.leg,
+            "to": None if self.to is None else self.to.as_dict(),
+        }  # fmt: skip
+
+
+_ARTICLE = {"sinusoidal": "a ", "helix": "a "}
+
+
+@dataclass(eq=False)
+class Leg:
+    """One way of a load path: its name, and unbroken runs of states in order; a snap begins a new run.
+
+    ``straight`` are ranges of the end force, (from, to), in which the rod is straight.
+    """
+
+    name: str
+    runs: list[list[PatternedState]] = field(default_factory=list)
+    straight: list[tuple[float, float]] = field(default_factory=list)
+
+    def near(self, force: float) -> list[PatternedState]:
+        """Known states on either side of an end force, the nearer first."""
+        for run in reversed(self.runs):
+            for one, other in pairwise(run):
+                slack = ROUND_OFF * abs(force)
+                if min(one.load, other.load) - slack <= force <= max(one.load, other.load) + slack:
+                    return sorted((one, other), key=lambda state: abs(state.load - force))
+        return []

@@ -1,0 +1,219 @@
+"""The legs of a load path: following, snapping, following on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import at_load, solved
+from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.following import followed
+from rodwell.analysis.off_wall.happening import END, Followed
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.resolve import resolved_event
+from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
+from rodwell.analysis.path.events import (
+    BRANCH_POINT,
+    CRITICAL,
+    FOLD,
+    LIFT_OFF,
+    SNAP,
+    TOUCH_DOWN,
+    Destination,
+    Leg,
+    PathPoint,
+)
+from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, Snap, snapped
+from rodwell.analysis.straight.critical import Mode
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.stretches.carry import rim_fields
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Value
+
+MOST_SNAPS = 12
+"""Snaps and changes of shape on a leg, after which it is given up."""
+
+FLAT = 0.05
+"""Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
+
+SLACK = 1e-9
+"""A condition on contact that is missed by no more than this part of the load is as good as met."""
+
+STILL = 1e-4
+"""The same, below which it is straight."""
+
+NO_DROP = 1e-3
+"""A state that gives way to one whose energy differs by less than this part has not snapped: the other branches off."""
+
+
+@dataclass(eq=False)
+class Walked:
+    """A leg with its events, its last state (None: straight), and why it ended ("end" if it went all the way)."""
+
+    leg: Leg
+    events: list[PathPoint] = field(default_factory=list)
+    last: PatternedState | None = None
+    ended: str = ""
+
+
+@dataclass(frozen=True)
+class How:
+    """How a path is followed: tolerance, seeds of disturbances, buckling mode, and who is told."""
+
+    rtol: float
+    seeds: int
+    mode: Mode
+    progress: Callable[[float], None] | None = None
+
+
+def straight_state(model: RodInHole, load: float) -> PatternedState:
+    """The straight rod at a load, as a chain in contact everywhere."""
+
+    def flat(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        angle = np.zeros((3, s.size))
+        return rim_fields(angle), angle
+
+    found = solved(model, Pattern((True,)), np.zeros(0), load, flat)
+    if found is None:
+        raise NotConvergedError(f"the straight rod at F = {load:.8g} B/L² is singular")
+    return found
+
+
+def walked(start: PatternedState | None, model: RodInHole, begin: float, target: float, leg: Leg, how: How) -> Walked:
+    """Go from a state, or the straight rod, at the end force ``begin`` to ``target``."""
+    out = Walked(leg, last=start)
+    sense = float(np.sign(target - begin))
+    for _ in range(MOST_SNAPS):
+        if out.last is None:
+            begin = _along_straight(out, model, begin, target, sense, how)
+            if out.ended:
+                return out
+            continue
+        path = followed(out.last, target, progress=how.progress)
+        if _came_to_rest(out, path, how):
+            begin = how.mode.force
+            continue
+        leg.runs.append(path.states)
+        out.last = path.last
+        _tell(out, path, how)
+        if path.ended == END:
+            out.ended = END
+        elif path.ended in (FOLD, BRANCH_POINT):
+            begin = path.last.load
+            _give_way(out, path, sense, how)
+        else:
+            out.ended = path.ended
+        if out.ended:
+            return out
+    out.ended = f"it snaps or branches more than {MOST_SNAPS} times"
+    return out
+
+
+def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, sense: float, how: How) -> float:
+    """Keep the rod straight as far as it is; return where it buckles."""
+    critical = Value(how.mode.force, how.mode.error)
+    if sense > 0.0 or target >= critical.value:
+        out.leg.straight.append((begin, target))
+        out.ended = END
+        return target
+    out.leg.straight.append((begin, critical.value))
+    out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
+    _to(out, straight_state(model, critical.value), sense, how, critical)
+    return critical.value
+
+
+def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
+    """Whether a path on the wall has met the straight rod, at its buckling load, and would go on along it."""
+    bent = [not _flat(state, STILL) for state in path.states]
+    if not bent[0] or all(bent):
+        return False
+    first = bent.index(False)
+    out.leg.runs.append(path.states[:first])
+    path.events = [event for event in path.events if event.state in path.states[:first]]
+    _tell(out, path, how)
+    out.events.append(PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), out.leg.name))
+    out.last = None
+    return True
+
+
+def _tell(out: Walked, path: Followed, how: How) -> None:
+    """Events of a path, located to the tolerance; loss of stability is told by what follows it."""
+    for event in path.events:
+        if event.kind == END or (event.kind == BRANCH_POINT and event is not path.events[-1]):
+            continue
+        if event.kind == BRANCH_POINT or (event.kind == FOLD and _flat(event.state)):
+            continue
+        one = resolved_event(event, how.rtol)
+        kind = event.kind
+        if kind == "gap_opens" and event.state.pattern.full:
+            kind = LIFT_OFF
+        elif kind == "gap_closes" and event.state.pattern.full:
+            kind = TOUCH_DOWN
+        state = ContactState(event.state.model.problem, event.state, one.event.state)
+        out.events.append(PathPoint(kind, one.load, tuple(map(float, event.s)), out.leg.name, None, state, one.met))
+
+
+def _flat(state: PatternedState, angle: float = FLAT) -> bool:
+    """Whether the rod lies within an angle around the hole, in contact."""
+    return state.pattern.full and not state.pattern.turns and float(np.ptp(state.solved.shape.nodes[:, 1])) < angle
+
+
+def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
+    """What follows where a state ceases to exist, or to be stable."""
+    last = path.last
+    if _flat(last):
+        critical = Value(how.mode.force, how.mode.error)
+        out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
+        out.last = None
+        return
+    load = Value(last.load, 0.0)
+    if path.events and path.events[-1].value is not None:
+        load = resolved_event(path.events[-1], how.rtol).load
+    _to(out, last, sense, how, load)
+
+
+def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value) -> None:
+    """Go where the flow leads from a state that gives way at a load."""
+    snap = None
+    for beyond in BEYOND_BUCKLING if _flat(event) else (BEYOND,):
+        snap = snap or snapped(event, sense, how.seeds, beyond)
+    if snap is None:
+        out.ended = (
+            f"the rod gives way at F = {load.value:.8g} B/L², and where it goes was not resolved: no minimum found by "
+            "descent could be solved for with its contacts"
+        )
+        return
+    found, at = _destination(snap, load)
+    if _continuous(event, snap.state, at):
+        kind = BRANCH_POINT
+        if _flat(event):
+            kind = "" if found.fine.pattern.full else LIFT_OFF
+        if kind:
+            out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
+    else:
+        energy = Value(0.0, 0.0) if found.kind == STRAIGHT else found.energy
+        to = Destination(found.kind, found.turns, energy, snap.tried, snap.agree)
+        out.events.append(PathPoint(SNAP, load, (), out.leg.name, to, found))
+    out.last = None if found.kind == STRAIGHT else snap.state
+
+
+def _continuous(event: PatternedState, after: PatternedState, at: PatternedState | None) -> bool:
+    """Whether the state after an event grows out of that before: at the load of the event itself they are the same."""
+    if at is None:
+        return True  # it exists beyond that load only
+    before, beyond = event.solved.out.energy, after.solved.out.energy
+    there = at.solved.out.energy
+    if _flat(event):
+        return abs(there) < 0.1 * abs(beyond)
+    return abs(there - before) < NO_DROP * max(abs(there), abs(before))
+
+
+def _destination(snap: Snap, load: Value) -> tuple[ContactState, PatternedState | None]:
+    """The state after a snap, at the load of the snap if it exists there, else where the flow was."""
+    at = at_load(snap.state, load.value)
+    if at is not None and (at.solved.index or any(one.value < -SLACK * abs(load.value) for one in conditions(at))):
+        at = None
+    return contact_state(at if at is not None else snap.state), at

@@ -1,0 +1,272 @@
+"""The load path of a rod in a hole: what happens as the load grows quasi-statically, and comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rodwell.analysis.discrete import first_run
+from rodwell.analysis.off_wall.arrange import at_load
+from rodwell.analysis.off_wall.conditions import conditions
+from rodwell.analysis.off_wall.happening import END
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.state import ContactState, contact_state
+from rodwell.analysis.path.checks import checked_problem
+from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
+from rodwell.analysis.path.legs import How, Walked, straight_state, walked
+from rodwell.analysis.path.start import on_wall
+from rodwell.analysis.path.words import sentences
+from rodwell.analysis.straight.critical import critical_loads
+from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
+from rodwell.faces import Shown, drawn
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
+from rodwell.quantities.value import Value
+
+if TYPE_CHECKING:
+    from rodwell.faces import Axes
+
+SEEDS = 3
+"""Random disturbances with which a rod that gives way is sent downhill, either way along its softest direction."""
+
+ASSUMPTIONS = "quasi-static, frictionless and without inertia; dead end force, hard wall"
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class PathState:
+    """A state at a load asked for, and on which leg."""
+
+    leg: str
+    state: ContactState
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        return {"leg": self.leg, **self.state.as_dict()}
+
+
+@dataclass(frozen=True, eq=False)
+class LoadPath(Shown):
+    """What happens to a rod as the end force grows quasi-statically and, if asked for, comes back.
+
+    Attributes
+    ----------
+    problem
+        The rod in its hole.
+    until, unload_to
+        End forces at s = 1 in B/L², tension positive, to which it is loaded, and unloaded (None: not).
+    events
+        In order of happening: :class:`PathPoint`.
+    legs
+        The states that were found along the way, in order.
+    reached
+        Whether the path was followed all the way.
+    ended_because
+        Why it ended.
+    rtol
+        The tolerance asked for.
+    mirror
+        Whether it took the other arm of the buckling mode.
+    """
+
+    problem: Problem
+    until: float
+    unload_to: float | None
+    events: tuple[PathPoint, ...]
+    legs: tuple[Leg, ...]
+    reached: bool
+    ended_because: str
+    rtol: float
+    mirror: bool = False
+
+    def __repr__(self) -> str:
+        return f"<LoadPath to {self.until:g} B/L²: " + ", ".join(
+            f"{one.kind} {one.force.value:.6g}" for one in self.events
+        ) + ">"  # fmt: skip
+
+    def first(self, kind: str, leg: str | None = None) -> PathPoint | None:
+        """The first event of a kind (on a leg), or None."""
+        return next((one for one in self.events if one.kind == kind and leg in (None, one.leg)), None)
+
+    @property
+    def lift_off(self) -> PathPoint | None:
+        """Where the rod lifts off first, on loading."""
+        return self.first(LIFT_OFF, LOADING)
+
+    @property
+    def snaps(self) -> tuple[PathPoint, ...]:
+        """All snaps, in order."""
+        return tuple(one for one in self.events if one.kind == SNAP)
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """Events whose load misses the tolerance, in words."""
+        return tuple(
+            f"{one.kind} at {one.force.value:.8g} ± {one.force.error:.0e}" for one in self.events if not one.met
+        )
+
+    def at(self, force: float) -> tuple[PathState, ...]:
+        """States at an end force, one for each leg that passes it.
+
+        Raises
+        ------
+        InputError
+            If no leg passes it.
+        NotConvergedError
+            If the state could not be solved for.
+        """
+        force = checked_force("force", force)
+        found = [PathState(leg.name, self._on(leg, force)) for leg in self.legs if _passes(leg, force)]
+        if not found:
+            raise InputError("force", force, f"the path does not pass it: {self.ended_because or 'see its events'}")
+        return tuple(found)
+
+    @property
+    def meaning(self) -> tuple[str, ...]:
+        """What happens, in sentences: loads as compression at s = 1 in B/L²."""
+        return sentences(self.events)
+
+    def _on(self, leg: Leg, force: float) -> ContactState:
+        model = RodInHole(self.problem)
+        if any(min(a, b) <= force <= max(a, b) for a, b in leg.straight):
+            return contact_state(straight_state(model, force))
+        for near in leg.near(force):
+            state = at_load(near, force)
+            if state is not None and all(one.value > -1e-9 for one in conditions(state)):
+                return contact_state(state)
+        raise NotConvergedError(f"no state of the {leg.name} path was found at F = {force:.8g} B/L²")
+
+    @cached_property
+    def curve(self) -> dict[str, FloatArray]:
+        """Load, shortening and energy of all states in order: ``force``, ``shortening``, ``energy``, ``run`` (k,) each.
+
+        ``run`` counts unbroken pieces: a snap leads from one to the next.
+        """
+        rows = []
+        run, square = 0, self.problem.clearance**2
+        for leg in self.legs:
+            for a, b in leg.straight[:1] if leg.name == LOADING else []:
+                rows += [(a, 0.0, 0.0, run), (b, 0.0, 0.0, run)]
+            for states in leg.runs:
+                rows += [
+                    (s.load, s.solved.out.energy_by_load * square, s.solved.out.energy * square, run) for s in states
+                ]
+                run += 1
+            for a, b in leg.straight if leg.name == UNLOADING else []:
+                rows += [(a, 0.0, 0.0, run), (b, 0.0, 0.0, run)]
+        columns = np.array(rows, dtype=float).reshape(-1, 4).T
+        return dict(zip(("force", "shortening", "energy", "run"), columns, strict=True))
+
+    def as_dict(self, at: Sequence[float] = ()) -> dict[str, Any]:
+        """Plain data, for JSON, with the states at the end forces ``at``."""
+        return {
+            "events": [one.as_dict() for one in self.events],
+            "states": [one for force in at for one in self._plain_states(force)],
+            "reached": self.reached,
+            "ended_because": self.ended_because,
+            "assumptions": ASSUMPTIONS,
+        }
+
+    def _plain_states(self, force: float) -> list[dict[str, Any]]:
+        """States at an end force as plain data, or why there is none."""
+        try:
+            return [state.as_dict() for state in self.at(force)]
+        except RodwellError as error:
+            return [{"force": force, "reached": False, "why": str(error)}]
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw load against shortening, with events and snaps."""
+        return drawn(self, ax)
+
+
+def _passes(leg: Leg, force: float) -> bool:
+    return bool(leg.near(force)) or any(min(a, b) <= force <= max(a, b) for a, b in leg.straight)
+
+
+def load_path(
+    problem: Problem,
+    *,
+    until: float,
+    unload_to: float | None = None,
+    mirror: bool = False,
+    seeds: int = SEEDS,
+    rtol: float = RTOL,
+    progress: Progress | None = None,
+) -> LoadPath:
+    """Load a rod in a hole quasi-statically, let it buckle, lift off, and snap where it must, and unload it.
+
+    Parameters
+    ----------
+    problem
+        The rod; it may leave the wall.
+    until
+        End force at s = 1 in B/L², tension positive, to which the compression grows.
+    unload_to
+        End force to which it is taken back; None: not at all.
+    mirror
+        The other of the two arms of the buckling mode: with twist they differ.
+    seeds
+        How many random disturbances, each either way along the softest direction, are tried where the rod gives way.
+    rtol
+        Relative tolerance of every load reported.
+    progress
+        Called with the leg and the end force of each new state.
+
+    Raises
+    ------
+    InputError
+        For a rod outside the cylinder or on top of it, for loads out of range or order.
+    NotConvergedError
+        If the straight rod's critical load, or the path's first state, could not be computed.
+    """
+    first_run.begin()
+    checked_problem(problem)
+    until, rtol = checked_force("until", until), checked_rtol(rtol)
+    unload_to = None if unload_to is None else checked_force("unload_to", unload_to)
+    if unload_to is not None and unload_to <= until:
+        raise InputError("unload_to", unload_to, f"must be above until, {until:g} B/L²: less compression")
+    seeds = checked_whole("seeds", seeds, 1, 100)
+    mode = critical_loads(problem, 1, rtol=rtol)[0]
+
+    def told(leg: str) -> Callable[[float], None] | None:
+        return None if progress is None else lambda force: progress(leg, force)
+
+    up = _loaded(problem, until, mirror, How(rtol, seeds, mode, told(LOADING)))
+    walks = [up]
+    if up.ended == END and unload_to is not None:
+        how = How(rtol, seeds, mode, told(UNLOADING))
+        walks.append(walked(up.last, RodInHole(problem), until, unload_to, Leg(UNLOADING), how))
+    ended = next((walk.ended for walk in walks if walk.ended != END), "")
+    events = tuple(event for walk in walks for event in walk.events)
+    return LoadPath(problem, until, unload_to, events, tuple(w.leg for w in walks), not ended, ended, rtol, mirror)
+
+
+def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
+    """The leg of growing compression."""
+    model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    if until >= how.mode.force:
+        return walked(None, model, max(top, until), until, leg, how)
+    stays = problem.pressed and "ball" not in problem.ends
+    begun = on_wall(problem, 1, mirror, until, how.rtol) if stays else None
+    if begun is None:
+        return walked(None, model, top, until, leg, how)
+    critical = PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), LOADING)
+    leg.straight.append((top, how.mode.force))
+    out = walked(begun.start, model, begun.start.load, until, leg, how)
+    out.events.insert(0, critical)
+    _add_wall(leg, model, begun)
+    return out
+
+
+def _add_wall(leg: Leg, model: RodInHole, begun: Any) -> None:
+    """States on the wall before the chains begin, as chains too: for curves and for states at loads."""
+    from rodwell.analysis.path.start import carried  # noqa: PLC0415
+
+    states = [carried(model, begun.branch[i]) for i in begun.states[:-1]]
+    leg.runs[0] = [state for state in states if state is not None] + leg.runs[0]

@@ -1,0 +1,134 @@
+"""Where a rod goes when its state ceases to be stable: downhill, from the direction in which it gave way.
+
+The state is kicked along the softest direction, either way, and by small random disturbances, at a load just beyond;
+the gradient flow behind a soft wall leads to a minimum, whose pattern of contact is then solved for behind the hard
+wall. Frictionless, and without inertia: a rod that swings may end elsewhere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import arranged, wavenumber
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.recognise import recognised
+from rodwell.numerics.stretches.assembly import bubbles_of
+from rodwell.numerics.stretches.carry import Sampler, sampler
+from rodwell.numerics.stretches.chain import Shape
+from rodwell.numerics.stretches.descent import descended
+from rodwell.numerics.stretches.newton import Solved, softest
+from rodwell.quantities.arrays import FloatArray
+
+BEYOND = 1e-3
+"""How far beyond the loss of stability the flow starts, relative to the load."""
+
+BEYOND_BUCKLING = (2e-4, 2e-3, 1e-2)
+"""The same for the straight rod, tried one after the other: what branches off from it is small at first."""
+
+KICK, NOISE = 0.05, 0.02
+"""Largest displacement, in Δ, of the kick along the softest direction, and size of the random ones."""
+
+WAVES = 5
+"""Half-waves of the random disturbances."""
+
+STIFFNESS = 1e6
+"""Stiffness of the soft wall, in units B/L⁴."""
+
+FLOW_DEGREE, ELEMENTS_PER_HALF_WAVE, FEWEST_ELEMENTS = 7, 3.0, 12
+
+SAME_ENERGY = 1e-6
+"""States whose energies agree to this part are the same, up to mirror images."""
+
+
+@dataclass(frozen=True, eq=False)
+class Snap:
+    """Where the flow leads, and how sure that is.
+
+    ``agree`` of ``tried`` starts ended in ``state``, or its mirror image; ``others`` are the energies of other minima
+    behind the soft wall, in BΔ²/L³.
+    """
+
+    state: PatternedState
+    tried: int
+    agree: int
+    others: tuple[float, ...]
+
+
+def snapped(event: PatternedState, sense: float, seeds: int, beyond: float = BEYOND) -> Snap | None:
+    """The state to which the rod goes from one that has just ceased to be stable; ``sense`` of the load's change.
+
+    None if no start led to a state that could be solved.
+    """
+    load = event.load + sense * beyond * max(abs(event.load), 1.0)
+    minima: list[Solved] = []
+    for seed in range(seeds):
+        for sign in (1.0, -1.0):
+            low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), load)
+            if low is not None:
+                minima.append(low)
+    scale = abs(event.solved.out.energy)
+    for group in _alike(minima, scale):
+        state = recognised(event.model, group[0].shape)
+        if state is not None:
+            others = tuple(sorted({round(one.out.energy, 9) for one in minima if one not in group}))
+            return Snap(state, 2 * seeds, len(group), others)
+    return None
+
+
+def _alike(minima: list[Solved], scale: float) -> list[list[Solved]]:
+    """Minima of equal energy, which are the same up to mirror images; the largest group first, then the lowest."""
+    groups: list[list[Solved]] = []
+    for one in sorted(minima, key=lambda low: low.out.energy):
+        size = SAME_ENERGY * max(abs(one.out.energy), scale)
+        if groups and abs(groups[-1][0].out.energy - one.out.energy) <= size:
+            groups[-1].append(one)
+        else:
+            groups.append([one])
+    return sorted(groups, key=lambda group: (-len(group), group[0].out.energy))
+
+
+def _flowed(event: PatternedState, sample: Sampler, load: float) -> Solved | None:
+    """The minimum behind a soft wall to which the flow leads from a sampled shape at a load."""
+    model = event.model
+    count = max(FEWEST_ELEMENTS, int(np.ceil(ELEMENTS_PER_HALF_WAVE * wavenumber(model, load) / np.pi)))
+    shape, _ = arranged(
+        model, Pattern((False,), event.pattern.turns), np.zeros(0), load, sample, degree=FLOW_DEGREE, elements=(count,)
+    )
+    return descended(model, shape, STIFFNESS)
+
+
+def _kicked(state: Solved, sign: float) -> Shape:
+    """A state displaced along the direction in which it is softest."""
+    shape = state.shape
+    direction = softest(state).reshape(-1, 4)
+    nodes = sign * KICK / max(float(np.max(np.abs(direction[:, :2]))), 1e-12) * direction
+    still = np.zeros(shape.breaks.size)
+    return shape.moved(nodes, bubbles_of(state.out, nodes, still, 0.0, 0.0), still, 0.0)
+
+
+def _disturbed(shape: Shape, seed: int) -> Sampler:
+    """A sampler of a shape with small random waves that vanish, with their slopes, at the ends."""
+    base, rng = sampler(shape), np.random.default_rng(seed)
+    sizes = NOISE * rng.standard_normal((2, WAVES))
+
+    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        fields, angle = base(s)
+        fields = fields.copy()
+        envelope = np.sin(np.pi * s) ** 2, np.pi * np.sin(2.0 * np.pi * s), 2.0 * np.pi**2 * np.cos(2.0 * np.pi * s)
+        for k in range(WAVES):
+            w = (k + 1) * np.pi
+            wave = np.cos(w * s), -w * np.sin(w * s), -(w**2) * np.cos(w * s)
+            both = (
+                envelope[0] * wave[0],
+                envelope[1] * wave[0] + envelope[0] * wave[1],
+                envelope[2] * wave[0] + 2.0 * envelope[1] * wave[1] + envelope[0] * wave[2],
+            )
+            for i in range(2):
+                for order in range(3):
+                    fields[i, order] += sizes[i, k] * both[order]
+        return fields, angle
+
+    return sample

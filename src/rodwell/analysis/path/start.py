@@ -1,0 +1,74 @@
+"""How a load path begins: straight rod, buckling, and the rod that has buckled on the wall."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.follow import follow
+from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.arrange import solved
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.numerics.stretches.carry import Sampler, rim_fields
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+ENOUGH = 0.02
+"""Largest angle around the hole, in radians, from which on a buckled state is a start for a chain."""
+
+
+@dataclass(frozen=True, eq=False)
+class OnWall:
+    """The part of the path on the wall: the branch that was followed there, and the state from which chains go on."""
+
+    branch: Branch
+    states: tuple[int, ...]
+    start: PatternedState
+
+
+def sampled(solution: Solution) -> Sampler:
+    """Sample a state of the rod kept on the wall."""
+    family, state = solution.meshes.fine, solution.point.fine
+    clearance, rise = solution.problem.clearance, solution.problem.rise
+
+    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        angle = np.array(family.space.evaluate(state.c, s, 3)) / clearance
+        angle[0] += rise * s / clearance
+        angle[1] += rise / clearance
+        return rim_fields(angle), angle
+
+    return sample
+
+
+def carried(model: RodInHole, solution: Solution) -> PatternedState | None:
+    """A state of the rod kept on the wall as a chain of one stretch in contact."""
+    pattern = Pattern((True,), solution.problem.turns)
+    return solved(model, pattern, np.zeros(0), solution.force, sampled(solution))
+
+
+def on_wall(problem: Problem, mode: int, mirror: bool, until: float, rtol: float) -> OnWall | None:
+    """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is not stable at first."""
+    model = RodInHole(problem)
+    branch = follow(problem, mode, until=None, mirror=mirror, rtol=rtol)
+    kept: list[int] = []
+    force = branch.force
+    for i in range(1, len(branch)):
+        past = branch.lift_off is not None and force[i] <= branch.lift_off.force
+        if past or branch.stability_index[i] != 0 or force[i] >= force[i - 1] or force[i] <= until:
+            break
+        kept.append(i)
+    amplitudes = [(i, _amplitude(branch[i])) for i in kept[::-1]]
+    for i, amplitude in amplitudes:
+        if amplitude >= ENOUGH:
+            start = carried(model, branch[i])
+            if start is not None and start.solved.index == 0:
+                return OnWall(branch, tuple(k for k in kept if k <= i), start)
+    return None
+
+
+def _amplitude(solution: Solution) -> float:
+    return float(np.max(np.abs(sampled(solution)(np.linspace(0.0, 1.0, 101))[1][0])))

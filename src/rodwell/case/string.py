@@ -1,0 +1,216 @@
+"""[[string]] of a case file: a string of sections, from the bottom up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from rodwell.case import schema
+from rodwell.case.catalogue import Catalogue
+from rodwell.case.facts import Fact
+from rodwell.case.fluids import Fluids, checked_weight, fluids_of
+from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.errors import InputError
+from rodwell.problem.rod import Section
+
+EQUAL = 1e-9
+"""Relative difference of lengths, and of clearances, that counts as none."""
+
+BESIDE = ("ends", "length")
+"""Keys of [rod] that may stand beside [[string]]."""
+
+
+@dataclass(frozen=True)
+class Member:
+    """A section of a string: its name, the rod that it is in SI units, and its weight in the fluids in N/m."""
+
+    number: int
+    name: str
+    rod: PhysicalRod
+    weight: float
+
+    @property
+    def key(self) -> str:
+        """How the section is called in messages: its number from the bottom, and its name."""
+        return called(self.number, self.name)
+
+    @property
+    def torsional_stiffness(self) -> float:
+        """C in N m²."""
+        ratio = 1.0 / (1.0 + self.rod.poisson) if self.rod.torsion is None else self.rod.torsion
+        return ratio * self.rod.stiffness
+
+
+@dataclass(frozen=True)
+class PhysicalString:
+    """Sections from the bottom (s = 0) up."""
+
+    members: tuple[Member, ...]
+
+    @cached_property
+    def length(self) -> float:
+        """Of the whole, in m."""
+        return sum(member.rod.length for member in self.members)
+
+    @cached_property
+    def weight(self) -> float:
+        """Mean weight per length in the fluids in N/m."""
+        return sum(member.weight * member.rod.length for member in self.members) / self.length
+
+    @cached_property
+    def longest(self) -> Member:
+        """The longest section, the first of equals: its stiffness is the unit B."""
+        return max(self.members, key=lambda member: member.rod.length)
+
+    @cached_property
+    def ends(self) -> tuple[tuple[float, float], ...]:
+        """Where each section begins and ends, s/L."""
+        out, below = [], 0.0
+        for member in self.members:
+            out.append((below / self.length, (below + member.rod.length) / self.length))
+            below += member.rod.length
+        return tuple(out)
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """Lengths in L, and ratios to the longest section's stiffness and the mean weight."""
+        unit, mean = self.longest, self.weight
+        return tuple(
+            (
+                one.rod.length / self.length,
+                one.rod.stiffness / unit.rod.stiffness,
+                one.weight / mean if mean > 0.0 else 1.0,
+                1.0,
+                one.torsional_stiffness / unit.torsional_stiffness,
+            )
+            for one in self.members
+        )
+
+    @cached_property
+    def whole(self) -> PhysicalRod:
+        """A rod of the whole length with the longest section's data, the mean weight in air and no strength."""
+        air = sum(one.rod.weight_in_air * one.rod.length for one in self.members) / self.length
+        return replace(self.longest.rod, length=self.length, weight_in_air=air, yield_strength=None, facts=())
+
+    def at_end(self, bottom: bool) -> PhysicalRod:
+        """The rod at the lower or the upper end."""
+        return self.members[0 if bottom else -1].rod
+
+    def facts(self) -> tuple[Fact, ...]:
+        """Where the numbers of each section come from."""
+        note = "the longest section; weights are set against their mean"
+        out = [Fact("unit of stiffness B", self.longest.key, note=note)]
+        for one in self.members:
+            out += [replace(fact, label=f"{one.key}: {fact.label}") for fact in one.rod.facts]
+        return tuple(out)
+
+
+def called(number: int, name: str = "") -> str:
+    """How a section is called in messages."""
+    return f"string {number}" + (f" ({name})" if name else "")
+
+
+def check_beside(rod: object, string: object) -> None:
+    """Refuse what cannot stand in [rod] beside [[string]], lists and uncertainties in it, before anything is read."""
+    for key, value in rod.items() if isinstance(rod, Mapping) else ():
+        if key not in BESIDE and key in schema.RodInput.model_fields:
+            what = "cannot stand beside [[string]], whose sections have their own: leave it out, or [[string]]"
+            raise InputError(f"rod.{key}", value, what)
+    if not isinstance(string, Sequence) or isinstance(string, str):
+        what = "must be sections: write [[string]], with two brackets, for each, from the bottom up"
+        raise InputError("string", None, what)
+    for number, section in enumerate(string, 1):
+        for key, value in section.items() if isinstance(section, Mapping) else ():
+            if isinstance(value, list | tuple | Mapping):
+                what = "is a list: it is neither a taper nor a study here; write one [[string]] for each section"
+                raise InputError(f"{called(number)}.{key}", value, what)
+            if isinstance(value, str) and any(sign in value for sign in ("±", "+/-", "+-")):
+                what = "cannot have an uncertainty here: [rod], [hole], [mud] and [load] take them; give a value alone"
+                raise InputError(f"{called(number)}.{key}", value, what)
+
+
+def string_of(
+    given: Sequence[schema.StringInput],
+    hole: schema.Hole,
+    mud: schema.Mud | None,
+    pressure: schema.PressureAtEnd | None,
+    catalogue: Catalogue,
+) -> tuple[PhysicalString, Fluids]:
+    """Return the string that [[string]] describes, and the fluids in and around it.
+
+    Raises
+    ------
+    InputError
+        Naming section and key that is missing, contradicts another, or is not in the catalogue.
+    """
+    members, fluids = [], None
+    for number, one in enumerate(given, 1):
+        name = one.name or one.pipe or f"section {number}"
+        with _as_section(number, name):
+            rod = physical_rod(one, hole.gravity, catalogue, _length(one))
+            fluids = fluids_of(mud, pressure, rod)
+            members.append(Member(number, name, rod, checked_weight(fluids, rod, hole.gravity)))
+    if fluids is None:
+        raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
+    return PhysicalString(tuple(members)), fluids
+
+
+def check_length(string: PhysicalString, length: float | None) -> None:
+    """Refuse a rod.length that is not that of its sections."""
+    if length is not None and abs(length - string.length) > EQUAL * string.length:
+        parts = " + ".join(f"{one.rod.length:.6g}" for one in string.members)
+        what = f"is not that of the sections, {parts} = {string.length:.6g} m: correct one, or leave rod.length out"
+        raise InputError("rod.length", length, what)
+
+
+def clearance_of(string: PhysicalString, hole: schema.Hole, of_one: Callable[[PhysicalRod], float]) -> float:
+    """The clearance Δ in m, which all sections must share; ``of_one`` gives that of a section."""
+    found = []
+    for one in string.members:
+        outer = one.rod.outer_diameter
+        if hole.diameter is not None and outer is not None and outer >= hole.diameter:
+            what = f"must be below the hole's diameter of {hole.diameter:g} m: the section does not fit"
+            raise InputError(f"{one.key}.outer_diameter", outer, what)
+        with _as_section(one.number, one.name):
+            found.append(of_one(one.rod))
+    if max(found) - min(found) > EQUAL * max(found):
+        shown = ", ".join(f"{size:.4g} m ({one.name})" for size, one in zip(found, string.members, strict=True))
+        what = (
+            f"leaves a different clearance beside each section: {shown}. A step of the clearance lifts the string off "
+            "the wall beside it, and this is the theory of a rod on the wall: give hole.clearance, that of the part "
+            "that matters"
+        )
+        raise InputError("hole.diameter", hole.diameter, what)
+    return found[0]
+
+
+def _length(one: schema.StringInput) -> float:
+    """Length of a section: as given, or that of its joints."""
+    if one.length is not None:
+        for key in ("joints", "joint_length"):
+            if getattr(one, key) is not None:
+                raise InputError(f"rod.{key}", getattr(one, key), "contradicts length: give only one of the two")
+        return one.length
+    if one.joints is None:
+        raise InputError("rod.length", None, "is missing: give it, or joints and joint_length")
+    if one.joint_length is None:
+        raise InputError("rod.joint_length", None, "is missing: the length of one joint is needed with joints")
+    return one.joints * one.joint_length
+
+
+@contextmanager
+def _as_section(number: int, name: str) -> Iterator[None]:
+    """Give errors of what is stated for [rod] the name of a section of [[string]]."""
+    try:
+        yield
+    except InputError as error:
+        field: str = error.field
+        if field.startswith("rod."):
+            field = f"{called(number, name)}.{field.removeprefix('rod.')}"
+        raise InputError(field, error.value, _of_section(error.reason)) from None
+
+
+def _of_section(reason: str) -> str:
+    return reason.replace("rod.", "")

@@ -1,0 +1,105 @@
+"""[[string]] of a case file: the sections of a string, from the bottom up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from pydantic import Field
+
+from rodwell.case.catalogue import Catalogue
+from rodwell.case.fluids import Fluids, checked_weight, fluids_of
+from rodwell.case.kinds import Length, Name
+from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.case.schema import Mud, PressureAtEnd, RodInput
+from rodwell.errors import InputError
+
+MOST_SECTIONS = 200
+"""Sections that a string may have."""
+
+
+class StringPart(RodInput):
+    """[[string]]: a section of the string, from the bottom up; the keys of [rod] say what it is."""
+
+    name: Name | None = Field(None, description="what the section is called in tables", examples=["drill collars"])
+    length: Length | None = Field(  # type: ignore[assignment]
+        None, description="length of the section; that of the uppermost may be left out: it reaches to the surface",
+        examples=["90 m"],
+    )  # fmt: skip
+    joints: int | None = Field(
+        None, description="number of joints, instead of `length`", examples=[9], strict=True, ge=1, le=10_000
+    )
+    joint_length: Length | None = Field(
+        None, description="length of a joint, with `joints`", examples=["9.45 m", "31 ft"]
+    )
+
+
+@dataclass(frozen=True)
+class StringSection:
+    """A section of a string: name, rod, weight in the fluids in N/m, fluids; length ``inf``: up to the surface."""
+
+    name: str
+    rod: PhysicalRod
+    weight: float
+    fluids: Fluids
+
+
+def key_of_part(number: int, key: str) -> str:
+    """How a key of a section is called in messages, counted from 1 at the bottom."""
+    return f"[[string]] {number + 1}, {key}"
+
+
+def string_sections(
+    parts: Sequence[StringPart], gravity: float, mud: Mud | None, pressure: PressureAtEnd | None, catalogue: Catalogue
+) -> tuple[StringSection, ...]:
+    """Return the sections of a string in SI units, from the bottom up.
+
+    Raises
+    ------
+    InputError
+        Naming the section (from 1 at the bottom) and the key that is missing, contradicts another, or is not in the
+        catalogue.
+    """
+    if not parts:
+        raise InputError("string", None, "is missing: give [[string]] for each section, from the bottom up")
+    if len(parts) > MOST_SECTIONS:
+        raise InputError("string", len(parts), f"has more than {MOST_SECTIONS} sections: join those that are alike")
+    out = []
+    for i, part in enumerate(parts):
+        length = _length(part, i, last=i == len(parts) - 1)
+        given = part.model_copy(update={"length": length})
+        try:
+            rod = physical_rod(given, gravity, catalogue, length)
+            fluids = fluids_of(mud, pressure, rod)
+            weight = checked_weight(fluids, rod, gravity)
+        except InputError as error:
+            raise _renamed(error, i) from None
+        out.append(StringSection(part.name or part.pipe or f"section {i + 1}", rod, weight, fluids))
+    return tuple(out)
+
+
+def _length(part: StringPart, number: int, last: bool) -> float:
+    """Length of a section in m; infinite where it is left open."""
+    if "ends" in part.model_fields_set:
+        raise InputError(key_of_part(number, "ends"), part.ends, "has no meaning for a section of a string: leave it "
+                         "out")  # fmt: skip
+    if part.joints is None:
+        if part.joint_length is not None:
+            raise InputError(key_of_part(number, "joints"), None, "is missing: joint_length needs it")
+        if part.length is None and not last:
+            raise InputError(key_of_part(number, "length"), None, "is missing: only the uppermost section may leave it "
+                             "out; give it, or joints and joint_length")  # fmt: skip
+        return math.inf if part.length is None else part.length
+    if part.length is not None:
+        raise InputError(key_of_part(number, "length"), part.length, "contradicts joints: give only one of the two")
+    if part.joint_length is None:
+        raise InputError(key_of_part(number, "joint_length"), None, 'is missing: joints needs it, for example "9.45 m"')
+    return part.joints * part.joint_length
+
+
+def _renamed(error: InputError, number: int) -> InputError:
+    """An error about [rod] as one about a section."""
+    field = error.field
+    name = key_of_part(number, field.removeprefix("rod.")) if field.startswith("rod.") else field
+    return InputError(name, error.value, error.reason.replace("rod.", ""))

@@ -1,0 +1,165 @@
+"""``rodwell path``: what happens to a rod in its hole as the load grows, and comes back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rodwell.cli.listing import wrapped
+from rodwell.cli.options import (
+    OutPath,
+    check_missed,
+    json_option,
+    make_problem,
+    print_json,
+    print_written,
+    problem_options,
+    progress_bar,
+    rtol_option,
+)
+from rodwell.errors import InputError
+
+if TYPE_CHECKING:
+    from rodwell.analysis.path.load_path import LoadPath, PathState
+
+UNIT = "B/L²"
+
+
+@click.command(short_help="The load path off the wall: lift-off, partial contact, snap, helix, and back.")
+@problem_options()
+@click.option("--until", type=float, required=True, help="End force at s = 1 (tension positive) to load the rod to.")
+@click.option("--unload-to", type=float, help="End force to unload it to afterwards.")
+@click.option("--at", help="End forces, separated by commas, at which states are shown.")
+@click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
+@click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
+@click.option("--out", type=OutPath(), help="Folder for a figure of the path, load against shortening.")
+@rtol_option
+@json_option
+def path(
+    until: float,
+    unload_to: float | None,
+    at: str | None,
+    mirror: bool,
+    seeds: int,
+    out: Path | None,
+    rtol: float,
+    as_json: bool,
+    **given: Any,
+) -> None:
+    """What happens as the load grows quasi-statically, and comes back.
+
+    Buckling, lift-off, gaps, points of contact, loss of stability, where the rod snaps to, the helix, and the way
+    back. The rod may leave the wall; frictionless and without inertia. End force at s = 1 in B/L², tension positive;
+    places in parts of the length, gaps in parts of the clearance.
+    """
+    from rodwell.analysis.path.load_path import load_path  # noqa: PLC0415
+
+    problem, forces = make_problem(given), _forces(at)
+    if out is not None:
+        from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+        check_writable(out)
+    span = abs(until) + 1e-12
+
+    with progress_bar(not as_json, "buckling") as tell:
+        result = load_path(
+            problem, until=until, unload_to=unload_to, mirror=mirror, seeds=seeds, rtol=rtol,
+            progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
+        )  # fmt: skip
+    files: tuple[str, ...] = ()
+    if out is not None:
+        from rodwell.report.folders.path import write_path  # noqa: PLC0415
+
+        files = write_path(result, out, forces)
+    if as_json:
+        from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+        convention = "end force F at s = 1, tension positive; places in L, gaps in clearances; "
+        print_json(
+            {
+                **result.as_dict(forces),
+                "converged": not result.missed,
+                "unit": "B/L^2",
+                "convention": convention + ends_text(problem),
+            }
+        )
+    else:
+        _print(result)
+        for force in forces:
+            _print_states(result, force)
+        if out is not None:
+            print_written(out, files)
+    check_missed(result.missed, rtol)
+
+
+def _forces(at: str | None) -> list[float]:
+    try:
+        return [float(part) for part in at.split(",")] if at else []
+    except ValueError:
+        raise InputError("--at", at, "must be end forces in B/L², plain numbers separated by commas") from None
+
+
+def _print_states(result: LoadPath, force: float) -> None:
+    """The states at an end force, or why there is none: that ends nothing."""
+    from rodwell.errors import RodwellError  # noqa: PLC0415
+
+    try:
+        for state in result.at(force):
+            _print_state(state)
+    except RodwellError as error:
+        click.echo("")
+        wrapped(f"F = {force:g}: not reached. {error}")
+
+
+def _print(result: LoadPath) -> None:
+    """Events as a list."""
+    from rodwell.analysis.path.load_path import ASSUMPTIONS  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; {ASSUMPTIONS}.")
+    leg = ""
+    for event in result.events:
+        if event.leg != leg:
+            leg = event.leg
+            click.echo(f"{leg}:")
+        where = _places(event.s)
+        click.echo(f"  {event.force.value:+.10g}  ± {event.force.error:.0e}  {event.meaning}{where}")
+        if event.to is not None:
+            energy = f"energy {event.to.energy.value:+.9g} B/L relative to the straight rod"
+            click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
+    if result.reached:
+        click.echo(f"Followed to F = {result.until:g}" + (
+            "." if result.unload_to is None else f" and back to {result.unload_to:g}."
+        ))  # fmt: skip
+    else:
+        wrapped(f"Not followed to the end: {result.ended_because}.")
+    if result.problem.twist != 0.0:
+        arm = "without" if result.mirror else "with"
+        wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")
+
+
+def _places(s: tuple[float, ...]) -> str:
+    return "" if not s else ", s/L = " + ", ".join(f"{place:.5g}" for place in s)
+
+
+def _print_state(shown: PathState) -> None:
+    state = shown.state
+    stable = "stable" if state.stability_index == 0 else f"unstable, index {state.stability_index}"
+    click.echo(f"\nF = {state.force:+.10g}, {shown.leg}: {state.kind}, {stable}")
+    click.echo(
+        f"  energy {state.energy.value:+.9g} ± {state.energy.error:.0e} B/L, shortening {state.shortening.value:.9g} L"
+    )
+    for gap in state.gaps:
+        size = f"{gap.largest.value:.6g} Δ at s/L = {gap.at:.5g}"
+        click.echo(f"  gap      {gap.start.value:.6f} to {gap.end.value:.6f}   {size}")
+    for contact in state.contacts:
+        force = f"{contact.force.value:.6g} {UNIT}"
+        click.echo(f"  contact  {contact.start.value:.6f} to {contact.end.value:.6f}   {force} spread along it")
+    for point in state.point_forces:
+        what = "at a point of contact" if point.kind == "point" else "at the end of a stretch in contact"
+        click.echo(f"  force    {point.s.value:.6f}              {point.force.value:.6g} {UNIT} {what}")
+    check = state.certificate
+    passed = "passed" if check.passed else "NOT passed"
+    click.echo(f"  all contact forces {state.contact_total.value:.7g} {UNIT}; certificate {passed}, {check.worst:.0e}")

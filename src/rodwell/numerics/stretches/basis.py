@@ -1,0 +1,82 @@
+"""Polynomials of an element: four that carry value and slope at the ends, and bubbles that vanish with theirs.
+
+On [0, 1] the first four are Hermite's cubics, in the order value at 0, slope at 0, value at 1, slope at 1. The bubbles
+are the second integrals of Legendre polynomials P₂, P₃, …: both they and their slopes vanish at the ends, and their
+second derivatives are orthogonal to each other and to those of the cubics. So a linear beam's matrix is diagonal in
+them whatever the degree, elements of degree 12 are as well-conditioned as cubics, and a state is carried over to a
+higher degree by appending zeros.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import Polynomial, legendre
+
+from rodwell.quantities.arrays import FloatArray
+
+ENDS = 4
+"""Functions that carry values and slopes at the two ends."""
+
+
+class ReferenceElement(NamedTuple):
+    """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points``, ``weights`` (q,) on [0, 1]."""
+
+    degree: int
+    table: FloatArray
+    points: FloatArray
+    weights: FloatArray
+
+
+@lru_cache(maxsize=32)
+def reference_element(degree: int) -> ReferenceElement:
+    """Return the functions of an element of this degree; the rule is exact to degree 2p + 3."""
+    points, weights = legendre.leggauss(degree + 2)
+    places = 0.5 * (points + 1.0)
+    return ReferenceElement(degree, tabulate(degree, places, 3), places, 0.5 * weights)
+
+
+@lru_cache(maxsize=32)
+def _coefficients(degree: int) -> FloatArray:
+    """Legendre coefficients in t = 2ξ − 1 of all functions, (p+1, p+1), one function a column."""
+    out = np.zeros((degree + 1, degree + 1))
+    cubics = np.array([[1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1]], dtype=float)
+    for i, cubic in enumerate(cubics):  # in powers of ξ = (t + 1)/2
+        out[:ENDS, i] = legendre.poly2leg(Polynomial(cubic)(Polynomial([0.5, 0.5])).coef)
+    for i in range(ENDS, degree + 1):
+        j, scale = i - 2, 0.25 * np.sqrt(2.0 * i - 3.0)
+        out[j + 2, i] = scale / ((2 * j + 1) * (2 * j + 3))
+        out[j, i] = -2.0 * scale / ((2 * j - 1) * (2 * j + 3))
+        out[j - 2, i] = scale / ((2 * j - 1) * (2 * j + 1))
+    return out
+
+
+@lru_cache(maxsize=64)
+def _derivatives(degree: int, orders: int) -> FloatArray:
+    """Legendre coefficients of all functions and their derivatives by ξ, (orders, p+1, p+1)."""
+    out = np.zeros((orders, degree + 1, degree + 1))
+    out[0] = _coefficients(degree)
+    for order in range(1, orders):
+        out[order, :-1] = 2.0 * legendre.legder(out[order - 1])
+    return out
+
+
+def tabulate(degree: int, places: FloatArray, orders: int) -> FloatArray:
+    """All functions and their first ``orders`` − 1 derivatives by ξ at ``places`` (k,): (orders, k, p+1)."""
+    t = 2.0 * np.asarray(places, dtype=float) - 1.0
+    values = np.ones((t.size, degree + 1))
+    if degree:
+        values[:, 1] = t
+    for n in range(2, degree + 1):  # Legendre polynomials by their recurrence
+        values[:, n] = ((2 * n - 1) * t * values[:, n - 1] - (n - 1) * values[:, n - 2]) / n
+    return np.asarray(values @ _derivatives(degree, orders))
+
+
+@lru_cache(maxsize=32)
+def bubble_projection(degree: int) -> tuple[FloatArray, FloatArray]:
+    """Gauss points on [0, 1], and the matrix (p−3, q) that makes bubbles of second derivatives by ξ there."""
+    points, weights = legendre.leggauss(degree + 2)
+    rows = [np.sqrt(2.0 * j + 1.0) * legendre.legval(points, np.eye(j + 1)[j]) for j in range(2, degree - 1)]
+    return 0.5 * (points + 1.0), np.array(rows).reshape(-1, points.size) * (0.5 * weights)

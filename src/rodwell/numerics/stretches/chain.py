@@ -1,0 +1,183 @@
+"""The chain of stretches: elements, the nodes between them, and where these lie.
+
+Two fields (X, Y) in the unit disc, alternately on its rim (then one field, the angle φ) and free. Every node has four
+coordinates: (r, φ, r′, φ′) where it is *polar*, at both ends of every stretch on the rim, at points of contact and at
+ends held there; (X, Y, X′, Y′) within free stretches. The bottom of the disc is at (−1, 0):
+
+    X = −r cos φ,  Y = r sin φ.
+
+So contact is r = 1, r′ = 0, two coordinates held, and the rim's curvature sits in the map from polar to Cartesian
+coordinates. Where a stretch on the rim begins or ends, its place is unknown; the nodes within a stretch divide it in
+fixed parts: places are ``base + shares @ breaks``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from rodwell.numerics.stretches.basis import ENDS, tabulate
+from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
+
+RADIUS, ANGLE, RADIAL_SLOPE, ANGLE_RATE = range(4)
+"""Coordinates of a polar node."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Chain:
+    """Elements in a row.
+
+    Attributes
+    ----------
+    degree
+        Degree of the elements.
+    touching
+        Which elements lie on the rim, (e,).
+    polar
+        Which nodes have polar coordinates, (e+1,).
+    held
+        Which coordinates are held, (e+1, 4).
+    moving
+        The nodes whose place is unknown, (m,), from s = 0.
+    base, shares
+        Places of the nodes: (e+1,) and (e+1, m).
+    """
+
+    degree: int
+    touching: BoolArray
+    polar: BoolArray
+    held: BoolArray
+    moving: IntArray
+    base: FloatArray
+    shares: FloatArray
+
+    @property
+    def elements(self) -> int:
+        """How many elements."""
+        return int(self.touching.size)
+
+    @property
+    def bubbles(self) -> int:
+        """How many bubbles an element has in one field."""
+        return self.degree + 1 - ENDS
+
+    @cached_property
+    def on_rim(self) -> IntArray:
+        """Numbers of the elements on the rim."""
+        return np.flatnonzero(self.touching)
+
+    @cached_property
+    def free(self) -> IntArray:
+        """Numbers of the free elements."""
+        return np.flatnonzero(~self.touching)
+
+    @cached_property
+    def points(self) -> BoolArray:
+        """Which of the moving nodes are points of contact: free on both sides."""
+        return ~(self.touching[self.moving - 1] | self.touching[self.moving])
+
+    def places(self, breaks: FloatArray) -> FloatArray:
+        """Where the nodes are, (e+1,)."""
+        return np.asarray(self.base + self.shares @ breaks)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Shape:
+    """Unknowns: ``nodes`` (e+1, 4), ``bubbles`` (e, 2, p−3), ``breaks`` (m,), and the load.
+
+    On the rim the second row of bubbles is not used.
+    """
+
+    chain: Chain
+    nodes: FloatArray
+    bubbles: FloatArray
+    breaks: FloatArray
+    load: float
+
+    @cached_property
+    def places(self) -> FloatArray:
+        """Where the nodes are."""
+        return self.chain.places(self.breaks)
+
+    @cached_property
+    def cartesian(self) -> FloatArray:
+        """(X, Y, X′, Y′) at the nodes, (e+1, 4)."""
+        return cartesian(self.nodes, self.chain.polar)
+
+    def moved(self, nodes: FloatArray, bubbles: FloatArray, breaks: FloatArray, load: float) -> Shape:
+        """The shape after an increment."""
+        return replace(
+            self, nodes=self.nodes + nodes, bubbles=self.bubbles + bubbles, breaks=self.breaks + breaks,
+            load=self.load + load,
+        )  # fmt: skip
+
+    def local(self, group: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Coefficients of elements of one kind, (k, fields, p+1), and their derivatives by the length."""
+        h = np.diff(self.places)[group]
+        if self.chain.touching[group].all() and group.size:
+            ends = np.stack([self.nodes[group][:, [1, 3]], self.nodes[group + 1][:, [1, 3]]], axis=1)[:, None]
+            fields = 1
+        else:
+            ends = np.stack(
+                [self.cartesian[group].reshape(-1, 2, 2), self.cartesian[group + 1].reshape(-1, 2, 2)], axis=1
+            )  # element, end, order, field
+            ends = ends.transpose(0, 3, 1, 2)
+            fields = 2
+        values = ends.reshape(group.size, fields, 4)
+        a = np.concatenate([values, self.bubbles[group][:, :fields]], axis=2)
+        rate = np.zeros_like(a)
+        rate[..., 1:4:2] = a[..., 1:4:2]
+        a[..., 1:4:2] *= h[:, None, None]
+        return a, rate
+
+    def at(self, element: int, xi: FloatArray, orders: int = 4) -> FloatArray:
+        """Fields of one element and derivatives by s at parts ``xi`` (k,) of it: (fields, orders, k)."""
+        a = self.local(np.array([element]))[0][0]
+        h = self.places[element + 1] - self.places[element]
+        table = tabulate(self.chain.degree, xi, orders)
+        return np.asarray(np.einsum("dki,fi->fdk", table, a) / h ** np.arange(orders)[:, None])
+
+
+def cartesian(nodes: FloatArray, polar: BoolArray) -> FloatArray:
+    """(X, Y, X′, Y′) of nodes (k, 4)."""
+    out = nodes.copy()
+    r, phi, r1, phi1 = nodes[polar].T
+    sin, cos = np.sin(phi), np.cos(phi)
+    out[polar] = np.stack([-r * cos, r * sin, -r1 * cos + r * sin * phi1, r1 * sin + r * cos * phi1], axis=1)
+    return out
+
+
+def cartesian_derivatives(nodes: FloatArray, polar: BoolArray) -> FloatArray:
+    """Derivatives of (X, Y, X′, Y′) by the nodes' coordinates, (k, 4, 4)."""
+    out = np.broadcast_to(np.eye(4), (nodes.shape[0], 4, 4)).copy()
+    r, phi, r1, phi1 = nodes[polar].T
+    sin, cos, nil = np.sin(phi), np.cos(phi), np.zeros_like(r)
+    out[polar] = np.stack(
+        [
+            np.stack([-cos, r * sin, nil, nil], axis=1),
+            np.stack([sin, r * cos, nil, nil], axis=1),
+            np.stack([sin * phi1, r1 * sin + r * cos * phi1, -cos, r * sin], axis=1),
+            np.stack([cos * phi1, r1 * cos - r * sin * phi1, sin, r * cos], axis=1),
+        ],
+        axis=1,
+    )
+    return out
+
+
+def cartesian_curvature(nodes: FloatArray, polar: BoolArray, covector: FloatArray) -> FloatArray:
+    """Second derivatives of (X, Y, X′, Y′) by the nodes' coordinates, times a covector (k, 4): (k, 4, 4)."""
+    out = np.zeros((nodes.shape[0], 4, 4))
+    r, phi, r1, phi1 = nodes[polar].T
+    gx, gy, gu, gv = covector[polar].T
+    sin, cos = np.sin(phi), np.cos(phi)
+    block = np.zeros((r.size, 4, 4))
+    block[:, 0, 1] = gx * sin + gy * cos + (gu * cos - gv * sin) * phi1
+    block[:, 0, 3] = gu * sin + gv * cos
+    block[:, 1, 2] = gu * sin + gv * cos
+    block[:, 1, 3] = r * (gu * cos - gv * sin)
+    block += block.transpose(0, 2, 1)
+    block[:, 1, 1] = r * (gx * cos - gy * sin) + gu * (r1 * cos - r * sin * phi1) - gv * (r1 * sin + r * cos * phi1)
+    out[polar] = block
+    return out

@@ -1,0 +1,247 @@
+"""Newton's method on a chain: banded in the nodes, with a border of one row for each break and one for the load.
+
+A break between a stretch on the rim and a free one is no stationary point in the ordinary sense: the energy, minimised
+over all else, depends on its place like a cube, since its derivative is −½(r″)² and r″ vanishes there. So the equation
+of a break is r″ = 0 itself, in the weak form of a vanishing radial moment ∂E/∂r′, a reaction that the assembly holds
+anyway. The same equation places points of contact. The Hessian for stability is that of fixed breaks; at a point of
+contact the radial slope is free in it, and rolling adds P(δr′)²/|r″|.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from rodwell.numerics.splines import banded
+from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of, reactions
+from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain, Shape
+from rodwell.quantities.arrays import FloatArray
+
+WIDTH = 8
+"""Coordinates of two neighbouring nodes: the Hessian's band."""
+
+TOLERANCE = 1e-10
+"""Increment of the nodes' coordinates, relative, at which Newton's method has converged."""
+
+ROUND_OFF, RESIDUAL = 1e-4, 1e-13
+"""Increments below the first that no longer shrink are round-off, if the residual is below the second, relative to the
+Hessian: next to a singular one increments are that large, along its null vector."""
+
+MOST_SHRUNK, MOST_MOVED = 0.6, 0.5
+"""Of a step no more is taken than shortens an element by this part, or moves a node by this much."""
+
+MOST_STEPS = 14
+
+
+class Outcome(Enum):
+    """What came of a solve."""
+
+    CONVERGED = "converged"
+    NOT_CONVERGED = "Newton's method did not converge"
+    OUT_OF_RANGE = "the rod turned across the hole (|t·k| → 0), or a stretch vanished"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Row:
+    """A linear condition: nodes·N + breaks·B + load·λ = target, with weights of the same shapes as the unknowns."""
+
+    nodes: FloatArray
+    breaks: FloatArray
+    load: float
+    target: float
+
+    def of(self, nodes: FloatArray, breaks: FloatArray, load: float) -> float:
+        """Its left side."""
+        return float(np.sum(self.nodes * nodes) + self.breaks @ breaks + self.load * load)
+
+
+def fixed_load(chain: Chain, load: float) -> Row:
+    """The row that prescribes the load."""
+    return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), 1.0, load)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solved:
+    """An equilibrium of a chain: the last assembly, moments at the breaks and forces there."""
+
+    model: Any
+    out: Assembled
+
+    @property
+    def shape(self) -> Shape:
+        """The state itself."""
+        return self.out.shape
+
+    @cached_property
+    def forces(self) -> FloatArray:
+        """Outward point forces at the moving nodes (m,)."""
+        return reactions(self.model, self.out)[2]
+
+    @cached_property
+    def openings(self) -> FloatArray:
+        """Second derivative −r″ of the gap at the moving nodes, averaged over the free sides, (m,)."""
+        chain = self.shape.chain
+        found = np.zeros(chain.moving.size)
+        for i, node in enumerate(chain.moving):
+            sides = [
+                gap_curvature(self.shape, e, xi) for e, xi in ((node - 1, 1.0), (node, 0.0)) if not chain.touching[e]
+            ]
+            found[i] = float(np.mean(sides))
+        return found
+
+    @cached_property
+    def band(self) -> FloatArray:
+        """The stability Hessian: breaks fixed, rolling at points of contact, (4n, 8)."""
+        chain = self.shape.chain
+        diagonal, held = self.out.diagonal.copy(), chain.held.copy()
+        for i in np.flatnonzero(chain.points):
+            node, opening = chain.moving[i], self.openings[i]
+            if opening > 0.0 and self.forces[i] >= 0.0:
+                held[node, RADIAL_SLOPE] = False
+                diagonal[node, RADIAL_SLOPE, RADIAL_SLOPE] += self.forces[i] / opening
+        return lower_band(diagonal, self.out.below, held)
+
+    @cached_property
+    def index(self) -> int:
+        """Negative eigenvalues of the second variation that keeps contacts closed."""
+        return int(banded.factorise(self.band.copy())) + self.out.negative_bubbles
+
+    def tangent(self, row: Row) -> tuple[FloatArray, FloatArray, float, FloatArray]:
+        """Derivatives of nodes, breaks, load and bubbles along the path, for which ``row`` gives 1."""
+        nodes, breaks, load = _solve(self.model, self.out, row, 1.0, residual=0.0)
+        return nodes, breaks, load, bubbles_of(self.out, nodes, breaks, load, 0.0)
+
+
+def gap_curvature(shape: Shape, element: int, xi: float) -> float:
+    """−r″ of a free element at a place on the rim."""
+    u = shape.at(element, np.array([xi]), 3)[:, :, 0]
+    r = float(np.hypot(*u[:, 0]))
+    radial = float(u[:, 0] @ u[:, 1]) / r
+    return -(float(u[:, 0] @ u[:, 2] + u[:, 1] @ u[:, 1]) / r - radial**2 / r)
+
+
+def lower_band(diagonal: FloatArray, below: FloatArray, held: FloatArray) -> FloatArray:
+    """Blocks as the lower triangle of a band, rows and columns that are held replaced by those of the identity."""
+    n = diagonal.shape[0]
+    free = ~held
+    diagonal = diagonal * (free[:, :, None] & free[:, None, :])
+    diagonal[:, np.arange(4), np.arange(4)] += held
+    below = below * (free[1:, :, None] & free[:-1, None, :])
+    band = np.zeros((n, 4, WIDTH))
+    for j in range(4):
+        for i in range(j, 4):
+            band[:, j, i - j] = diagonal[:, i, j]
+        for i in range(4):
+            band[:-1, j, 4 + i - j] = below[:, i, j]
+    return band.reshape(4 * n, WIDTH)
+
+
+def _general(band: FloatArray) -> tuple[FloatArray, Any]:
+    """Factors with pivoting of a symmetric band (size, 8)."""
+    size, reach = band.shape[0], WIDTH - 1
+    general = np.zeros((3 * reach + 1, size))
+    for k in range(WIDTH):
+        general[2 * reach + k, : size - k] = band[: size - k, k]
+        general[2 * reach - k, k:] = band[: size - k, k]
+    lu, pivots, _ = dgbtrf(general, reach, reach, overwrite_ab=True)
+    return lu, pivots
+
+
+def _solve(
+    model: Any, out: Assembled, row: Row, target: float, *, residual: float
+) -> tuple[FloatArray, FloatArray, float]:
+    """Increments of nodes, breaks and load: Newton's for ``residual`` 1, the tangent for 0."""
+    chain = out.shape.chain
+    n, m, reach = chain.elements + 1, chain.moving.size, WIDTH - 1
+    free = (~chain.held).astype(float)
+    columns = np.concatenate([residual * out.residual[..., None], out.by_break, out.by_load[..., None]], axis=2)
+    right = (columns * free[..., None]).reshape(4 * n, m + 2)
+    lu, pivots = _general(lower_band(out.diagonal, out.below, chain.held))
+    solved, _ = dgbtrs(lu, reach, reach, right, pivots)
+    solved = solved.reshape(n, 4, m + 2)
+    small, known = np.empty((m + 1, m + 1)), np.empty(m + 1)
+    moment, rate, _ = reactions(model, out)
+    for i, node in enumerate(chain.moving):
+        line = np.zeros((n, 4))
+        line[node] = out.diagonal[node, RADIAL_SLOPE]
+        line[node - 1] = out.below[node - 1, RADIAL_SLOPE]
+        line[node + 1] = out.below[node, :, RADIAL_SLOPE] if node < n - 1 else 0.0
+        line[node, ANGLE_RATE] += rate[i]
+        line *= free
+        reached = np.einsum("nc,ncv->v", line, solved)
+        small[i, :m] = out.by_break[node, RADIAL_SLOPE] - reached[1:-1]
+        small[i, m] = out.by_load[node, RADIAL_SLOPE] - reached[-1]
+        known[i] = reached[0] - residual * moment[i]
+    reached = np.einsum("nc,ncv->v", row.nodes * free, solved)
+    small[m, :m] = row.breaks - reached[1:-1]
+    small[m, m] = row.load - reached[-1]
+    known[m] = target + reached[0]
+    extra = np.linalg.solve(small, known)
+    nodes = -(solved[..., 0] + solved[..., 1:] @ extra)
+    return nodes * free, extra[:m], float(extra[m])
+
+
+def solve(
+    model: Any, shape: Shape, row: Row, tolerance: float = TOLERANCE, most: int = MOST_STEPS
+) -> tuple[Outcome, Solved | None, int]:
+    """Newton's method from ``shape`` to the equilibrium that meets ``row``: what came of it, and how many steps."""
+    scale = np.maximum(1.0, np.max(np.abs(shape.nodes), axis=0))
+    before = np.inf
+    for step in range(1, most + 1):
+        with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+            out = assemble(model, shape)
+        if not np.isfinite(out.energy):
+            return Outcome.OUT_OF_RANGE, None, step
+        try:
+            target = row.target - row.of(shape.nodes, shape.breaks, shape.load)
+            nodes, breaks, load = _solve(model, out, row, target, residual=1.0)
+        except np.linalg.LinAlgError:
+            return Outcome.NOT_CONVERGED, None, step
+        size = max(float(np.max(np.abs(nodes) / scale)), float(np.max(np.abs(breaks), initial=0.0)))
+        if not np.isfinite(size) or size > 1e3:
+            return Outcome.NOT_CONVERGED, None, step
+        small = size < tolerance and abs(load) <= tolerance * (1.0 + abs(shape.load))
+        part = _safe_part(shape, nodes, breaks)
+        bubbles = bubbles_of(out, nodes, breaks, load, 1.0)
+        shape = shape.moved(part * nodes, part * bubbles, part * breaks, part * load)
+        if small or (size < ROUND_OFF and size > 0.3 * before and _balanced(out)):
+            return Outcome.CONVERGED, Solved(model, assemble(model, shape)), step
+        before = size
+    return Outcome.NOT_CONVERGED, None, most
+
+
+def _balanced(out: Assembled) -> bool:
+    """Whether the nodes' equations are met to round-off."""
+    left = float(np.max(np.abs(out.residual[~out.shape.chain.held]), initial=0.0))
+    return left <= RESIDUAL * float(np.max(np.abs(out.diagonal)))
+
+
+def _safe_part(shape: Shape, nodes: FloatArray, breaks: FloatArray) -> float:
+    """How much of a step is taken: no element loses more than most of its length, no node moves across the disc."""
+    lengths, change = np.diff(shape.places), np.diff(shape.chain.shares @ breaks)
+    shrink = float(np.max(-change / lengths, initial=0.0))
+    across = float(np.max(np.abs(nodes[:, :2])))
+    return min(1.0, MOST_SHRUNK / shrink if shrink > MOST_SHRUNK else 1.0, MOST_MOVED / max(across, MOST_MOVED))
+
+
+def softest(state: Solved, rounds: int = 4) -> FloatArray:
+    """Direction (4n,) in which the stability Hessian is nearest to singular, by inverse iteration."""
+    lu, pivots = _general(state.band)
+    rng = np.random.default_rng(0)
+    vector = rng.standard_normal(state.band.shape[0]) * np.where(state.shape.chain.held, 0.0, 1.0).ravel()
+    for _ in range(rounds):
+        vector, _ = dgbtrs(lu, WIDTH - 1, WIDTH - 1, vector, pivots)
+        vector /= np.linalg.norm(vector)
+    return np.asarray(vector)
+
+
+def stiffness_along(state: Solved, direction: FloatArray) -> float:
+    """1/(dᵀA⁻¹d) of the stability Hessian A: a smooth function that vanishes where A is singular along about d."""
+    lu, pivots = _general(state.band)
+    solved, _ = dgbtrs(lu, WIDTH - 1, WIDTH - 1, direction, pivots)
+    return 1.0 / float(direction @ solved)

@@ -1,0 +1,171 @@
+"""From one equilibrium of a chain to the next along its path, and to places on it where a function vanishes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from rodwell.numerics.stretches.chain import Chain, Shape
+from rodwell.numerics.stretches.newton import Outcome, Row, Solved, solve
+from rodwell.quantities.arrays import FloatArray
+
+BREAK_SCALE, LOAD_SCALE = 0.1, 0.1
+"""What counts as one unit of arclength: a break moved by a tenth of the length, the load changed by a tenth."""
+
+LOCATED = 1e-10
+"""Part of a step to which a zero is located."""
+
+AS_GOOD_AS_ZERO = 1e-7
+"""Part of its values at the ends of a step below which a function counts as zero where Newton's method fails."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion:
+    """A direction along a path: derivatives of nodes, breaks, load and bubbles by arclength."""
+
+    nodes: FloatArray
+    breaks: FloatArray
+    load: float
+    bubbles: FloatArray
+
+    def times(self, factor: float) -> Motion:
+        """The same, stretched."""
+        return Motion(self.nodes * factor, self.breaks * factor, self.load * factor, self.bubbles * factor)
+
+
+def metric(chain: Chain, load: float) -> tuple[FloatArray, float, float]:
+    """Weights of nodes (4,), breaks and load in the square of arclength."""
+    wavenumber = max(abs(load), 1.0)
+    per_node = 1.0 / (chain.elements + 1)
+    weights = per_node * np.array([1.0, 1.0, 1.0 / wavenumber, 1.0 / wavenumber])
+    return weights, BREAK_SCALE**-2, (LOAD_SCALE * max(abs(load), 1.0)) ** -2
+
+
+def length(motion: Motion, chain: Chain, load: float) -> float:
+    """Arclength of a motion."""
+    nodes, breaks, by_load = metric(chain, load)
+    square = np.sum(nodes * motion.nodes**2) + breaks * np.sum(motion.breaks**2) + by_load * motion.load**2
+    return float(np.sqrt(square))
+
+
+def row_of(motion: Motion, chain: Chain, load: float) -> Row:
+    """The row whose left side is the product with a motion in the metric."""
+    nodes, breaks, by_load = metric(chain, load)
+    return Row(nodes * motion.nodes, breaks * motion.breaks, by_load * motion.load, 0.0)
+
+
+def tangent(state: Solved, before: Motion) -> Motion:
+    """Unit tangent at a state that points like ``before``."""
+    chain, load = state.shape.chain, state.shape.load
+    found = Motion(*state.tangent(row_of(before, chain, load)))
+    return found.times(1.0 / length(found, chain, load))
+
+
+def tangent_in_load(state: Solved, sign: float) -> Motion:
+    """Unit tangent along which the load changes in the sense of ``sign``."""
+    chain = state.shape.chain
+    none = np.zeros_like(state.shape.nodes), np.zeros_like(state.shape.breaks)
+    found = Motion(*state.tangent(Row(*none, np.sign(sign), 0.0)))
+    return found.times(1.0 / length(found, chain, state.shape.load))
+
+
+def _moved(shape: Shape, motion: Motion, step: float) -> Shape:
+    by = motion.times(step)
+    return shape.moved(by.nodes, by.bubbles, by.breaks, by.load)
+
+
+def step(model: Any, state: Solved, along: Motion, size: float) -> tuple[Outcome, Solved | None, int]:
+    """One step of arclength ``size`` along a tangent."""
+    shape = state.shape
+    row = row_of(along, shape.chain, shape.load)
+    row = replace(row, target=row.of(shape.nodes, shape.breaks, shape.load) + size)
+    return solve(model, _moved(shape, along, size), row)
+
+
+def between(first: Shape, second: Shape) -> Motion:
+    """The motion from one shape of a chain to another."""
+    return Motion(
+        second.nodes - first.nodes, second.breaks - first.breaks, second.load - first.load,
+        second.bubbles - first.bubbles,
+    )  # fmt: skip
+
+
+class _Lost(Exception):  # noqa: N818 - says what happened, and never leaves this file
+    """Newton's method failed within a step."""
+
+
+def locate(
+    model: Any, first: Solved, second: Solved, function: Callable[[Solved], float], xtol: float = LOCATED
+) -> Solved | None:
+    """The state between two where ``function`` vanishes, sought in the part of the step from the first.
+
+    None if Newton's method fails on the way, or if the function does not change its sign between the two.
+    """
+    chord = between(first.shape, second.shape)
+    base = row_of(chord, first.shape.chain, first.shape.load)
+    low, high = (base.of(one.shape.nodes, one.shape.breaks, one.shape.load) for one in (first, second))
+    known = {0.0: (first, function(first)), 1.0: (second, function(second))}
+    if not known[0.0][1] * known[1.0][1] < 0.0:
+        return next((state for state, value in known.values() if value == 0.0), None)
+
+    def value(part: float) -> float:
+        if part not in known:
+            near = min(known, key=lambda other: abs(other - part))
+            row = replace(base, target=low + part * (high - low))
+            state = solve(model, _moved(known[near][0].shape, chord, part - near), row)[1]
+            if state is None:
+                raise _Lost
+            known[part] = state, function(state)
+            if not np.isfinite(known[part][1]):
+                raise _Lost
+        return known[part][1]
+
+    try:
+        root = float(brentq(value, 0.0, 1.0, xtol=xtol, rtol=4.0 * np.finfo(float).eps))
+        value(root)
+    except (_Lost, RuntimeError):  # right at a branch point the equations are singular: as near as that is found
+        size = max(abs(known[0.0][1]), abs(known[1.0][1]))
+        best, left = min(known.values(), key=lambda one: abs(one[1]))
+        return best if abs(left) <= AS_GOOD_AS_ZERO * size else None
+    return known[root][0]
+
+
+def search(
+    model: Any, state: Solved, along: Motion, function: Callable[[Solved], float], first: float, largest: float
+) -> Solved | None:
+    """The nearest state, either way along a path, where ``function`` vanishes, in steps that double.
+
+    For states that lie just beside one: the sign of the derivative tells which way to go.
+    """
+    value = function(state)
+    if value == 0.0:
+        return state
+    other = step(model, state, along, first)[1]
+    if other is None:
+        return None
+    ahead = abs(function(other)) < abs(value) or function(other) * value < 0.0
+    for sign in (1.0, -1.0) if ahead else (-1.0, 1.0):
+        found = _towards(model, state, along.times(sign), function, first, largest)
+        if found is not None:
+            return found
+    return None
+
+
+def _towards(
+    model: Any, here: Solved, along: Motion, function: Callable[[Solved], float], size: float, largest: float
+) -> Solved | None:
+    """The next state along a path where ``function`` vanishes, in steps that double from ``size`` to ``largest``."""
+    value = function(here)
+    while size <= largest:
+        other = step(model, here, along, size)[1]
+        if other is None:
+            return None
+        if function(other) * value <= 0.0:
+            return locate(model, here, other, function)
+        along = tangent(other, along)
+        here, size = other, 2.0 * size
+    return None

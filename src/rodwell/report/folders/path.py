@@ -1,0 +1,39 @@
+"""A load path as files."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib as mpl
+
+from rodwell.analysis.path.load_path import LoadPath
+from rodwell.plots.path import plot_path
+from rodwell.plots.style import RC
+from rodwell.report.folders.pictures import save_figure
+from rodwell.store.folder import whole_folder
+from rodwell.store.text import write_json
+
+
+def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[str, ...]:
+    """Write figure (PNG, SVG), events and states at the end forces ``at`` (JSON), and the curve (CSV) to ``out``.
+
+    All files, or none; returns their names.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written.
+    """
+    with whole_folder(out) as folder:
+        with mpl.rc_context(RC):
+            save_figure(plot_path(result).figure, folder / "load-path")
+        write_json(result.as_dict(at), folder / "load-path.json")
+        curve = result.curve
+        with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(("force_s1_tension_positive", "shortening", "energy", "run"))
+            for row in zip(*curve.values(), strict=True):
+                writer.writerow([*(repr(float(cell)) for cell in row[:3]), int(row[3])])
+        return tuple(sorted(file.name for file in folder.iterdir()))

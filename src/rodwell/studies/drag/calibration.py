@@ -1,0 +1,270 @@
+"""Friction factors from measured hook loads and torques, by least squares, with their uncertainty."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from rodwell.case.file import decoded, first_bytes
+from rodwell.case.well_schema import KINDS_OF_OPERATION
+from rodwell.errors import InputError
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.units import to_si
+from rodwell.quantities.value import Value
+from rodwell.studies.drag.laws import contact_named
+from rodwell.studies.drag.pieces import Cutter
+from rodwell.studies.drag.run import run
+from rodwell.studies.drag.well_case import Operation, Well
+
+LARGEST_FILE, MOST_ROWS = 2_000_000, 5000
+RULE = "equal-energy"
+"""Measured loads are met best, not bounded: the states are those of least energy."""
+
+STEP, MOST_STEPS, SETTLED = 1e-5, 60, 1e-10
+LARGEST, WEAK = 1.0, 1e-10
+"""Largest friction factor; eigenvalue of the normal matrix, as a part of the largest, below which nothing is told."""
+
+COLUMNS = {"bit_depth": ("bit_depth", "depth", "md"), "kind": ("kind", "operation"),
+           "hook_load": ("hook_load", "hookload"), "torque": ("torque", "surface_torque"),
+           "bit_force": ("bit_force", "wob")}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A measured hook load in N (of the string, block taken off) or torque in N m, or both; NaN where not measured."""
+
+    operation: Operation
+    hook_load: float
+    torque: float
+    line: int
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """What was found.
+
+    Attributes
+    ----------
+    well
+        The well with the friction factors found.
+    names, friction
+        Sections of the hole; factors with standard errors.
+    correlation
+        Of the errors of the factors, (k, k).
+    measured
+        What was measured.
+    residuals
+        Measured less computed hook loads in N, and torques in N m, (m, 2); NaN where not measured.
+    spread
+        Standard deviations of the residuals in N and in N m.
+    not_told
+        Sections on whose factors the measurements say nothing: they keep that of the file.
+    """
+
+    well: Well
+    names: tuple[str, ...]
+    friction: tuple[Value, ...]
+    correlation: FloatArray
+    measured: tuple[Measured, ...]
+    residuals: FloatArray
+    spread: tuple[float, float]
+    not_told: tuple[str, ...]
+
+
+def read_measured(path: Path, well: Well) -> tuple[Measured, ...]:
+    """Read measured loads: CSV with bit depth, kind, hook load and (or) torque, units in the header in brackets.
+
+    A hook load is that of the string, as everywhere here: the weight of the block is taken off before.
+
+    Raises
+    ------
+    InputError
+        Naming file, line and column.
+    """
+    try:
+        with path.open("rb") as opened:
+            raw = first_bytes(opened, LARGEST_FILE)
+    except OSError as error:
+        raise InputError("--calibrate", str(path), f"cannot be read: {error.strerror}") from None
+    text = decoded(raw, "--calibrate", str(path), "give a CSV file of measured hook loads", LARGEST_FILE)
+    rows = [(i, row) for i, row in enumerate(csv.reader(text.splitlines()), 1) if any(c.strip() for c in row)]
+    rows = [(i, row) for i, row in rows if not row[0].lstrip().startswith("#")]
+    if len(rows) < 2:
+        raise InputError("--calibrate", str(path), "has no measurements: a header and a line for each are needed")
+    if len(rows) > MOST_ROWS:
+        raise InputError("--calibrate", str(path), f"has more than {MOST_ROWS} lines: thin them out")
+    columns = _columns(rows[0][1], path)
+    return tuple(_measured(row, columns, line, path, well) for line, row in rows[1:])
+
+
+def _columns(head: Sequence[str], path: Path) -> dict[str, tuple[int, str]]:
+    """Number and unit of each column by meaning."""
+    found: dict[str, tuple[int, str]] = {}
+    for i, title in enumerate(head):
+        name, _, unit = title.partition("[")
+        plain = name.strip().lower().replace(" ", "_").replace("-", "_")
+        meaning = next((key for key, names in COLUMNS.items() if plain in names), None)
+        if meaning is None:
+            raise InputError(f"{path.name}, column {i + 1}", title.strip(), "is not known; columns are bit_depth [m], "
+                             "kind, hook_load [kN], torque [kN m], bit_force [kN]")  # fmt: skip
+        found[meaning] = (i, unit.rstrip("] ").strip())
+    for need in ("bit_depth", "kind"):
+        if need not in found:
+            raise InputError(f"{path.name}, column {need}", None, "is missing")
+    if "hook_load" not in found and "torque" not in found:
+        raise InputError(f"{path.name}, column hook_load", None, "is missing: give it, or torque, or both")
+    for name, (_, unit) in found.items():
+        if not unit and name != "kind":
+            raise InputError(
+                f"{path.name}, column {name}", None, 'has no unit: write it in the header, "hook_load [kN]"'
+            )
+    return found
+
+
+_KIND = {"bit_depth": "length", "hook_load": "force", "torque": "moment", "bit_force": "force"}
+
+
+def _measured(row: Sequence[str], columns: dict[str, tuple[int, str]], line: int, path: Path, well: Well) -> Measured:
+    where = f"{path.name}, line {line}"
+
+    def cell(name: str) -> str:
+        return row[columns[name][0]].strip() if name in columns and columns[name][0] < len(row) else ""
+
+    def number(name: str) -> float:
+        text = cell(name)
+        if not text:
+            return math.nan
+        try:
+            return to_si(f"{float(text)!r} {columns[name][1]}", _KIND[name])
+        except ValueError as error:
+            raise InputError(f"{where}, {name}", text, f"is not a number in {columns[name][1]}: {error}") from None
+
+    kind = cell("kind").lower().replace(" ", "-").replace("_", "-")
+    if kind not in KINDS_OF_OPERATION or kind in ("ream", "back-ream"):
+        raise InputError(f"{where}, kind", cell("kind"), "must be run-in, pull-out, rotate-off-bottom, slide or drill")
+    depth, force = number("bit_depth"), number("bit_force")
+    if not 0.0 < depth <= well.end * (1.0 + 1e-12):
+        raise InputError(f"{where}, bit_depth", cell("bit_depth"), f"must be above 0 and at most {well.end:g} m")
+    if force > 0.0:
+        raise InputError(f"{where}, bit_force", cell("bit_force"), "puts the bit in tension: weight on bit is negative")
+    hook, torque = number("hook_load"), number("torque")
+    if math.isnan(hook) and math.isnan(torque):
+        raise InputError(where, None, "measures nothing: give a hook load or a torque, or remove the line")
+    return Measured(Operation(kind, kind, depth, 0.0 if math.isnan(force) else force), hook, torque, line)
+
+
+def calibrate(
+    well: Well, measured: Sequence[Measured], progress: Callable[[str, float], None] | None = None
+) -> Calibration:
+    """Fit the friction factor of every section of the hole to measurements, by least squares (Gauss and Newton).
+
+    Hook loads and torques are weighed by their own spread, found from the residuals of the first fit. Standard errors
+    are those of a linear fit at the solution.
+
+    Raises
+    ------
+    InputError
+        If there are fewer measurements than factors, or none of them depends on friction.
+    """
+    tell = progress or (lambda _what, _done: None)
+    start = np.array([part.friction for part in well.hole])
+    told = _told(well, measured, start)
+    if not np.any(told):
+        raise InputError("--calibrate", None, "measures nothing that depends on friction: rotating hook loads do not")
+    count = int(np.sum(~np.isnan([[one.hook_load, one.torque] for one in measured])))
+    if count <= int(np.sum(told)):
+        raise InputError("--calibrate", count, f"measurements are too few for {int(np.sum(told))} friction factors")
+    scale, mu = np.array([1.0, 1.0]), start.copy()
+    for again in range(2):
+        tell("friction factors", 0.5 * again)
+        mu, jacobian, left = _fitted(well, measured, mu, told, scale)
+        scale = _spread(left, int(np.sum(told)))
+    weighed = (jacobian / scale[None, :, None]).reshape(-1, int(np.sum(told)))
+    weighed = weighed[~np.isnan(left).ravel()]
+    normal = weighed.T @ weighed
+    size, vectors = np.linalg.eigh(normal)
+    weak = size <= WEAK * size[-1]
+    inverse = (vectors / np.where(weak, np.inf, size)) @ vectors.T
+    sigma = np.where(np.any(np.abs(vectors[:, weak]) > 1e-3, axis=1), np.inf, np.sqrt(np.diag(inverse)))
+    errors = np.full(len(mu), np.nan)
+    errors[told] = sigma
+    safe = np.where(np.isfinite(sigma) & (sigma > 0.0), sigma, 1.0)
+    names = tuple(part.name for part in well.hole)
+    hole = tuple(replace(part, friction=float(value)) for part, value in zip(well.hole, mu, strict=True))
+    return Calibration(
+        replace(well, hole=hole), names, tuple(Value(float(m), float(e)) for m, e in zip(mu, errors, strict=True)),
+        inverse / np.outer(safe, safe), tuple(measured), left, (float(scale[0]), float(scale[1])),
+        tuple(name for name, one in zip(names, told, strict=True) if not one),
+    )  # fmt: skip
+
+
+def _computed(well: Well, measured: Sequence[Measured], mu: FloatArray) -> FloatArray:
+    """Hook loads and torques, (m, 2)."""
+    cutter, contact = Cutter(well, mu.tolist()), contact_named(well.settings.contact)
+    out = np.empty((len(measured), 2))
+    for i, one in enumerate(measured):
+        found = run(cutter, one.operation, contact, RULE, coarse=True, record=False)
+        if not found.arrived:
+            what = f"was measured, but the string locks up with friction {', '.join(f'{v:.3g}' for v in mu)}"
+            raise InputError(f"line {one.line}, hook_load", None, what)
+        out[i] = found.force, found.torque
+    return out
+
+
+def _told(well: Well, measured: Sequence[Measured], mu: FloatArray) -> FloatArray:
+    """Which factors any measurement depends on, (k,)."""
+    base, known = _computed(well, measured, mu), _given(measured)
+    out = np.zeros(len(mu), dtype=bool)
+    for k in range(len(mu)):
+        moved = mu.copy()
+        moved[k] += 0.01
+        change = np.where(np.isnan(known), 0.0, _computed(well, measured, moved) - base)
+        out[k] = bool(np.any(np.abs(change) > 1e-6 * (1.0 + np.abs(base))))
+    return out
+
+
+def _given(measured: Sequence[Measured]) -> FloatArray:
+    return np.array([[one.hook_load, one.torque] for one in measured])
+
+
+def _fitted(
+    well: Well, measured: Sequence[Measured], start: FloatArray, told: FloatArray, scale: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Factors, derivatives (m, 2, k) of what was computed, residuals (m, 2)."""
+    mu, given = start.copy(), _given(measured)
+    which = np.flatnonzero(told)
+    jacobian = np.zeros((len(measured), 2, len(which)))
+    for _ in range(MOST_STEPS):
+        base = _computed(well, measured, mu)
+        for j, k in enumerate(which):
+            moved = mu.copy()
+            moved[k] += STEP
+            jacobian[:, :, j] = (_computed(well, measured, moved) - base) / STEP
+        rows = (jacobian / scale[None, :, None]).reshape(-1, len(which))
+        left = ((given - base) / scale).ravel()
+        known = ~np.isnan(left)
+        step = np.linalg.lstsq(rows[known], left[known], rcond=1e-8)[0]
+        new = mu.copy()
+        new[which] = np.clip(mu[which] + step, 0.0, LARGEST)
+        settled = np.max(np.abs(new - mu)) <= SETTLED
+        mu = new
+        if settled:
+            break
+    return mu, jacobian, given - _computed(well, measured, mu)
+
+
+def _spread(left: FloatArray, factors: int) -> FloatArray:
+    """Standard deviations of both columns of residuals; those of a column that is not measured do not matter."""
+    out = np.ones(2)
+    free = max(int(np.sum(~np.isnan(left))) - factors, 1)
+    for i in range(2):
+        column = left[:, i][~np.isnan(left[:, i])]
+        if len(column):
+            share = max(free * len(column) / max(int(np.sum(~np.isnan(left))), 1), 1e-12)
+            out[i] = max(math.sqrt(float(np.sum(column**2)) / share), 1e-9)
+    return out

@@ -1,0 +1,212 @@
+"""What torque and drag of a well mean, in sentences: the verdict first, which is the worst of all that is said."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rodwell.quantities.text import amount, minus
+from rodwell.quantities.value import Value
+from rodwell.studies.drag.contact import NAMES
+from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
+from rodwell.studies.drag.well_case import Well
+
+FAILS, BUCKLES, PASSES = "fails", "buckles", "passes"
+LEVELS = (FAILS, BUCKLES, PASSES)
+"""Verdicts, the worst first: not possible, or beyond the yield strength; the string buckles; neither."""
+
+STEEP = 0.3
+"""Slope of a helix beyond which small slopes no longer describe it: the contact force is then off by some percent."""
+
+SMALL_TRANSFER = 0.01
+"""Below this part of a force at surface that arrives at the bit, practice speaks of lock-up."""
+
+
+def level_of_one(one: OperationResult) -> str:
+    """Verdict on one operation."""
+    if not one.possible or yields(one):
+        return FAILS
+    return BUCKLES if one.run.buckled else PASSES
+
+
+def level_of(found: Drag) -> str:
+    """Verdict on a well: the worst of its operations."""
+    return min((level_of_one(one) for one in found.operations), key=LEVELS.index)
+
+
+def yields(one: OperationResult) -> bool:
+    """Whether the stress reaches the yield strength anywhere, where that is known."""
+    used = one.strength.used
+    return bool(np.any(used[np.isfinite(used)] >= 1.0))
+
+
+def force(well: Well, value: Value) -> str:
+    """A force in the well's units, with the digits that its error allows."""
+    return _in(well, value, "force")
+
+
+def torque(well: Well, value: Value) -> str:
+    """A torque likewise."""
+    return _in(well, value, "moment")
+
+
+def depth(well: Well, value: float, error: float = 0.0) -> str:
+    """A measured depth in metres or feet."""
+    unit, text = (0.3048, "ft") if well.system.name == "field" else (1.0, "m")
+    return f"{amount(Value(value / unit, error / unit), 6)} {text}"
+
+
+def _in(well: Well, value: Value, dimension: str) -> str:
+    if well.system.name == "si":
+        scale, text = (1e3, "kN" if dimension == "force" else "kN m")
+    else:
+        scale, text = well.system.unit(dimension)
+    return minus(f"{amount(value.times(1.0 / scale), 5)} {text}")
+
+
+def sentences(found: Drag) -> list[str]:
+    """What was found, the verdict first."""
+    worst = min(found.operations, key=lambda one: LEVELS.index(level_of_one(one)))
+    out = [_verdict(found, worst)]
+    for one in found.operations:
+        out += sentences_of(found.well, one)
+    return out
+
+
+def _verdict(found: Drag, worst: OperationResult) -> str:
+    well, name = found.well, worst.operation.name
+    level = level_of(found)
+    if level == FAILS:
+        if worst.locked:
+            at = (
+                ""
+                if worst.run.locked_at is None
+                else f", its compression grows beyond bounds at {depth(well, worst.run.locked_at)}"
+            )
+            return f"{_capital(name)} is not possible: the string locks up{at}; no push at surface moves it."
+        if not worst.possible and worst.margin is not None:
+            lacking = force(well, worst.margin.times(-1.0))
+            return f"{_capital(name)} is not possible: {lacking} more push is needed at surface than there is."
+        used = 100.0 * float(np.nanmax(worst.strength.used))
+        return f"{_capital(name)} exceeds the yield strength: the largest von Mises stress is {used:.3g} % of it."
+    if level == BUCKLES:
+        names = ", ".join(one.operation.name for one in found.operations if one.run.buckled)
+        return f"Every operation is possible; the string buckles: {names}."
+    return "Every operation is possible, and the string stays straight on the wall of its hole in all of them."
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def sentences_of(well: Well, one: OperationResult) -> list[str]:
+    """Sentences on one operation: ends, bounds, buckled intervals, how deep it can go, what is marked."""
+    name = _capital(one.operation.name)
+    out = []
+    ends = one.ends
+    if ends.hook_load is not None and ends.torque is not None:
+        said = f"{name}, bit at {depth(well, one.operation.bit_depth)}: hook load {force(well, ends.hook_load)}"
+        said += f", torque at surface {torque(well, ends.torque)}" if one.operation.rotating else ""
+        out.append(said + ".")
+    out += _bounds(well, one, name)
+    buckled = [f"{NAMES[s]} from {depth(well, high)} to {depth(well, low)}" for low, high, s in one.run.buckled]
+    if buckled:
+        shown = buckled[:4] + ([f"and {len(buckled) - 4} more intervals"] if len(buckled) > 4 else [])
+        out.append(f"{name}: {', '.join(shown)}.")
+    out += _reach(well, one, name)
+    out += _marked(well, one, name)
+    return out
+
+
+def _bounds(well: Well, one: OperationResult, name: str) -> list[str]:
+    early, late = one.bounds["early"].hook_load, one.bounds["late"].hook_load
+    if early is None or late is None:
+        return (
+            []
+            if early is late
+            else [f"{name}: whether it locks up depends on which local state holds; the worse counts."]
+        )
+    if abs(early.value - late.value) <= early.error + late.error:
+        return []
+    low, high = sorted((early, late), key=lambda load: load.value)
+    return [f"{name}: where two local states are stable, the hook load lies between {force(well, low)} and "
+            f"{force(well, high)}; the verdict takes the worse."]  # fmt: skip
+
+
+def _reach(well: Well, one: OperationResult, name: str) -> list[str]:
+    if not one.reach:
+        return []
+    out = []
+    for key, what in (("lock_up", "locks up"), ("push_ends", "needs more push than there is")):
+        depths = sorted((d.value, d.error) for r in one.reach.values() if (d := getattr(r, key)) is not None)
+        if depths:
+            text = depth(well, *depths[0])
+            if len(depths) > 1 and depths[-1][0] > depths[0][0] * (1.0 + 1e-6):
+                text += f" to {depth(well, *depths[-1])}, by the local state"
+            out.append(f"{name} {what} with the bit at {text}.")
+    if not out:
+        searched = next(iter(one.reach.values()))
+        out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, the last depth "
+                   "looked at." if one.possible else f"{name}: not possible at any depth looked at.")  # fmt: skip
+    if one.transfer is not None and one.run.buckled:
+        part = f"{100.0 * one.transfer:.3g} %"
+        low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
+        out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
+    return out
+
+
+def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
+    """Where assumptions end."""
+    out = []
+    if yields(one) and not one.run.arrived:
+        first = int(np.argmax(np.nan_to_num(one.strength.used) >= 1.0))
+        where = depth(well, float(one.run.measured_depth[first]))
+        return [f"{name}: before it locks up the string yields, above {where}: forces beyond that are no real ones."]
+    if yields(one):
+        used = float(np.nanmax(one.strength.used))
+        out.append(f"{name}: the von Mises stress reaches {100.0 * used:.3g} % of the yield strength: beyond it "
+                   "nothing here holds.")  # fmt: skip
+    if not np.any(np.isfinite(one.strength.used)):
+        out.append(f"{name}: no yield strength is given, so stresses are not judged.")
+    steepest = one.strength.helix_slope
+    if steepest > STEEP:
+        out.append(f"{name}: the helix is as steep as {math.degrees(math.atan(steepest)):.3g}°; its contact force is "
+                   "that of small slopes.")  # fmt: skip
+    return out
+
+
+def unbalanced(found: Drag) -> list[str]:
+    """Operations whose work does not balance, in words."""
+    return [
+        f"{one.operation.name}: work of {one.balance.value:.1e} of all is missing"
+        for one in found.operations
+        if one.balance is not None and not one.balance.value <= BALANCED
+    ]
+
+
+def assumptions(found: Drag) -> list[str]:
+    """What the numbers are, and what is not in them."""
+    well = found.well
+    laws = {
+        "exact": "Buckled intervals press the wall as the exact states of the endless rod do, small slopes.",
+        "correlation": "Helical from β = 2√2 on, with n = q + rP²/4B there, as a correlation.",
+        "straight": "A buckled string is taken to press the wall like a straight one: not on the safe side where it "
+        "buckles.",
+    }
+    rules = {
+        "history": "Where two local states are stable, the string keeps the one it had while it was run in with the "
+        "bit free, and while the force at the bit was built up.",
+        "equal-energy": "The string is helical where the helix has the lower energy.",
+        "late": "The string stays sinusoidal until that state leaves the wall.",
+        "early": "The string is helical wherever a helix is on the wall.",
+    }
+    out = [*well.survey.notes, laws[well.settings.contact]]
+    if well.settings.contact == "exact":
+        out.append(rules[well.settings.state_rule])
+    out += [
+        "Forces effective, tension positive; the hook load is the force at surface without the weight of the block.",
+        "Soft string: it follows the hole, an arc between two stations; torque acts at half its outer diameter.",
+        "Not included: tool joints, bending stiffness in doglegs, temperature, friction of sheaves, forces of flow.",
+    ]
+    return out

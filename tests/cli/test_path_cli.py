@@ -1,0 +1,59 @@
+"""``rodwell path`` as a user meets it: JSON, text, files, and bad input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from rodwell.cli.main import cli
+from rodwell.errors import InputError
+
+COMMON = ("path", "--weight", "15", "--alpha", "90", "--seeds", "1")
+
+
+def run(*arguments: str) -> Any:
+    return CliRunner().invoke(cli, arguments)
+
+
+def test_as_json() -> None:
+    done = run(*COMMON, "--until", "-126", "--at", "-125.41829806,-300", "--json")
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.output)
+    assert [event["kind"] for event in data["events"]] == ["critical", "lift_off", "gap_opens"]
+    assert set(data["events"][0]) == {"kind", "force", "s", "leg", "to"}
+    state, missing = data["states"]
+    assert state["leg"] == "loading"
+    assert state["stability_index"] == 0
+    assert set(state["gaps"][0]) == {"from", "to", "largest", "at"}
+    assert set(state["point_contacts"][0]) >= {"s", "force"}
+    assert state["energy"]["value"] == pytest.approx(-0.00145016, abs=1e-8)
+    assert missing["reached"] is False
+    assert data["reached"]
+    assert data["converged"]
+    assert "tension positive" in data["convention"]
+
+
+def test_as_text_with_files(tmp_path: Path) -> None:
+    out = tmp_path / "path"
+    done = run(*COMMON, "--until", "-124", "--at", "-123.5", "--out", str(out))
+    assert done.exit_code == 0, done.output
+    assert "the rod lifts off the wall, s/L = 0.5" in done.output
+    assert "without inertia" in done.output
+    assert "at the end of a stretch in contact" in done.output
+    files = ["load-path.csv", "load-path.json", "load-path.png", "load-path.svg"]
+    assert sorted(file.name for file in out.iterdir()) == files
+
+
+def test_bad_input() -> None:
+    for arguments, field in (
+        (("--until", "-130", "--at", "much"), "--at"),
+        (("--until", "-130", "--outside"), "outside"),
+        (("--until", "nan"), "until"),
+    ):
+        done = run(*COMMON, *arguments)
+        assert isinstance(done.exception, InputError)
+        assert done.exception.field == field

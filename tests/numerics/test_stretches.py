@@ -1,0 +1,95 @@
+"""Elements, chains and their derivatives: against quadrature, differences, and a beam in a disc in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.polynomial import legendre
+
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.pattern import Pattern, chain
+from rodwell.numerics.stretches.assembly import assemble, bubbles_of
+from rodwell.numerics.stretches.basis import tabulate
+from rodwell.numerics.stretches.carry import fields_at, fit, rim_fields, sampler
+from rodwell.numerics.stretches.chain import Shape, cartesian, cartesian_curvature, cartesian_derivatives
+from rodwell.problem.problem import Problem
+
+PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), (2, 2, 1, 1, 1, 2)
+BREAKS = np.array([0.2, 0.4, 0.6, 0.7, 0.8])
+
+
+def test_bubbles_vanish_with_their_slopes_and_have_orthonormal_curvatures() -> None:
+    ends = tabulate(9, np.array([0.0, 1.0]), 2)
+    assert np.abs(ends[:, :, 4:]).max() < 1e-14
+    assert ends[0][:, [0, 2]] == pytest.approx(np.eye(2), abs=1e-14)
+    assert ends[1][:, [1, 3]] == pytest.approx(np.eye(2), abs=1e-13)
+    points, weights = legendre.leggauss(12)
+    second = tabulate(9, 0.5 * (points + 1.0), 3)[2]
+    gram = second.T @ (0.5 * weights[:, None] * second)
+    assert gram[4:, 4:] == pytest.approx(np.eye(6), abs=1e-12)
+    assert np.abs(gram[4:, :4]).max() < 1e-12  # a linear beam's matrix is diagonal in them
+
+
+def test_derivatives_by_places_are_differences() -> None:
+    places, h = np.linspace(0.05, 0.95, 7), 1e-6
+    table = tabulate(8, places, 4)
+    for order in range(3):
+        change = (tabulate(8, places + h, 4)[order] - tabulate(8, places - h, 4)[order]) / (2 * h)
+        assert change == pytest.approx(table[order + 1], rel=1e-6, abs=1e-6)
+
+
+def _disturbed(model: RodInHole) -> Shape:
+    """A shape that is no equilibrium, in contact and free in turn."""
+    links, held = chain(model.problem, PATTERN, COUNTS, 8)
+
+    def sample(s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        angle = np.stack([np.sin(np.pi * s) ** 2, np.pi * np.sin(2 * np.pi * s), 2 * np.pi**2 * np.cos(2 * np.pi * s)])
+        return rim_fields(angle), angle
+
+    shape, rng = fit(links, BREAKS, -130.0, sample, held), np.random.default_rng(1)
+    bubbles = shape.bubbles + 0.01 * rng.standard_normal(shape.bubbles.shape)
+    bubbles[links.on_rim, 1] = 0.0
+    nodes = shape.nodes + 0.05 * rng.standard_normal(shape.nodes.shape) * ~links.held
+    return Shape(links, nodes, bubbles, BREAKS, -130.0)
+
+
+def test_gradient_and_hessian_are_those_of_the_energy_breaks_and_load_included() -> None:
+    """Along a direction in nodes, breaks and load whose bubbles follow, as the condensed matrices say."""
+    model = RodInHole(Problem(weight=15, alpha=60, twist=3.0))
+    shape, rng, h = _disturbed(model), np.random.default_rng(2), 1e-6
+    out = assemble(model, shape)
+    nodes = rng.standard_normal(shape.nodes.shape)
+    nil = np.zeros_like(shape.bubbles)
+    up, down = (assemble(model, shape.moved(t * nodes, nil, 0 * BREAKS, 0.0)).energy for t in (h, -h))
+    assert (up - down) / (2 * h) == pytest.approx(float(np.sum(out.plain * nodes)), rel=1e-8)
+    nodes *= ~shape.chain.held
+    breaks, load = 0.1 * rng.standard_normal(5), 3.0
+    follow = bubbles_of(out, nodes, breaks, load, 0.0)
+    up, down = (assemble(model, shape.moved(t * nodes, t * follow, t * breaks, t * load)).plain for t in (h, -h))
+    linear = np.einsum("nij,nj->ni", out.diagonal, nodes) + out.by_break @ breaks + out.by_load * load
+    linear[1:] += np.einsum("nij,nj->ni", out.below, nodes[:-1])
+    linear[:-1] += np.einsum("nij,ni->nj", out.below, nodes[1:])
+    assert (up - down) / (2 * h) == pytest.approx(linear, abs=1e-8 * float(np.abs(linear).max()))
+
+
+def test_polar_nodes_turn_into_cartesian_ones() -> None:
+    rng, h = np.random.default_rng(3), 1e-6
+    nodes, polar = rng.standard_normal((4, 4)), np.array([True, True, False, True])
+    first, covector = cartesian_derivatives(nodes, polar), rng.standard_normal((4, 4))
+    second = cartesian_curvature(nodes, polar, covector)
+    for j in range(4):
+        step = h * np.eye(4)[j]
+        change = (cartesian(nodes + step, polar) - cartesian(nodes - step, polar)) / (2 * h)
+        assert change == pytest.approx(first[:, :, j], abs=1e-8)
+        bend = (cartesian_derivatives(nodes + step, polar) - cartesian_derivatives(nodes - step, polar)) / (2 * h)
+        assert np.einsum("ni,nij->nj", covector, bend) == pytest.approx(second[:, j], abs=1e-7)
+
+
+def test_a_shape_is_carried_over_to_other_elements() -> None:
+    """To more elements exactly: polynomials stay what they are."""
+    model = RodInHole(Problem(weight=15))
+    shape = _disturbed(model)
+    links, held = chain(model.problem, PATTERN, tuple(2 * n for n in COUNTS), 8)
+    finer = fit(links, BREAKS, -130.0, sampler(shape), held)
+    s = np.linspace(0.0, 1.0, 57)
+    assert fields_at(finer, s)[0][:, :3] == pytest.approx(fields_at(shape, s)[0][:, :3], abs=1e-9)
