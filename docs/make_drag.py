@@ -13,8 +13,9 @@ from scipy.integrate import quad
 
 import rodwell
 from rodwell.analysis.endless.local import LIMITS, local_state
-from rodwell.case import hole_sections, well_schema, well_string
+from rodwell.case import hole_sections, well_schema
 from rodwell.case.keys import key_of_field
+from rodwell.case.schema import StringInput
 from rodwell.studies.drag.calibration import calibrate, read_measured
 from rodwell.studies.drag.laws import CHEN
 from rodwell.studies.drag.road_map import road_map
@@ -35,11 +36,11 @@ REFERENCE = {
 """Hook loads of well A in N, without buckling and with exact local states."""
 
 SECTIONS = {
-    "[hole]": well_schema.WellHole, "[[hole.section]]": hole_sections.HolePart, "[[string]]": well_string.StringPart,
+    "[hole]": well_schema.WellHole, "[[hole.section]]": hole_sections.HolePart, "[[string]]": StringInput,
     "[well]": well_schema.WellInput, "[[well.operation]]": well_schema.OperationInput,
     "[well.road_map]": well_schema.RoadMapInput,
 }  # fmt: skip
-OF_A_ROD = set(well_string.StringPart.model_fields) - {"name", "length", "joints", "joint_length"}
+OF_A_ROD = set(StringInput.model_fields) - {"name", "length", "joints", "joint_length"}
 
 
 def pages(_: Path) -> dict[str, str]:

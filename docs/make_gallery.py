@@ -21,10 +21,11 @@ ORDER = {
         "snap_to_coil",
         "load_path",
         "endless",
+        "lock_up",
         "column",
         "twist",
     ),
-    "What the wall bears": ("guidewire", "wall_moments", "helix"),
+    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "helix"),
 }
 
 CHECKED = {
@@ -39,12 +40,14 @@ CHECKED = {
     "broken_symmetry": "the same two loads, Fig. 4; the odd shape needs no torque at the support",
     "snap_to_coil": "energies of an interior-point method that lets the rod leave the wall, to 1e-6",
     "endless": "contact forces at β = 3, of two other programs, to 1e-8; where the wall begins to pull",
+    "lock_up": "length by correlation in closed form, exact ones by quadrature of the endless rod's states: to 1e-8",
     "load_path": "loads of two other programs that let the rod leave the wall, to 1e-7: limit points at −147.1580802 "
     "and −103.6731326",
     "column": "14.3626 of Fig. 9; 74.628569 of (87)",
     "twist": "reflection exchanges the arms and the sign of T₁; T₁ > 0 stabilises up to a limit, section 4.2",
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",
     "wall_moments": "T₂ from (33), integrated a second time",
+    "heavy_weight": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
     "helix": "load to 1e-8 and push to 1e-7 of the closed form",
 }
 """What the tests hold each picture's numbers against."""

@@ -47,6 +47,8 @@ COMMANDS = {
     "liftoff-outside": "liftoff --weight 15 --alpha 90 --outside --on-top",
     "verify": "verify examples/drill-string.toml --at -140kN --rtol 1e-6",
     "sensitivity": "sensitivity --weight 15 --alpha 90",
+    "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",
+    "string": "run examples/bottom-hole-assembly.toml --out results/string",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }
 """Output shown on the pages, by name of the file; run in the order given."""

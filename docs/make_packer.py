@@ -73,4 +73,4 @@ def _inch(value: float) -> str:
 def numbers() -> dict[str, str]:
     """Numbers that the page quotes."""
     small, exact = _small_slopes()["buckling"], _found().changes["buckling"].value
-    return {"packer_small": _inch(small), "packer_percent": f"{100.0 * (exact / small - 1.0):.2f}"}
+    return {"packer_small": _inch(-small), "packer_percent": f"{100.0 * (exact / small - 1.0):.2f}"}

@@ -18,6 +18,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import click
 import make_drag
 import make_endless
 import make_formulas
@@ -92,6 +93,7 @@ def build() -> dict[str, str]:
     _write("nomenclature.md", nomenclature_tables())
     _write("case-keys.md", case_keys())
     _write("catalogue.md", catalogue_tables())
+    _write("commands.md", command_tables())
     _write("twist.md", twist_table())
     numbers: dict[str, str] = {}
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
@@ -194,6 +196,19 @@ MORE = {
     "catalogue.files": "pipes-and-fluids.md",
 }
 """Pages that say more about a key."""
+
+
+def command_tables() -> str:
+    """Every command with its options, from the commands themselves."""
+    parts = []
+    for name, command in sorted(cli.commands.items()):
+        context = click.Context(command, info_name=f"rodwell {name}")
+        usage = " ".join(command.collect_usage_pieces(context))
+        parts.append(f"## rodwell {name}\n\n{command.get_short_help_str(200)}\n\n```sh\nrodwell {name} {usage}\n```\n")
+        options = [p for p in command.params if isinstance(p, click.Option)]
+        rows = [(f"`{', '.join((*p.opts, *p.secondary_opts))}`", p.help or "") for p in options]
+        parts.append(make_howto.table(("Option", "Meaning"), rows) if rows else "")
+    return "\n".join(parts)
 
 
 def case_keys() -> str:

@@ -154,8 +154,8 @@ def test_a_load_beyond_a_fold_is_said_to_be_out_of_reach_with_the_load_of_the_fo
         "analysis": {"modes": 1, "rtol": 1e-4},
     }
     (sentence,) = unreached(answer(Case.from_dict(data)).assessment)
-    assert sentence.startswith("Not reached: −200 B/L² at s = 1, asked for")
-    assert "goes no lower than −118.4" in sentence
+    assert sentence.startswith("Not reached: the end force −200 B/L² at s = 1, asked for")
+    assert "goes no farther than the end force −118.4" in sentence
 
 
 def test_far_too_much_work_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,6 +14,7 @@ from rodwell.analysis.endless.limits import limits
 from rodwell.analysis.endless.local import LIMITS, LocalState, helical_contact, load_and_slope, local_state
 from rodwell.analysis.endless.state import periodic_state
 from rodwell.errors import InputError
+from rodwell.formulas import path
 
 
 def _apart(kind: str, beta: float, slope: float) -> tuple[float, float]:
@@ -122,6 +123,15 @@ def test_helical_contact_without_weight_and_with_it() -> None:
         helical_contact(20e3, 120.0, b, d)
     with pytest.raises(InputError, match="positive"):
         load_and_slope(1.0, 0.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize(("build", "turn"), [(0.0, 0.0), (2e-3, 0.0), (-5e-4, 1e-3)])
+def test_in_a_curved_hole_the_string_buckles_at_2(build: float, turn: float) -> None:
+    """The load of He and Kyllingstad, from its quartic: F² = 4 (B/r) N(F), with N of weight and curvature together."""
+    b, w, alpha, r = 1.228e6, 241.0, 60.0, 0.04445
+    load = path.he_kyllingstad(b, w, alpha, r, build, turn)
+    beta, _ = load_and_slope(load, path.path_contact_force(w, alpha, load, build, turn), b, r)
+    assert beta == pytest.approx(LIMITS.buckling.value, rel=1e-12)
 
 
 def test_the_table_is_read_once() -> None:

@@ -186,9 +186,16 @@ def test_the_bifurcation_of_a_heavier_rod() -> None:
 
 @pytest.mark.parametrize(
     ("field", "change"),
-    [("outside", {"outside": True}), ("on_top", {"on_top": True}), ("turns", {"turns": 1}), ("weight", {"weight": 0.0}),
-     ("alpha", {"alpha": 0.0}), ("ends", {"ends": "loose-clamped"})],
-)  # fmt: skip
+    [
+        ("outside", {"outside": True}),
+        ("on_top", {"on_top": True}),
+        ("turns", {"turns": 1}),
+        ("weight", {"weight": 0.0}),
+        ("alpha", {"alpha": 0.0}),
+        ("sections", {"sections": ((0.6, 1.0, 1.0), (0.4, 0.5, 1.0))}),
+        ("ends", {"ends": "loose-clamped"}),
+    ],
+)
 def test_what_has_no_path_is_refused_with_the_reason(field: str, change: dict) -> None:
     problem = rodwell.Problem(**{"weight": 15.0, **change})
     with pytest.raises(InputError) as caught:
@@ -198,7 +205,11 @@ def test_what_has_no_path_is_refused_with_the_reason(field: str, change: dict) -
 
 def test_loads_that_make_no_sense_are_refused(loop: LoadPath) -> None:
     problem = rodwell.Problem(weight=15)
-    for wrong in ({"until": float("nan")}, {"until": -130.0, "unload_to": -140.0}, {"until": -130.0, "seeds": 0}):
+    for wrong in (
+        {"until": float("nan")}, {"until": -130.0, "unload_to": -140.0}, {"until": -130.0, "seeds": 0},
+        {"until": -130.0, "control": "shortening"}, {"until": 0.002, "unload_to": 0.003, "control": "shortening"},
+        {"until": -130.0, "control": "rotation"},
+    ):  # fmt: skip
         with pytest.raises(InputError):
             load_path(problem, **wrong)
     with pytest.raises(InputError):
@@ -212,3 +223,31 @@ def test_what_it_means(loop: LoadPath) -> None:
     assert "falls back to the straight shape at 103.673 B/L²" in down
     assert "Load path" in loop._repr_html_()
     assert len(loop.curve["force"]) > 50
+
+
+def test_under_controlled_shortening_there_is_no_snap() -> None:
+    """The limit points are extrema of the load only: the rod rolls over the hole's axis into the helix, and back.
+
+    Shortening .001 at F = −126.38730948, .0012 at −119.61433162, two programs; no hysteresis; the energy stored in
+    rod and height changes by the work of the end force.
+    """
+    path = load_path(rodwell.Problem(weight=15), until=0.0022, unload_to=0.0009, control="shortening", seeds=1)
+    assert path.reached
+    assert not path.snaps
+    peaks = [event.force.value for event in path.events if event.kind == "load_peak"]
+    assert peaks == pytest.approx([-147.1580802, -103.6731326, -103.6731326], abs=1e-7)
+    for shortening, force in ((0.001, -126.38730948), (0.0012, -119.61433162)):
+        up, down = path.at(shortening)
+        assert up.state.force == pytest.approx(force, abs=1e-8)
+        assert down.state.force == pytest.approx(up.state.force, abs=1e-8)
+        assert up.state.stability_index == 1  # under a dead load
+        assert up.stability_index == 0
+        assert up.state.certificate.passed
+    assert path.at(0.0022)[0].state.kind == "helix"
+
+    def stored(state) -> float:
+        return state.energy.value - state.force * state.shortening.value
+
+    h = 1e-6
+    low, here, high = (path.at(0.0011 + t)[0].state for t in (-h, 0.0, h))
+    assert (stored(high) - stored(low)) / (2 * h) == pytest.approx(-here.force, rel=1e-6)

@@ -58,17 +58,17 @@ def test_inputs_scale(number: float, kind_unit: tuple[str, str]) -> None:
     ("system", "dimension", "value", "text"),
     [
         ("si", "force", -139600.0, "−139.6 kN"),
-        ("field", "force", -36705.0 * 4.4482216152605, "−36700 lbf"),
+        ("field", "force", -36705.0 * 4.4482216152605, "−36\u202f700 lbf"),
         ("field", "length", 30.48, "100 ft"),
         ("field", "length", 1.75 * 0.0254, "1.75 in"),
-        ("field", "stress", 135e3 * 6894.757293168361, "135000 psi"),
+        ("field", "stress", 135e3 * 6894.757293168361, "135\u202f000 psi"),
         ("field", "moment", 1000 * 1.3558179483314004, "1000 ft·lbf"),
         ("field", "density", 1198.2642731, "10 lb/gal"),
         ("field", "force_per_length", 19.5 * 4.4482216152605 / 0.3048, "19.5 lbf/ft"),
         ("mm", "length", 0.12, "120 mm"),
         ("mm", "moment", 1e-3, "1 N·mm"),
         ("mm", "stress", 2e8, "200 MPa"),
-        ("mm", "force_per_length", 20.0, "0.02 N/mm"),
+        ("mm", "force_per_length", 20.0, "20 mN/mm"),
         ("si", "density", 7850.0, "7850 kg/m³"),
         ("mm", "stiffness", 1.4e-3, "1400 N·mm²"),
     ],
@@ -78,8 +78,8 @@ def test_texts(system: str, dimension: str, value: float, text: str) -> None:
 
 
 def test_plain_numbers_have_no_exponent() -> None:
-    assert plain(-24816.55) == "-24820"
-    assert plain(123456789.0, 6) == "123457000"
+    assert plain(-24816.55) == "−24\u202f820"
+    assert plain(123456789.0, 6) == "1.23457 × 10⁸"
     assert plain(0.0) == "0"
     assert plain(float("inf")) == "inf"
 
@@ -103,22 +103,21 @@ def drill_string() -> Answer:
 
 def test_units_change_what_is_shown_and_nothing_else(drill_string: Answer) -> None:
     """Every row of the table says the same in all systems."""
-    kinds = {f.label: KINDS[f.dimension] for f in drill_string.key_numbers.values()}
     shown = {}
     for system in SYSTEMS:
         case = drill_string.case.in_units(system)
         assert case.problem == drill_string.case.problem
         there = Answer(case, drill_string.critical, drill_string.branches, drill_string.until)
         shown[system] = {
-            row["label"]: to_si(row["physical"], kinds[row["label"]])
-            for row in rows(there.key_numbers.values(), there.case)
+            key.name: to_si(row["value"], KINDS[key.dimension])
+            for key, row in zip(there.key_numbers.values(), rows(there.key_numbers.values(), there.case), strict=True)
         }
         data = there.as_dict()["figures"]["critical_load_1"]
         unit = {"si": "N", "field": "lbf", "mm": "N"}[system]
         assert data[system]["unit"] == unit
         assert to_si(f"{data[system]['value']!r} {unit}", "force") == pytest.approx(data["si"]["value"], rel=1e-12)
         lengths = dict(derived(case))
-        assert lengths["length L"] == {"si": "30 m", "field": "98.4252 ft", "mm": "30000 mm"}[system]
+        assert lengths["length L"] == {"si": "30 m", "field": "98.4252 ft", "mm": "30\u202f000 mm"}[system]
     for system in ("field", "mm"):
         assert shown[system] == pytest.approx(shown["si"], rel=1e-5)
 
@@ -160,14 +159,14 @@ def test_commands_show_the_units_asked_for(
     """The case's own units by default, --units over them; summary, report, JSON, export and audit."""
     file = tmp_path / "tubing.toml"
     file.write_text(QUICK, encoding="utf-8")
-    text = command(monkeypatch, capsys, "run", str(file), "--out", str(tmp_path / "a"))
-    assert re.search(r"compression at the end s = 1 reaches [\d.]+ lbf", text)
+    text = command(monkeypatch, capsys, "run", str(file), "--details", "--out", str(tmp_path / "a"))
+    assert re.search(r"until the compression reaches [\d.]+ lbf", text)
     assert "buoyed weight per length mg" in text
     assert not re.search(r"\d k?N\b", text)
     report = (tmp_path / "a" / "report.html").read_text(encoding="utf-8")
     body = re.sub(r"<script.*?</script>|data:[^\"]*", "", report, flags=re.DOTALL)
     assert "forces are effective ones" in body
-    assert re.search(r"buoyed weight per length mg</td><td>[\d.]+ lbf/ft</td>", body)
+    assert re.search(r"buoyed weight per length mg</td><td>[\d.]+\u00a0lbf/ft</td>", body)
     assert "lbf/ft" in body
     assert not re.search(r"\d k?N\b", body)
     data = json.loads(command(monkeypatch, capsys, "run", str(file), "--units", "mm", "--out", str(tmp_path / "b"),
@@ -177,7 +176,7 @@ def test_commands_show_the_units_asked_for(
     assert {fact["label"] for fact in data["conversions"]} >= {"pipe", "buoyed weight per length mg"}
     text = command(monkeypatch, capsys, "export", str(file), "--to", str(tmp_path / "rod.csv"))
     assert "lbf), tension positive" in text
-    text = command(monkeypatch, capsys, "audit", str(file), "--no-chart", "--out", str(tmp_path / "c"))
+    text = command(monkeypatch, capsys, "audit", str(file), "--no-chart", "--details", "--out", str(tmp_path / "c"))
     assert "lbf" in text
     assert "psi" in text
     assert not re.search(r"\d k?N\b", text)
@@ -195,4 +194,4 @@ def test_figures_name_their_units() -> None:
     branch = follow(case.problem, 1, rtol=1e-4)
     ax = plot_bifurcation([branch], critical_loads(case.problem, 1), case.scales)
     assert ax.get_xlabel().endswith("[lbf]")
-    assert ax.get_ylabel().endswith("[1/ft]")
+    assert ax.get_ylabel().endswith("[in]")

@@ -68,7 +68,9 @@ def test_what_cannot_be_reached_is_said_once_for_each_reason(steep: Answer) -> N
     assert [one.reached for one in at] == [True, True, False, False]
     told = [text for text in sentences(steep) if "Not reached" in text]
     assert len(told) == 1
-    assert told[0].startswith("Not reached: −65 B/L² at s = 1; −80 B/L² at s = 1: the branch of mode 1 goes no lower")
+    assert told[0].startswith(
+        "Not reached: the end force −65 B/L² at s = 1; the end force −80 B/L² at s = 1: the branch of mode 1 goes no"
+    )
     assert "−59.5" in told[0]
     assert "the rod turned across the cylinder" in told[0]
 
@@ -78,7 +80,7 @@ def test_what_cannot_be_reached_stands_in_the_data_and_the_report(steep: Answer)
     assert [one["reached"] for one in applied] == [True, True, False, False]
     assert [bool(one["why"]) for one in applied] == [False, False, True, True]
     section = next(s for s in case_report(steep).sections if s.title == "At the loads that act")
-    assert "Not reached: −65 B/L²" in section.blocks[-1].text  # type: ignore[union-attr]
+    assert "Not reached: the end force −65 B/L²" in section.blocks[-1].text  # type: ignore[union-attr]
 
 
 def test_the_front_page_judges_a_load_out_of_reach(steep: Answer) -> None:
@@ -96,9 +98,9 @@ def test_without_lift_off_nothing_is_said_to_stay_on_the_wall(monkeypatch: pytes
     assert (first.what, last.what, last.reached) == (STRAIGHT, UNKNOWN, False)
     assert "the work allowed for one branch is used up" in last.why
     text = sentences(result)[0]
-    assert text.startswith("At −122 B/L² at the top, s = 1 (compression) the state of the rod is not known: the branch")
+    assert text.startswith("At −122 B/L² at s = 1 (compression) the state of the rod is not known: the branch")
     window = next(s for s in case_report(result).sections if s.title.startswith("The safe window"))
-    assert "No lift-off was found down to −11" in window.blocks[0].text  # type: ignore[union-attr]
+    assert "No lift-off was found down to the end force −11" in window.blocks[0].text  # type: ignore[union-attr]
     words = {status.subject: (status.level, status.word) for status in statuses(result)}
     assert words["Buckling"] == ("bad", "buckled, shape not known")
     assert words["Contact"] == ("bad", "not known")
@@ -109,7 +111,7 @@ def test_an_end_that_is_out_of_reach_loses_nothing() -> None:
     assert result.lift_off is not None
     until = result.as_dict()["until"]
     assert (until["force"]["value"], until["reached"]) == (-65.0, False)
-    assert any(text.startswith("Not reached: −65 B/L² at s = 1, asked for") for text in sentences(result))
+    assert any(text.startswith("Not reached: the end force −65 B/L² at s = 1, asked for") for text in sentences(result))
     assert answer(case({"until": -50}, **STEEP)).as_dict()["until"] | {"force": 0} == {
         "force": 0, "reached": True, "why": "",
     }  # fmt: skip
@@ -137,7 +139,7 @@ def test_a_study_whose_branches_end_early(monkeypatch: pytest.MonkeyPatch) -> No
     })  # fmt: skip
     for point in found.as_dict()["points"]:
         assert [one["reached"] for one in point["applied"]] == [True, False]
-        assert "goes no lower than" in point["applied"][1]["why"]
+        assert "goes no farther than" in point["applied"][1]["why"]
         assert "is used up" in point["reasons"]["lift_off"]
 
 
@@ -156,13 +158,13 @@ def test_verify_compares_what_is_reached(steep_file: Path) -> None:
     data = json.loads(result.stdout)
     assert [state["force"] for state in data["states"]] == [-44.2]
     assert [(one["force"], one["reached"]) for one in data["not_reached"]] == [(-80.0, False)]
-    assert "goes no lower than −59.5" in data["not_reached"][0]["why"]
+    assert "goes no farther than the end force −59.5" in data["not_reached"][0]["why"]
 
 
 @pytest.mark.parametrize("command", [["verify"], ["export", "--to", "rod.csv"]])
 def test_a_single_load_out_of_reach_is_named_as_it_was_written(steep_file: Path, command: list[str]) -> None:
     result = CliRunner().invoke(cli, [command[0], str(steep_file), *command[1:], "--at", "-80"])
-    assert str(result.exception).startswith("--at = -80 cannot be reached: the branch of mode 1 goes no lower than")
+    assert str(result.exception).startswith("--at = -80 cannot be reached: the branch of mode 1 goes no farther than")
 
 
 @settings(max_examples=6, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))

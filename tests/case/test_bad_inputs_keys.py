@@ -99,7 +99,6 @@ NO_SECTIONS = [
     ("friction", "the wall is frictionless"),
     ("temperature", "thermal strain is not treated"),
     ("well", "rodwell screen SURVEY --case CASE"),
-    ("report", "`title` at the top of the file"),
     ("survey", "give it on the command line"),
     ("fluids", "fluids stand in [mud]"),
     ("casing", "its strength stands in [cylinder]"),

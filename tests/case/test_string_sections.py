@@ -12,7 +12,7 @@ import pytest
 from rodwell import Case, answer, critical_loads
 from rodwell.case.case import CaseError
 from rodwell.errors import InputError
-from rodwell.report.reports.string import string_section
+from rodwell.report.reports.sections import string_section
 from rodwell.strength.section import StringSections
 from rodwell.studies.audit.audit import audit
 from rodwell.studies.sweep.varied import varied_inputs

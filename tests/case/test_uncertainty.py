@@ -148,5 +148,7 @@ def test_answer_and_report_carry_it(tmp_path) -> None:
     assert data["sensitivities"][-1]["from_inputs"]["parts"]["rod.length"] != 0.0
     assert any("most of it from rod.length" in line for line in sentences(result))
     write_results(result, tmp_path / "out")
-    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     assert "rod.length = 30 m ± 0.1 m" in page
+    size = result.case.scales.system.text(result.spreads[-1].total, "force", 2)
+    assert f"± {size}" in page.partition('id="section-1"')[0]  # there ± is the uncertainty of the inputs

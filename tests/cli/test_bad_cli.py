@@ -232,7 +232,7 @@ def test_load_beyond_ninety_degrees(rodwell: Run, place: Path) -> None:
     assert (code, err) == (0, "")
     until = json.loads(out)["until"]
     assert (until["force"]["value"], until["reached"]) == (-65.0, False)
-    assert "goes no lower than −5" in until["why"]
+    assert "goes no farther than the end force −5" in until["why"]
     assert "results/answer.json" in entries(place)
 
 
@@ -292,7 +292,8 @@ def test_interrupted(
     monkeypatch.setattr(stage, stopped)
     code, out, err = rodwell("run", "good.toml", "--out", "results", *options)
     assert code == INTERRUPTED
-    assert out == ""
+    assert "Report:" not in out  # what was computed is said, and no file
+    assert bool(out) == (stage != "rodwell.answers.result.answer.answer" and not options)
     assert err.strip() == "rodwell: interrupted; nothing was written"
     assert entries(place) == ["good.toml"]
 
@@ -312,7 +313,7 @@ def test_disk_full_over_earlier_results(rodwell: Run, monkeypatch: pytest.Monkey
     monkeypatch.setattr(stage, disk_full)
     code, out, err = rodwell("run", "good.toml", "--out", "results")
     assert code in (INPUT_ERROR, COMPUTATION_ERROR)
-    assert out == ""
+    assert "Report:" not in out
     assert err.startswith("rodwell: error: ")
     assert "No space left on device" in err
     assert err.count("\n") == 1
@@ -431,12 +432,12 @@ def test_ctrl_c(place: Path, where: str) -> None:
     ) as process:
         try:
             assert process.stdout is not None
-            ready = process.stdout.readline()
+            said = list(iter(process.stdout.readline, "ready\n"))
             process.send_signal(signal.SIGINT)
             out, err = process.communicate(timeout=100)
         finally:
             process.kill()
-    assert ready == "ready\n", err
+    assert bool(said) == (where == WRITING), err  # the verdict was known, and said, before files were written
     assert process.returncode == INTERRUPTED
     assert out == ""
     assert err.strip() == "rodwell: interrupted; nothing was written"

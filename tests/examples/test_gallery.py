@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import cumulative_simpson
+from scipy.integrate import cumulative_simpson, quad
 
 import rodwell
+from rodwell.analysis.endless.local import LIMITS, local_state
 
 GALLERY = Path(__file__).resolve().parents[2] / "examples" / "gallery"
 PI2 = np.pi**2
@@ -43,6 +44,18 @@ def drill_string() -> None:
     assert abs(found["push"]) < 1e-8
 
 
+def heavy_weight() -> None:
+    """At the step the moment is continuous, the curvature jumps with the stiffness; the wall bears that of M₃."""
+    problem, lift, step, sides = run("heavy_weight")
+    below, above = sides["omega2"]
+    assert sides["rod_M2"][0] == pytest.approx(sides["rod_M2"][1], rel=1e-9)
+    assert above / below == pytest.approx(1.0 / 0.534, rel=1e-9)
+    assert sides["omega3"][0] == pytest.approx(sides["omega3"][1], rel=1e-9)
+    assert step.couple.value == pytest.approx((1.0 - 0.534) * sides["omega3"][0], rel=1e-9)
+    assert lift.s[0] > 0.5
+    assert problem.sections
+
+
 def bifurcation_diagram() -> None:
     """Section 4.1.2 of the paper: −362.63 on the first branch and −164.78 on the second."""
     found = run("bifurcation_diagram")
@@ -57,6 +70,19 @@ def broken_symmetry() -> None:
     assert found["symmetry"] == (-1, 1)
     assert abs(found["torque"][0]) < 1e-10
     assert np.all(np.diff(found["torque"]) < 0.0)
+
+
+def lock_up() -> None:
+    """L = (Λ/μ) √(B/wr): Λ in closed form by the correlation, by quadrature of the exact states."""
+    found = run("lock_up")
+    lengths = {key: value / found["unit"] for key, value in found["lock_up"].items()}
+    closed = 2.0 * np.sqrt(2.0) + 2.0 * (0.5 * np.pi - np.arctan(np.sqrt(2.0)))
+    assert lengths["correlation", "early"] == pytest.approx(closed, rel=1e-8)
+    for rule, switch in (("early", LIMITS.helix_lift_off.value), ("late", LIMITS.sinusoidal_lift_off.value)):
+        inverse = [lambda b: 1.0 / local_state(float(b), "sinusoidal").contact_mean,
+                   lambda x: 1.0 / (x * x * local_state(1.0 / float(x), "helical").contact_mean)]  # fmt: skip
+        exact = 2.0 + quad(inverse[0], 2.0, switch)[0] + quad(inverse[1], 1e-9, 1.0 / switch)[0]
+        assert lengths["exact", rule] == pytest.approx(exact, rel=1e-8)
 
 
 def coil() -> None:
@@ -179,7 +205,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     check.__name__: check
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
-        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, well, column, endless,
+        lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
     )
 }  # fmt: skip
 

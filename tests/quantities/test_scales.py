@@ -42,7 +42,7 @@ def test_units_of_the_reader() -> None:
 
 def test_beside_an_error_a_number_has_the_digits_that_this_supports() -> None:
     """One unit of length is 30 m: an error of 0.001 is 3 cm, of 1e-9 less than any digit shown."""
-    assert DRILL_STRING.beside_error(Value(1.23456789, 1e-9), "length") == "37.037 m"
+    assert DRILL_STRING.beside_error(Value(1.23456789, 1e-9), "length") == "37.0370 m"
     assert DRILL_STRING.beside_error(Value(1.23456789, 1e-3), "length") == "37.04 m"
     assert DRILL_STRING.beside_error(Value(1.23456789, 0.1), "length") == "37 m"
     assert DRILL_STRING.beside_error(Value(1e-9, 1e-3), "length") == "0 m"

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
+from rodwell.quantities.written import number_and_rest
+
 EMPTY = {"meta", "img", "input", "br", "link"}
+
+
+def number_of(text: str) -> float:
+    """The number that a cell begins with, as the pages write it: −1 234.5, 6 × 10⁻¹²."""
+    read = number_and_rest(text.strip("\u2007\u2008 ").replace("\u00a0", " "))
+    assert read is not None, text
+    return read[0]
 
 
 class Page(HTMLParser):

@@ -11,7 +11,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from pages import Page
+from pages import Page, number_of
 
 import rodwell
 
@@ -57,11 +57,9 @@ def test_critical_loads_as_a_table(problem: rodwell.Problem) -> None:
     page = shown(rodwell.critical_loads(problem, 2))
     (rows,) = page.tables
     assert rows[0] == ["mode", "F in B/L²", "± error", "mode shape"]
-    assert [float(row[1].replace("−", "-")) for row in rows[1:]] == pytest.approx(
-        [-111.2334402, -127.2577803], abs=5e-8
-    )
+    assert [number_of(row[1]) for row in rows[1:]] == pytest.approx([-111.2334402, -127.2577803], abs=5e-8)
     assert [row[3] for row in rows[1:]] == ["odd", "even"]
-    assert all(0.0 < float(row[2].replace("−", "-")) < 1e-6 for row in rows[1:])
+    assert all(0.0 < number_of(row[2]) < 1e-6 for row in rows[1:])
     assert "both ends clamped" in " ".join(page.words)
     assert "tension positive" in " ".join(page.words)
 
@@ -71,10 +69,10 @@ def test_branch_as_a_table(branch: rodwell.Branch) -> None:
     (rows,) = page.tables
     kinds = ["buckling of the straight rod", "lift-off", "secondary bifurcation", "end of the branch"]
     assert [row[0] for row in rows[1:]] == kinds
-    assert float(rows[3][1].replace("−", "-")) == pytest.approx(-362.629366, abs=5e-7)  # AUTO-07p; theory, section 1
+    assert number_of(rows[3][1]) == pytest.approx(-362.629366, abs=5e-7)  # AUTO-07p; theory, section 1
     assert rows[2][1] == "−123.1730744"  # theory, section 4
     assert rows[2][3:] == ["0 → 0", "0.5"]
-    assert float(rows[2][2].replace("−", "-")) < 1e-6
+    assert number_of(rows[2][2]) < 1e-6
     assert "converged: every number meets" in " ".join(page.words)
 
 
@@ -89,14 +87,14 @@ def test_state_as_a_table(branch: rodwell.Branch) -> None:
     page = shown(state)
     (rows,) = page.tables
     values = {row[1]: row for row in rows[1:]}
-    assert abs(float(values["max p"][2].replace("−", "-"))) < 1e-6  # lift-off is where it vanishes
+    assert abs(number_of(values["max p"][2])) < 1e-6  # lift-off is where it vanishes
     assert values["max p"][4] == "B/L³"
     # approach of the ends of a branch of equilibria: dE/dF = −(1 − z(1)), by differences of the energy
     before, after = branch.at(-120.01), branch.at(-119.99)
     slope = (after.number(rodwell.analysis.discrete.measures.Measured.ENERGY).value
              - before.number(rodwell.analysis.discrete.measures.Measured.ENERGY).value) / 0.02  # fmt: skip
     row = {row[1]: row for row in shown(branch.at(-120.0)).tables[0][1:]}["1 − z(1)"]
-    assert float(row[2]) == pytest.approx(slope, rel=1e-5)
+    assert number_of(row[2]) == pytest.approx(slope, rel=1e-5)
     assert "stable, under dead loads" in " ".join(page.words)
 
 

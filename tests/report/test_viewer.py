@@ -14,6 +14,7 @@ import pytest
 
 import rodwell
 from rodwell.analysis.space.scene import drawn, scene
+from rodwell.quantities.text import plain
 from rodwell.report.pages.viewer import view, viewer, write_viewer
 
 NEEDED = {"src", "href", "data", "poster", "action"}
@@ -95,25 +96,26 @@ def test_scene_in_the_page_is_that_of_the_solution(page: str, state: rodwell.Sol
 def test_colour_bar(state: rodwell.Solution) -> None:
     pressure = state.geometry(321).fields["contact_pressure"]
     markup = viewer(view(state, rod=state.geometry(321))).markup
-    assert f"{pressure.min():.4g}".replace("-", "−") in markup
+    assert plain(pressure.min()) in markup
     assert "B/L³ contact pressure p" in markup
     outside = rodwell.follow(rodwell.Problem(15, on_top=True, outside=True), 2).lift_off.solution
     rod = drawn(outside, None)
     markup = viewer(view(outside, rod=rod)).markup
     most = rod.fields["contact_pressure"].max()
-    assert f'class="bar">{most:.4g} <i' in markup  # pressed most: p > 0 outside
+    assert f'class="bar">{plain(most)} <i' in markup  # pressed most: p > 0 outside
     scales = rodwell.Case.from_dict(
         {
             "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},
             "hole": {"diameter": "70 cm", "angle_from_vertical": "90 deg"},
         }
     ).scales
-    assert "N/m contact pressure p" in viewer(view(state, scales, rod)).markup
+    assert "N/m push on the wall" in viewer(view(state, scales, rod)).markup  # engineers count the push
     assert "rod radius drawn 50 mm" in view(state, scales).caption
 
 
 def test_report_turns_and_prints(tmp_path: Path) -> None:
-    from rodwell.report.folders.case import FILES, write_results
+    from rodwell.report.folders.case import write_results
+    from rodwell.report.reports.files import FILES
 
     case = rodwell.Case.from_dict({"dimensionless": {"weight": 15}, "analysis": {"modes": 1, "rtol": 1e-6}})
     write_results(rodwell.answer(case), tmp_path)
@@ -121,7 +123,37 @@ def test_report_turns_and_prints(tmp_path: Path) -> None:
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     parts = Parts(page)
     assert parts.loaded
-    assert all(address.startswith("data:image/") for address in parts.loaded)
+    beside = {file.name for file in tmp_path.iterdir()}
+    assert all(address.startswith(("data:image/", "#")) or address in beside for address in parts.loaded)
     assert '<img class="still" src="data:image/png' in page  # what prints
     assert len(parts.data) == 1
     assert len(page) < 2_000_000
+
+
+@pytest.mark.parametrize("outside", [False, True])
+def test_nothing_is_drawn_beyond_the_wall(outside: bool) -> None:
+    """Rings and material lines stand out from the rod, and are flattened where it touches the wall."""
+    problem = rodwell.Problem(15, on_top=outside, outside=outside)
+    lift = rodwell.follow(problem, 2 if outside else 1).lift_off
+    assert lift is not None
+    rod = drawn(lift.solution, None)
+    assert rod.lift_off
+    for part in scene(rod, 16):
+        away = np.hypot(part.mesh.vertices[:, 0], part.mesh.vertices[:, 1])
+        if outside:
+            assert away.min() >= rod.wall_radius * (1.0 - 1e-9)
+        else:
+            assert away.max() <= rod.wall_radius * (1.0 + 1e-9)
+
+
+def test_the_picture_says_its_scale_and_what_stands_under_the_pointer(state: rodwell.Solution) -> None:
+    rod = state.geometry(101, radial_scale=None)
+    seen = view(state, rod=rod)
+    assert f"× {plain(rod.radial_scale, 3)} across the axis" in viewer(seen).markup
+    assert "true scale" in viewer(seen).markup
+    along = seen.data["along"]
+    assert len(along["points"]) == len(along["says"]) == 101
+    push = -state.fields(np.array([0.5]))["contact_pressure"][0]
+    assert f"push {plain(push, 3)} B/L³" in along["says"][50]
+    assert 'data-show="true-scale"' in viewer(seen).markup
+    assert 'data-show="true-scale"' not in viewer(view(state, rod=state.geometry(101))).markup  # it is that already

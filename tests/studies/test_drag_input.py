@@ -54,7 +54,7 @@ def test_a_good_file_is_read() -> None:
         ({"string__1": {**PIPE, "length": "3400 m"}}, "string", "is 3500 m long, the well 3400 m"),
         ({"string__0": PIPE}, "[[string]] 1, length", "only the uppermost"),
         ({"string__0": {**PIPE, "joints": 9}}, "[[string]] 1, joint_length", "is missing"),
-        ({"string__0__ends": "clamped-clamped"}, "[[string]] 1, ends", "leave it out"),
+        ({"string__0__ends": "clamped-clamped"}, "[[string]] 1, ends", "is not known"),
         ({"string__0__outer_diameter": "9 in"}, "[[hole.section]], section 1, diameter", "does not fit"),
         ({"well__operation__0__bit_force": "50 kN"}, "[[well.operation]] 1, bit_force", 'write "-50 kN"'),
         ({"well__operation__0__bit_depth": "9000 m"}, "[[well.operation]] 1, bit_depth", "below the last station"),
@@ -105,3 +105,18 @@ def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
     shown = CliRunner().invoke(cli, ["drag", str(example), "--out", str(tmp_path / "o2"), "--units", "field"])
     assert shown.exit_code == 0
     assert "lbf" in shown.output
+
+
+def test_friction_from_measurements_on_the_command_line(tmp_path: Path) -> None:
+    folder = Path(__file__).parents[2] / "examples" / "wells"
+    measured = ["--calibrate", str(folder / "extended-reach-hookloads.csv")]
+    ran = CliRunner().invoke(
+        cli, ["drag", str(folder / "extended-reach.toml"), *measured, "--out", str(tmp_path / "out")]
+    )
+    assert ran.exit_code == 0, ran.output
+    assert "friction factor of 9 5/8 in casing: 0.179" in ran.output  # the example was made with 0.18 and 0.27
+    written = {file.name for file in (tmp_path / "out").iterdir()}
+    assert {"calibration.csv", "calibration.svg", "road-map.csv", "road-map.svg", "report.html"} <= written
+    data = json.loads((tmp_path / "out" / "drag.json").read_text(encoding="utf-8"))
+    assert data["calibration"]["friction"][1]["value"] == pytest.approx(0.27, abs=0.01)
+    assert "Friction from measurements" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")

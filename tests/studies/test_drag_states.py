@@ -14,9 +14,11 @@ from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL
 from rodwell.studies.drag.drag import drag
 from rodwell.studies.drag.history import History, run_with_history, states_differ
 from rodwell.studies.drag.laws import CHEN, STRAIGHT_LAW, correlation, exact
+from rodwell.studies.drag.limits import limit_compression
 from rodwell.studies.drag.lock_up import reach, transfer
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.run import balance, run
+from rodwell.studies.drag.strength import load_of
 from rodwell.studies.well.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
@@ -197,3 +199,39 @@ def test_stretch_and_twist_of_a_hanging_string() -> None:
     top = WEIGHT * 2000.0 / area
     shear = 3e3 * 0.0635 / (2.0 * inertia)
     assert found.strength.von_mises[-1] == pytest.approx(math.sqrt(top**2 + 3.0 * shear**2), rel=1e-6)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_limits_of_buckling_in_a_build_and_in_a_drop(side: float) -> None:
+    """P² = β² (B/r)(w sin α ± P/R): compression presses the string down in a build, and takes it up in a drop."""
+    radius, beta = 600.0, 2.0
+    first, last = (20.0, 80.0) if side > 0.0 else (80.0, 20.0)
+    survey = Survey.of([0.0, radius * math.radians(60.0)], [first, last])
+    one = run(cutter(survey), operation("pull-out", survey), STRAIGHT_LAW)
+    alpha = np.radians(np.interp(one.measured_depth, survey.md, survey.inclination))
+    half = 0.5 * side * beta**2 * STIFFNESS / (CLEARANCE * radius)
+    exact_limit = half + np.sqrt(half**2 + beta**2 * STIFFNESS / CLEARANCE * WEIGHT * np.sin(alpha))
+    assert limit_compression(one, beta) == pytest.approx(exact_limit, rel=1e-9)
+
+
+def test_limits_in_a_vertical_hole_are_zero() -> None:
+    survey = Survey.of([0.0, 500.0], [0.0, 0.0])
+    one = run(cutter(survey), operation("pull-out", survey), STRAIGHT_LAW)
+    assert limit_compression(one, 2.0) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_string_that_was_run_in_as_a_helix_stays_one_while_it_is_reamed() -> None:
+    """Running in loads the upper end beyond lift-off; reaming, the force is less, but the helix lasts."""
+    survey = horizontal(5200.0)
+    history = History(cutter(survey), exact())
+    into = run_with_history(history, operation("run-in", survey), "late")
+    assert load_of(into)[-1] > LIMITS.sinusoidal_lift_off.value
+    around = 0.06 * math.sqrt(1.0 / 0.8**2 - 1.0) / 0.0635  # so that 0.8 of the friction acts along the hole
+    ream = operation("ream", survey, speed=0.06, turning=around)
+    never = run_with_history(history, ream, "late")
+    kept = run_with_history(history, ream, "history")
+    top = load_of(never)[-1]
+    assert LIMITS.helix_lift_off.value < top < LIMITS.sinusoidal_lift_off.value
+    assert never.states[-1] == SINUSOIDAL
+    assert kept.states[-1] == HELICAL
+    assert kept.force < never.force

@@ -139,6 +139,15 @@ def test_numbers_at_a_load() -> None:
     assert short.values[1] > 0.0
 
 
+def test_a_string_of_sections_keeps_its_sections() -> None:
+    """Every field of the problem goes into a map, and into the question that its store bears."""
+    string = rodwell.Problem(15.0, 90.0, sections=((0.6, 1.0), (0.4, 0.5, 0.8)))
+    found = rodwell.map(string, "critical", over={"weight": [10.0, 15.0]}, halvings=0)
+    assert found.values[1] == rodwell.critical_loads(string, 1)[0].force
+    assert found.values[1] != rodwell.critical_loads(FLAT, 1)[0].force
+    assert found.question.identity["of"]["sections"][1][:3] == [0.4, 0.5, 0.8]
+
+
 def test_secondary_load_is_that_of_the_paper_and_is_not_defined_where_nothing_is_symmetric() -> None:
     """−362.63, section 4.1.2 of the paper."""
     found = rodwell.map(FLAT, "secondary", over={"alpha": [90.0, 60.0]}, halvings=0)

@@ -236,7 +236,7 @@ def test_command_writes_the_same_numbers_everywhere(tmp_path: Path) -> None:
     assert result.exit_code == 0
     data = json.loads(result.stdout)
     files = {file.name for file in (tmp_path / "out").iterdir()}
-    assert files == {"limits.png", "limits.svg", "screening.json", "stations.csv", "stations.xlsx"}
+    assert files == {"limits.png", "limits.svg", "report.html", "screening.json", "stations.csv", "stations.xlsx"}
     ElementTree.parse(tmp_path / "out" / "limits.svg")
     with (tmp_path / "out" / "stations.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from rodwell.case import schema
+from rodwell.case.about import NOBODY, About, about_of
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.case.checks.explain import SECTIONS, explain
@@ -25,7 +26,7 @@ from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
-from rodwell.case.string import PhysicalString, check_beside
+from rodwell.case.sections import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
 from rodwell.faces import Shown
@@ -81,6 +82,8 @@ class Case(Shown):
         What each support can bear, if given.
     gravity
         In m/s².
+    about
+        For whom the report is, by whom, and its logo.
     string
         The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
         and the whole length. None of a uniform rod.
@@ -103,6 +106,7 @@ class Case(Shown):
     applied: tuple[AppliedLoad, ...] = ()
     supports: schema.Supports | None = None
     gravity: float = 9.80665
+    about: About = NOBODY
     string: PhysicalString | None = None
 
     @property
@@ -163,12 +167,13 @@ class Case(Shown):
         try:
             clean, moved = split(data)
             case = cls._certain(clean, source, text, Path(folder))
+            case = replace(case, about=about_of(clean.get("report"), Path(folder)))
         except CaseError:
             raise
         except InputError as error:
             raise CaseError(source, [in_users_words(data, error)]) from None
         inputs = tuple(_uncertain(data, clean, *key, pair, Path(folder)) for key, pair in moved.items())
-        return replace(case, uncertain=inputs, given=_given(data))
+        return replace(case, uncertain=inputs, given={name: data[name] for name in case.given})
 
     @classmethod
     def _certain(cls, data: Mapping[str, Any], source: str, text: str, folder: Path) -> Case:

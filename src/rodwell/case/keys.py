@@ -160,7 +160,9 @@ def _kind(field: FieldInfo) -> tuple[str, str]:
             return one.kind, one.allowed
     types = {field.annotation, *get_args(field.annotation)}
     if int in types:
-        return "whole number", f"from 1 to {schema.MOST_MODES}"
+        bounds = {type(one).__name__: one for one in field.metadata}
+        least, most = getattr(bounds.get("Ge"), "ge", 1), getattr(bounds.get("Le"), "le", schema.MOST_MODES)
+        return "whole number", f"from {least} to {most}"
     if bool in types or any(bool in get_args(one) for one in types):
         return "true or false", ""
     return ("list of text", "") if list[str] in types else ("text", "")

@@ -11,7 +11,7 @@ from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.string import PhysicalString, check_length, clearance_of, string_of
+from rodwell.case.sections import PhysicalString, check_length, clearance_of, string_of
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
@@ -77,7 +77,7 @@ def physical(
             f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"))
+    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
     problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]

@@ -24,6 +24,7 @@ from rodwell.case.kinds import (
     Forces,
     InnerLength,
     Length,
+    Line,
     Moment,
     Motion,
     Name,
@@ -217,6 +218,19 @@ class CatalogueFiles(SectionInput):
     )  # fmt: skip
 
 
+class ReportInput(SectionInput):
+    """[report]: what stands at the head of the report, to be signed."""
+
+    client: Line | None = _key(None, "for whom", "Example Oil plc")
+    project: Line | None = _key(None, "of which it is a part", "Well A-12, 8 1/2 in section")
+    author: Line | None = _key(None, "who made it", "A. Engineer")
+    revision: Line | None = _key(None, "of the report", "B, for approval")
+    logo: Line | None = _key(
+        None, "picture at its head (PNG, JPEG, SVG), from the folder of the case file", "logo.svg",
+        allowed="at most 2 MB",
+    )  # fmt: skip
+
+
 class Dimensionless(SectionInput):
     """[dimensionless]: instead of [rod] and [hole]."""
 
@@ -284,6 +298,7 @@ class CaseFile(SectionInput):
     pressure: PressureAtEnd | None = None
     packer: PackerInput | None = None
     catalogue: CatalogueFiles | None = None
+    report: ReportInput | None = None
     units: Units | None = _key(None, "units of the results; `si` if not given", "field")
     study: StrictBool | None = _key(
         None, "`true` makes each list of values a parameter study; a range makes one by itself", True

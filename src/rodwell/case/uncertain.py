@@ -47,7 +47,7 @@ def split(data: Mapping[str, Any]) -> tuple[dict[str, Any], dict[tuple[str, str]
     moved: dict[tuple[str, str], tuple[str, str]] = {}
     for section, values in data.items():
         clean[section] = values
-        if not isinstance(values, Mapping):
+        if not isinstance(values, Mapping) or section == "report":  # which holds words only
             continue
         clean[section] = dict(values)
         for key, text in values.items():

@@ -19,8 +19,7 @@ from rodwell.case.kinds import (
     Several,
     Units,
 )
-from rodwell.case.schema import REQUIRED, CatalogueFiles, Mud, PressureAtEnd, SectionInput, _key
-from rodwell.case.well_string import StringPart
+from rodwell.case.schema import REQUIRED, CatalogueFiles, Mud, PressureAtEnd, SectionInput, StringInput, _key
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")
 CONTACTS = ("exact", "correlation", "straight")
@@ -110,7 +109,7 @@ class WellFile(SectionInput):
 
     title: str | None = _key(None, "for report and summary; the name of the file if not given", "Well A")
     units: Units | None = _key(None, "units of the results; `si` if not given", "field")
-    string: tuple[StringPart, ...] = Field((), description="[[string]], from the bit up")
+    string: tuple[StringInput, ...] = Field((), description="[[string]], from the bit up")
     hole: WellHole = Field(REQUIRED)
     mud: Mud | None = None
     pressure: PressureAtEnd | None = None

@@ -1,4 +1,4 @@
-"""[[string]] of a case file: the sections of a string, from the bottom up."""
+"""[[string]] in the file of a well: the sections of a string, from the bit up to the surface."""
 
 from __future__ import annotations
 
@@ -6,33 +6,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pydantic import Field
-
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.fluids import Fluids, checked_weight, fluids_of
-from rodwell.case.kinds import Length, Name
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.schema import Mud, PressureAtEnd, RodInput
+from rodwell.case.schema import Mud, PressureAtEnd, StringInput
 from rodwell.errors import InputError
 
 MOST_SECTIONS = 200
 """Sections that a string may have."""
-
-
-class StringPart(RodInput):
-    """[[string]]: a section of the string, from the bottom up; the keys of [rod] say what it is."""
-
-    name: Name | None = Field(None, description="what the section is called in tables", examples=["drill collars"])
-    length: Length | None = Field(  # type: ignore[assignment]
-        None, description="length of the section; that of the uppermost may be left out: it reaches to the surface",
-        examples=["90 m"],
-    )  # fmt: skip
-    joints: int | None = Field(
-        None, description="number of joints, instead of `length`", examples=[9], strict=True, ge=1, le=10_000
-    )
-    joint_length: Length | None = Field(
-        None, description="length of a joint, with `joints`", examples=["9.45 m", "31 ft"]
-    )
 
 
 @dataclass(frozen=True)
@@ -51,7 +32,7 @@ def key_of_part(number: int, key: str) -> str:
 
 
 def string_sections(
-    parts: Sequence[StringPart], gravity: float, mud: Mud | None, pressure: PressureAtEnd | None, catalogue: Catalogue
+    parts: Sequence[StringInput], gravity: float, mud: Mud | None, pressure: PressureAtEnd | None, catalogue: Catalogue
 ) -> tuple[StringSection, ...]:
     """Return the sections of a string in SI units, from the bottom up.
 
@@ -68,9 +49,8 @@ def string_sections(
     out = []
     for i, part in enumerate(parts):
         length = _length(part, i, last=i == len(parts) - 1)
-        given = part.model_copy(update={"length": length})
         try:
-            rod = physical_rod(given, gravity, catalogue, length)
+            rod = physical_rod(part, gravity, catalogue, length)
             fluids = fluids_of(mud, pressure, rod)
             weight = checked_weight(fluids, rod, gravity)
         except InputError as error:
@@ -79,11 +59,8 @@ def string_sections(
     return tuple(out)
 
 
-def _length(part: StringPart, number: int, last: bool) -> float:
+def _length(part: StringInput, number: int, last: bool) -> float:
     """Length of a section in m; infinite where it is left open."""
-    if "ends" in part.model_fields_set:
-        raise InputError(key_of_part(number, "ends"), part.ends, "has no meaning for a section of a string: leave it "
-                         "out")  # fmt: skip
     if part.joints is None:
         if part.joint_length is not None:
             raise InputError(key_of_part(number, "joints"), None, "is missing: joint_length needs it")

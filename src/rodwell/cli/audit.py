@@ -19,7 +19,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import error_digit, minus, plain, signed
 
 if TYPE_CHECKING:
     from rodwell.answers.comparison.beside import Comparison, FormulaRow, Other
@@ -42,7 +42,8 @@ NAMES = {
 @click.option("--turn", type=float, help="Degrees that the hole turns sideways over the rod's length.")
 @click.option("--chart/--no-chart", default=True, show_default=True, help="Draw the error over weight and inclination.")
 @units_option
-@click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the tables.")
+@click.option("--details", is_flag=True, help="Print every formula, not the verdict only.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON instead.")
 def audit(
     case: Path,
     out: Path | None,
@@ -51,6 +52,7 @@ def audit(
     turn: float | None,
     chart: bool,
     units: str | None,
+    details: bool,
     as_json: bool,
 ) -> None:
     """Hold the formulas of practice against the exact loads of CASE, a TOML file.
@@ -82,14 +84,31 @@ def audit(
         report = lambda done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
         errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart else None
         tell("figure and data", 1.0)
-        files = write_audit(result, errors, folder)
+        write_audit(result, errors, folder, read.about, read.source)
     if as_json:
         print_json(result.as_dict())
     else:
-        _print(result)
-        print_written(folder, files)
-    missed = [f"{load.label} ± {load.error:.0e}" for load in result.loads if not load.meets(read.rtol)]
+        _decided(result)
+        if details:
+            _print(result)
+        print_written(folder, "report.html")
+    missed = [f"{load.label} ± {error_digit(load.error)}" for load in result.loads if not load.meets(read.rtol)]
     check_missed(missed, read.rtol)
+
+
+def _decided(audit: Audit) -> None:
+    """What is decided, in a few lines."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.panel import Panel  # noqa: PLC0415
+
+    from rodwell.report.reports.audit import verdict  # noqa: PLC0415
+
+    lines = [f"[bold]{_safe(verdict(audit))}[/bold]"]
+    for load in audit.loads:
+        lines.append(f"• {_safe(load.label)}: {_force(audit, load.at('bottom'), 4)} of compression at the bottom")
+    lines += [f"• not compared: {_safe(note)}" for note in audit.not_found]
+    panel = Panel("\n".join(lines), title=_safe(audit.title), title_align="left", border_style="blue")
+    Console(highlight=False).print(panel)
 
 
 def _print(audit: Audit) -> None:
@@ -104,7 +123,8 @@ def _print(audit: Audit) -> None:
     problem = audit.problem
     console.print(f"[bold]{_safe(audit.title)}[/bold]")
     console.print(
-        f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
+        f"γ = {plain(problem.weight)}   α = {plain(problem.alpha)}° from the vertical   "
+        f"Δ/L = {plain(problem.clearance)}   "
         f"{ends_text(problem)}\n"
         "Compression positive at top (s = 1), middle and bottom (s = 0). Straight hole, no friction."
     )
@@ -175,7 +195,7 @@ def _force(audit: Audit, value: float, digits: int = 5) -> str:
     """A force in the case's units for a case with dimensions, else in B/L²."""
     if audit.scales is not None:
         return audit.scales.text(value, "force", digits)
-    return minus(f"{value:.{digits}g}")
+    return plain(value, digits)
 
 
 def _print_reasons(console: Any, audit: Audit) -> None:
@@ -223,26 +243,12 @@ def _at_bottom(audit: Audit, one: AtApplied) -> str:
 
 
 def _print_values(console: Any, audit: Audit, others: Sequence[Other]) -> None:
+    from rodwell.report.reports.audit import other_value  # noqa: PLC0415
+
     rows = []
     for other in others:
         if other.value is None:
             continue
-        error = "" if other.relative_error is None else minus(f"{100 * other.relative_error:+.2g} %")
-        rows.append((_safe(other.formula.name), _other_value(audit, other), error, "no" if other.reasons else "yes"))
+        error = "" if other.relative_error is None else f"{signed(100 * other.relative_error, 2)} %"
+        rows.append((_safe(other.formula.name), other_value(audit, other), error, "no" if other.reasons else "yes"))
     print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
-
-
-def _other_value(audit: Audit, other: Other) -> str:
-    from rodwell.formulas.record import NOMENCLATURE  # noqa: PLC0415
-
-    assert other.value is not None
-    dimension = other.formula.dimension
-    if audit.scales is not None:
-        return audit.scales.system.text(other.value * audit.factor(dimension), NOMENCLATURE[dimension], 5)
-    powers = {"B": dimension[0], "L": dimension[1] - 2 * dimension[0]}
-    unit = " ".join(f"{name}{_power(power)}" for name, power in powers.items() if power)
-    return minus(f"{other.value:.5g} {unit}".rstrip())
-
-
-def _power(power: int) -> str:
-    return "" if power == 1 else str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

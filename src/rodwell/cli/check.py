@@ -9,6 +9,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import force_at, json_option, print_json, progress_bar
+from rodwell.quantities.text import plain, signed
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.verify import Verification
@@ -57,7 +58,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
         count = [0]
 
         def report(force: float) -> None:
-            tell(f"solve_bvp at F = {force:.6g} B/L²", min(count[0] / 3.0, 0.9))
+            tell(f"solve_bvp at F = {plain(force, 6)} B/L²", min(count[0] / 3.0, 0.9))
             count[0] += 1
 
         result = solve_again(branch, forces or None, rtol=rtol, progress=report)
@@ -67,7 +68,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     else:
         _print(result, read.title, mode)
         for force in missed:
-            wrapped(f"  F = {force:+.8g}: not reached: {why}")
+            wrapped(f"  F = {signed(force, 8)}: not reached: {why}")
     if not result.agrees:
         raise click.exceptions.Exit(1)
 
@@ -82,12 +83,14 @@ def _print(result: Verification, title: str, mode: int) -> None:
         verdict = "agree" if state.agrees else "DO NOT AGREE"
         worst = state.worst
         click.echo(
-            f"  F = {state.force:+.8g}: {verdict}; largest difference {state.differences[worst]:.1e}, in {worst}"
+            f"  F = {signed(state.force, 8)}: {verdict}; largest difference "
+            f"{plain(state.differences[worst], 2)}, in {worst}"
         )
-        wrapped(f"solve_bvp: {state.nodes} mesh points, residual {state.residual:.1e}. {state.message}", "      ")
+        wrapped(f"solve_bvp: {state.nodes} mesh points, residual {plain(state.residual, 2)}. {state.message}", "      ")
     if result.lift_off is not None:
         ours, other = result.lift_off
         click.echo(
-            f"  lift-off: engine {ours:+.12g}, solve_bvp {other:+.12g}, difference {result.lift_off_difference:.1e}"
+            f"  lift-off: engine {signed(ours, 12)}, solve_bvp {signed(other, 12)}, "
+            f"difference {plain(result.lift_off_difference or 0.0, 2)}"
         )
-    click.echo("All agree." if result.agrees else f"They do not all agree to {result.rtol:g}.")
+    click.echo("All agree." if result.agrees else f"They do not all agree to {plain(result.rtol)}.")

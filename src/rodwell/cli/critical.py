@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
+from rodwell.quantities.text import error_digit, plain, with_error
+from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.straight.critical import CriticalLoads
@@ -45,7 +47,9 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     if _untouched(problem):
         touch = free.at_wall
         known = touch is None or touch.error <= rtol * (abs(touch.force) + free.scale)
-        check_missed([] if known or touch is None else [f"load with the wall's help ± {touch.error:.0e}"], rtol)
+        check_missed(
+            [] if known or touch is None else [f"load with the wall's help ± {error_digit(touch.error)}"], rtol
+        )
 
 
 def _untouched(problem: Problem) -> bool:
@@ -87,23 +91,25 @@ def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
     if problem.twist != 0.0:
         _say(
             f"Twist does not enter while weight keeps the rod on the wall. Without the wall's help it does: the rod "
-            f"would buckle at {alone.force:.6g} {UNIT}."
+            f"would buckle at {plain(alone.force, 6)} {UNIT}."
         )
     if problem.lateral_weight > 0.0 and not problem.pressed:
         _say("Weight pulls this rod off the wall: the loads below are those of a rod that is kept on it.")
     click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     for mode in loads:
         symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
-        number = "0   the rod turns as a rigid body" if mode.rigid else f"{mode.force:+.10g}  ± {mode.error:.1e}"
+        number = "0   the rod turns as a rigid body" if mode.rigid else f"{with_error(mode.load)}"
         click.echo(f"  mode {mode.number:>2}  {number}   {symmetry}")
     click.echo(_line("without the wall's help", alone))
     first = loads[0]
     if first.rigid:
         click.echo("Any compression turns the straight rod as a rigid body.")
     elif first.force > 0.0:
-        click.echo(f"The rod buckles under its own weight unless it is held in tension of {first.force:.6g} {UNIT}.")
+        click.echo(
+            f"The rod buckles under its own weight unless it is held in tension of {plain(first.force, 6)} {UNIT}."
+        )
     else:
-        click.echo(f"The straight rod is stable up to a compression of {-first.force:.6g} {UNIT} at s = 1.")
+        click.echo(f"The straight rod is stable up to a compression of {plain(-first.force, 6)} {UNIT} at s = 1.")
 
 
 def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
@@ -112,33 +118,33 @@ def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
 
     problem, touch = free.problem, free.at_wall
     assert touch is not None
-    at = "without any end force" if abs(touch.force) <= touch.error else f"at {touch.force:.6g} {UNIT}"
+    at = "without any end force" if abs(touch.force) <= touch.error else f"at {plain(touch.force, 6)} {UNIT}"
     _say(
-        f"Nothing presses this rod to the wall, so twist counts: the rod buckles {at}, not at {loads[0].force:.6g} "
-        f"like a rod that is kept on the wall."
+        f"Nothing presses this rod to the wall, so twist counts: the rod buckles {at}, not at "
+        f"{plain(loads[0].force, 6)} like a rod that is kept on the wall."
     )
     click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(_line("with the wall's help", touch))
     click.echo(_line("without the wall's help", free.modes[0]))
     for mode in loads:
-        click.echo(f"  kept on the wall, mode {mode.number:>2}  {mode.force:+.10g}  ± {mode.error:.1e}")
+        click.echo(f"  kept on the wall, mode {mode.number:>2}  {with_error(mode.load)}")
     if touch.moves_inward:
         click.echo("The mode moves inwards only: the wall does not help.")
     else:
-        places = ", ".join(f"{a:.3g}" if a == b else f"{a:.3g} to {b:.3g}" for a, b in touch.contacts)
+        places = ", ".join(plain(a, 3) if a == b else f"{plain(a, 3)} to {plain(b, 3)}" for a, b in touch.contacts)
         _say(f"The mode needs the wall, at s/L = {places}.")
     if abs(touch.force) <= touch.error:
         click.echo("The straight rod bears no compression.")
     elif touch.force > 0.0:
-        click.echo(f"The rod buckles unless it is held in tension of {touch.force:.6g} {UNIT}.")
+        click.echo(f"The rod buckles unless it is held in tension of {plain(touch.force, 6)} {UNIT}.")
     else:
-        click.echo(f"The straight rod is stable up to a compression of {-touch.force:.6g} {UNIT} at s = 1.")
+        click.echo(f"The straight rod is stable up to a compression of {plain(-touch.force, 6)} {UNIT} at s = 1.")
 
 
 def _line(name: str, mode: SpatialMode) -> str:
     if mode.rigid:
         return f"  {name}  0   the rod moves as a rigid body"
-    return f"  {name:<24}  {mode.force:+.10g}  ± {mode.error:.1e}"
+    return f"  {name:<24}  {with_error(Value(mode.force, mode.error))}"
 
 
 def _say(text: str) -> None:

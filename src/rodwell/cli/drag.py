@@ -81,14 +81,14 @@ def drag(
             read = fitted.well
         found = compute(read, tell)
         tell("figures, report and data", 1.0)
-        files = write_drag(found, folder, calibration=fitted, with_pdf=with_pdf)
+        write_drag(found, folder, calibration=fitted, with_pdf=with_pdf)
     if as_json:
         print_json(drag_dict(found, fitted))
     elif not quiet:
         _print(found)
         if fitted is not None:
             _print_friction(fitted)
-        print_written(folder, files)
+        print_written(folder, "report.html")
     from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
 
     check_missed(unbalanced(found), BALANCED)

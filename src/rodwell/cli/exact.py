@@ -9,6 +9,8 @@ import click
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import json_option, make_problem, print_json, problem_options
 from rodwell.errors import InputError
+from rodwell.quantities.text import minus, plain, with_error
+from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.straight.modes import ModePair
@@ -104,24 +106,29 @@ def modes(weight: float | None, clearance: float, pairs: int, table: int | None,
         print_json(out)
         return
     if found:
-        wrapped(f"Horizontal rod, γ = {weight:g}, Δ/L = {clearance:g}, both ends clamped; F at s = 1 in {UNIT}:")
+        wrapped(
+            f"Horizontal rod, γ = {plain(weight or 0.0, 10)}, Δ/L = {plain(clearance, 10)}, both ends clamped; "
+            f"F at s = 1 in {UNIT}:"
+        )
     for pair in found:
         _print_pair(pair)
     if rows:
-        click.echo(f"Weights at which modes switch, m ≤ {table}, Δ/L = {clearance:g}; both loads are F_c:")
+        click.echo(f"Weights at which modes switch, m ≤ {table}, Δ/L = {plain(clearance, 10)}; both loads are F_c:")
         click.echo("    n    m          γ_c          F_c   modes")
         for row in rows:
             both = f"{2 * row.pair - 1}, {2 * row.pair}"
-            click.echo(f"  {row.n:>3}  {row.m:>3}  {row.weight:>11.4f}  {row.force:>+11.4f}   {both}")
+            click.echo(f"  {row.n:>3}  {row.m:>3}  {row.weight:>11.4f}  {minus(f'{row.force:+.4f}'):>11}   {both}")
 
 
 def _print_pair(pair: ModePair) -> None:
     """One pair of modes, with the weights at which it switches."""
     for number, parity, force in zip((2 * pair.pair - 1, 2 * pair.pair), pair.parities, pair.forces, strict=True):
-        click.echo(f"  mode {number:>2}  {force:+.12g} ± {pair.error:.0e}   {'even' if parity == 1 else 'odd'}")
+        click.echo(
+            f"  mode {number:>2}  {with_error(Value(force, pair.error), 12)}   {'even' if parity == 1 else 'odd'}"
+        )
     times = {0: "has not switched", 1: "switched once", 2: "switched twice"}
     text = f"{times.get(pair.switched, f'switched {pair.switched} times')} below this weight"
     for name, place in (("last", pair.before), ("next", pair.after)):
         if place is not None:
-            text += f"; {name} at γ = {place.weight:.10g} (n = {place.n}, m = {place.m})"
+            text += f"; {name} at γ = {plain(place.weight, 10)} (n = {place.n}, m = {place.m})"
     wrapped(text, "    ")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, json_option, print_json, progress_bar
+from rodwell.cli.options import check_missed, json_option, make_problem, print_json, progress_bar
 from rodwell.errors import InputError, NotConvergedError, printable
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ class StorePath(click.ParamType):  # type: ignore[type-arg]
 @click.argument("case", type=click.Path(path_type=Path), required=False)
 @click.option("--quantity", type=click.Choice(QUANTITIES), default="lift-off", show_default=True, help="What to map.")
 @_parameters
+@click.option("--sections", help="String of sections from s = 0: length:stiffness[:weight[:clearance[:torsion]]], …")
 @click.option("--vary", nargs=2, multiple=True, metavar="KEY VALUES", help="A key of CASE, section.key, that varies.")
 @click.option("--samples", default=0, help="How many samples of the parameters that have a distribution.")
 @click.option("--sampling", type=click.Choice(["sobol", "random"]), default="sobol", show_default=True)
@@ -127,9 +128,8 @@ _OPTIONS = ("quantity", "samples", "sampling", "seed", "halvings", "workers", "s
 def _asked(case: Path | None, vary: tuple[tuple[str, str], ...], given: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     """The problem or case, and what varies."""
     from rodwell.case.file import read_case  # noqa: PLC0415
-    from rodwell.problem.problem import Problem  # noqa: PLC0415
 
-    named = [name for name in (*PARAMETERS, *FLAGS) if given[name]]
+    named = [name for name in (*PARAMETERS, *FLAGS, "sections") if given[name]]
     if case is not None:
         if named:
             key = f"--{named[0].replace('_', '-')}"
@@ -143,7 +143,7 @@ def _asked(case: Path | None, vary: tuple[tuple[str, str], ...], given: dict[str
     for name in ("weight", "alpha"):
         if name not in over:
             raise click.UsageError(f"Missing option '--{name}'.")
-    return Problem(0.0, 90.0, on_top=given["on_top"], outside=given["outside"]), over
+    return make_problem({"alpha": 90.0, **{name: given[name] for name in (*FLAGS, "sections")}}), over
 
 
 def _number(text: str) -> Any:

@@ -20,6 +20,7 @@ from rodwell.cli.options import (
     progress_bar,
     rtol_option,
 )
+from rodwell.quantities.text import plain, with_error
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -91,20 +92,24 @@ def diagram(
             progress=tell,
         )
         tell("figure and data", 1.0)
-        files = write_diagram(result, out)
+        write_diagram(result, out)
     if as_json:
         print_json(result.as_dict())
     else:
         _print_diagram(result)
-        print_written(out, files)
+        print_written(out)
     check_missed([what for branch in result for what in missed(branch)], rtol)
 
 
 def _print_diagram(result: Diagram) -> None:
+    from rodwell.analysis.branch.special import END  # noqa: PLC0415
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.quantities.value import Value  # noqa: PLC0415
+    from rodwell.report.reports.texts import KINDS  # noqa: PLC0415
 
+    widest = max((len(KINDS[p.kind]) for branch in result for p in branch.special_points), default=0)
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
     if result.problem.twist != 0.0 and result.problem.lateral_weight == 0.0:
         wrapped(KEPT)
@@ -120,12 +125,13 @@ def _print_diagram(result: Diagram) -> None:
         click.echo(f"\n{branch.name}{parent}: {len(branch)} points{mirrored}")
         for p in branch.special_points:
             index = f"index {p.index_before} → {p.index_after}"
-            value = f"F = {p.force:+.10g}" if p.parameter == "force" else f"{p.parameter} = {p.value:.10g}"
+            name = "F" if p.parameter == "force" else p.parameter
+            known = Value(p.force if p.parameter == "force" else p.value, 0.0 if p.kind == "end" else p.error)
             remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
-            click.echo(f"  {p.kind:<13} {value}  ± {p.error:.1e}   {index}{places_text(p.s)}{remark}")
+            click.echo(f"  {KINDS[p.kind]:<{widest}}  {name} = {with_error(known)}   {index}{places_text(p.s)}{remark}")
         if branch.closed:
             click.echo("  closed: the end is where it began")
-        elif not branch.reached_end or branch.origin.parent:
+        elif branch.ended_because != END and (not branch.reached_end or branch.origin.parent):
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
@@ -180,14 +186,16 @@ def curve(
         report = lambda done: tell(f"{kind} curve over {over}", done)  # noqa: E731
         curves = _compute(kind, problem, over, (start, end), mode, modes, mirror, rtol, report)
         tell("figure and data", 1.0)
-        files = write_curves(curves, out)
+        write_curves(curves, out)
     if as_json:
         print_json({"curves": [c.as_dict() for c in curves]})
     else:
         _print_curves(curves)
-        print_written(out, files)
+        print_written(out)
     points = [(item, [p for p in item.points if not p.converged]) for item in curves]
-    what = [f"{c.name}: {len(p)} of {len(c)} points, the first at {c.over} = {p[0].x:.6g}" for c, p in points if p]
+    what = [
+        f"{c.name}: {len(p)} of {len(c)} points, the first at {c.over} = {plain(p[0].x, 6)}" for c, p in points if p
+    ]
     check_missed(what, rtol)
 
 
@@ -227,6 +235,8 @@ SHOWN = 12
 
 def _print_curves(curves: Sequence[Curve]) -> None:
     from rodwell.analysis.curves.curve import convention  # noqa: PLC0415
+    from rodwell.plots.curves import MARKERS  # noqa: PLC0415
+    from rodwell.quantities.value import Value  # noqa: PLC0415
 
     first = curves[0]
     click.echo(f"{first.kind} over {first.over}: {convention(first.problem, first.quantity)}")
@@ -235,11 +245,11 @@ def _print_curves(curves: Sequence[Curve]) -> None:
         step = max(1, (len(item) - 1) // (SHOWN - 1))
         shown = [*item.points[:-1:step], item.points[-1]]
         for p in shown:
-            click.echo(f"  {item.over} = {p.x:<12.8g} {p.value:+.10g}  ± {p.error:.1e}{places_text(p.s)}")
+            known = with_error(Value(p.value, p.error))
+            click.echo(f"  {item.over} = {plain(p.x, 8):<12} {known}{places_text(p.s)}")
         for m in item.marks:
-            click.echo(
-                f"  {m.kind}: {item.over} = {m.x:.10g} ± {m.x_error:.1e}, {m.value:+.10g} ± {m.error:.1e}; {m.note}"
-            )
+            place, known = with_error(Value(m.x, m.x_error)).lstrip("+"), with_error(Value(m.value, m.error))
+            click.echo(f"  {MARKERS[m.kind][1]}: {item.over} = {place}, {known}; {m.note}")
         if item.ended_because != "end":
             click.echo(f"  ended early: {item.ended_because}")
         if not item.converged:

@@ -13,6 +13,7 @@ import click
 
 from rodwell.cli.terminal import has_all_characters
 from rodwell.errors import InputError, printable
+from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
@@ -105,9 +106,13 @@ def print_json(data: dict[str, Any], indent: int | None = None) -> None:
     click.echo(json.dumps(data, ensure_ascii=not has_all_characters(), indent=indent))
 
 
-def print_written(folder: Path, files: Sequence[str]) -> None:
-    """Say where results are."""
-    click.echo(f"\nWritten to {printable(str(folder))}: " + ", ".join(files))
+def print_written(folder: Path, page: str = "", with_pdf: bool = False) -> None:
+    """Say where results are: the page to open, which names all files beside it, or else the folder."""
+    where = printable(str(folder))
+    if not page:
+        click.echo(f"\nWritten to {where}")
+        return
+    click.echo(f"\nReport: {printable(str(folder / page))}{' and report.pdf' if with_pdf else ''}")
 
 
 class ToleranceMissed(click.ClickException):
@@ -137,12 +142,12 @@ def check_missed(what: Sequence[str], rtol: float) -> None:
     """
     if what:
         more = f", and {len(what) - 1} more" if len(what) > 1 else ""
-        raise ToleranceMissed(f"{what[0]}{more} (rtol {rtol:g})")
+        raise ToleranceMissed(f"{what[0]}{more} (rtol {plain(rtol)})")
 
 
 def places_text(places: Sequence[float]) -> str:
     """Places along the rod at the end of a line, or nothing."""
-    return "   at s/L = " + ", ".join(f"{s:.6g}" for s in places) if places else ""
+    return "   at s/L = " + ", ".join(plain(s, 6) for s in places) if places else ""
 
 
 def force_at(at: str, case: Case, word: str = "") -> float:

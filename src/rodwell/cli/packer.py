@@ -52,12 +52,12 @@ def packer(case: Path, out: Path | None, with_pdf: bool, units: str | None, as_j
     from rodwell.studies.packer.packer import packer as compute  # noqa: PLC0415
 
     result = compute(read)
-    files = write_packer(result, folder, with_pdf=with_pdf)
+    write_packer(result, folder, with_pdf=with_pdf)
     if as_json:
         print_json(result.as_dict())
     else:
         _print(result)
-        print_written(folder, files)
+        print_written(folder, "report.html")
     check_missed([] if result.converged else ["a change of length, or the packer's force"], 1e-4)
 
 

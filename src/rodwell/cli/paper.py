@@ -55,7 +55,7 @@ def paper(
         print_json(table.as_dict() | {"files": list(files)})
     else:
         _print(table)
-        print_written(out, files)
+        print_written(out)
     if not table.passed:
         sys.exit(UNEXPLAINED_EXIT)
 

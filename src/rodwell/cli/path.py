@@ -32,6 +32,13 @@ UNIT = "B/L²"
 @click.option("--until", type=float, required=True, help="End force at s = 1 (tension positive) to load the rod to.")
 @click.option("--unload-to", type=float, help="End force to unload it to afterwards.")
 @click.option("--at", help="End forces, separated by commas, at which states are shown.")
+@click.option(
+    "--control",
+    type=click.Choice(["force", "shortening"]),
+    default="force",
+    show_default=True,
+    help="What is controlled; with shortening, --until, --unload-to and --at are shortenings in L.",
+)
 @click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
 @click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
 @click.option("--out", type=OutPath(), help="Folder for a figure of the path, load against shortening.")
@@ -41,6 +48,7 @@ def path(
     until: float,
     unload_to: float | None,
     at: str | None,
+    control: str,
     mirror: bool,
     seeds: int,
     out: Path | None,
@@ -65,14 +73,13 @@ def path(
 
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
-            problem, until=until, unload_to=unload_to, mirror=mirror, seeds=seeds, rtol=rtol,
+            problem, until=until, unload_to=unload_to, control=control, mirror=mirror, seeds=seeds, rtol=rtol,
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
-    files: tuple[str, ...] = ()
     if out is not None:
         from rodwell.report.folders.path import write_path  # noqa: PLC0415
 
-        files = write_path(result, out, forces)
+        write_path(result, out, forces)
     if as_json:
         from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
@@ -90,7 +97,7 @@ def path(
         for force in forces:
             _print_states(result, force)
         if out is not None:
-            print_written(out, files)
+            print_written(out)
     check_missed(result.missed, rtol)
 
 
@@ -98,7 +105,9 @@ def _forces(at: str | None) -> list[float]:
     try:
         return [float(part) for part in at.split(",")] if at else []
     except ValueError:
-        raise InputError("--at", at, "must be end forces in B/L², plain numbers separated by commas") from None
+        raise InputError(
+            "--at", at, "must be end forces in B/L² (or shortenings in L), plain numbers separated by commas"
+        ) from None
 
 
 def _print_states(result: LoadPath, force: float) -> None:
@@ -110,7 +119,7 @@ def _print_states(result: LoadPath, force: float) -> None:
             _print_state(state)
     except RodwellError as error:
         click.echo("")
-        wrapped(f"F = {force:g}: not reached. {error}")
+        wrapped(f"{result.control} {force:g}: not reached. {error}")
 
 
 def _print(result: LoadPath) -> None:
@@ -118,7 +127,8 @@ def _print(result: LoadPath) -> None:
     from rodwell.analysis.path.load_path import ASSUMPTIONS  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
-    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; {ASSUMPTIONS}.")
+    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.control} is")
+    click.echo(f"controlled. {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
     leg = ""
     for event in result.events:
         if event.leg != leg:
@@ -146,7 +156,9 @@ def _places(s: tuple[float, ...]) -> str:
 
 def _print_state(shown: PathState) -> None:
     state = shown.state
-    stable = "stable" if state.stability_index == 0 else f"unstable, index {state.stability_index}"
+    index = shown.stability_index
+    held = "" if shown.control.by_force else " where the shortening is held"
+    stable = f"stable{held}" if index == 0 else f"unstable{held}, index {index}"
     click.echo(f"\nF = {state.force:+.10g}, {shown.leg}: {state.kind}, {stable}")
     click.echo(
         f"  energy {state.energy.value:+.9g} ± {state.energy.error:.0e} B/L, shortening {state.shortening.value:.9g} L"

@@ -16,10 +16,11 @@ from rodwell.cli.options import (
     problem_options,
     rtol_option,
 )
+from rodwell.quantities.text import plain, signed, with_error
+from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.branch import Branch
-    from rodwell.quantities.value import Value
 
 UNIT = "B/L²"
 
@@ -42,7 +43,6 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.answers.words.steps import steps_data, steps_note  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
-    from rodwell.quantities.value import Value  # noqa: PLC0415
 
     problem = make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
@@ -52,7 +52,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     assert buckling is not None
     if lift is None:
         raise NotConvergedError(
-            f"mode {mode} was followed to F = {branch.force[-1]:.6g} {UNIT} without lift-off ({branch.ending})"
+            f"mode {mode} was followed to F = {plain(float(branch.force[-1]), 6)} {UNIT} without lift-off "
+            f"({branch.ending})"
         )
     places = () if branch.lift_off_at_buckling else lift.s
     load = lift.load
@@ -77,8 +78,8 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         check_missed(what, rtol)
         return
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
-    click.echo(f"  buckling of mode {buckling.number}  {buckling.force:+.10g}  ± {buckling.error:.1e}")
-    click.echo(f"  lift-off            {load.value:+.10g}  ± {load.error:.1e}{places_text(places)}")
+    click.echo(f"  buckling of mode {buckling.number}  {with_error(buckling.load)}")
+    click.echo(f"  lift-off            {with_error(load)}{places_text(places)}")
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
@@ -88,7 +89,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     if load != lift.load:
         wrapped("Twist makes the rod leave the wall inwards before it buckles like a rod that is kept on it.")
     if what:
-        click.echo(f"Not every number meets the tolerance {rtol:g}.")
+        click.echo(f"Not every number meets the tolerance {plain(rtol)}.")
     check_missed(what, rtol)
 
 
@@ -108,11 +109,11 @@ def _print_arms(lift: Value, other: Branch | None) -> None:
         wrapped(f"Twist makes the two arms of the mode differ; the other one has no lift-off ({other.ended_because}).")
         return
     second = other.lift_off
-    click.echo(f"  on the other arm    {second.force:+.10g}  ± {second.error:.1e}{places_text(second.s)}")
+    click.echo(f"  on the other arm    {with_error(second.load)}{places_text(second.s)}")
     first = max(lift.value, second.force)
     wrapped(
         "Twist makes the two arms of the mode differ, and the rod may take either: the one that lifts off first, at "
-        f"{first:+.10g}, counts."
+        f"{signed(first, 10)}, counts."
     )
 
 
@@ -139,15 +140,17 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
         check_missed(missed, rtol)
         return
     for load in loads:
-        click.echo(f"{load.name}: F = {load.force:+.10g} {UNIT} at s = 1 (tension positive), {ends_text(problem)}")
-        for name, (value, error) in load.derivatives.items():
-            click.echo(f"  dF per {_PER[name]:<13} {value:+.10g}  ± {error:.0e}")
+        click.echo(
+            f"{load.name}: F = {signed(load.force, 10)} {UNIT} at s = 1 (tension positive), {ends_text(problem)}"
+        )
+        for name, slope in load.derivatives.items():
+            click.echo(f"  dF per {_PER[name]:<13} {with_error(slope)}")
         if load.force != 0.0:
-            for name, (value, _) in load.elasticities().items():
-                click.echo(f"  {_MORE[name]:<26} {value:+.6g} %")
+            for name, change in load.elasticities().items():
+                click.echo(f"  {_MORE[name]:<26} {signed(change.value, 6)} %")
         for number, section in enumerate(load.sections, 1):
-            for name, (value, error) in section.items():
-                click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {value:+.10g}  ± {error:.0e}")
+            for name, slope in section.items():
+                click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {with_error(slope)}")
         if load.note:
             click.echo(f"  {load.note}")
     check_missed(missed, rtol)
@@ -193,8 +196,8 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
         return
     lift = result.prepared
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
-    click.echo(f"  prepared at lift-off of mode {mode}  F = {lift.force:+.10g}  ± {lift.error:.1e}")
+    click.echo(f"  prepared at lift-off of mode {mode}  F = {with_error(lift.load)}")
     for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
-        click.echo(f"  at s/L = {s:.6g}  dp/dT₁ = {rate:+.6g} ± {error:.0e} 1/L²")
+        click.echo(f"  at s/L = {plain(s, 6)}  dp/dT₁ = {with_error(Value(rate, error), 6)} 1/L²")
     click.echo(result.meaning)
     check_missed(what, rtol)

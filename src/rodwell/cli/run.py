@@ -8,8 +8,15 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import print_listing
-from rodwell.cli.options import OutPath, check_missed, print_json, progress_bar, results_folder, units_option
-from rodwell.errors import printable
+from rodwell.cli.options import (
+    OutPath,
+    check_missed,
+    print_json,
+    print_written,
+    progress_bar,
+    results_folder,
+    units_option,
+)
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer
@@ -25,8 +32,11 @@ if TYPE_CHECKING:
 @units_option
 @click.option("--pdf", "with_pdf", is_flag=True, help="Write the report as PDF too; needs rodwell[pdf].")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
+@click.option("--details", is_flag=True, help="Print the key figures with their errors too, not the verdict only.")
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
-def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, quiet: bool) -> None:
+def run(
+    case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, details: bool, quiet: bool
+) -> None:
     """Compute CASE, a TOML file, and write report, figures and data.
 
     CASE may be a pipe, or "-" for standard input; its results go to results/case unless --out says where.
@@ -49,55 +59,65 @@ def run(case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json
         from rodwell.cli.study import run_study  # noqa: PLC0415
 
         check_writable(folder)
-        run_study(text, folder, units, as_json, quiet, with_pdf)
+        run_study(text, folder, units, as_json, quiet, with_pdf, details)
         return
     read = Case.read(text).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
-    from rodwell.answers.result.missed import missed  # noqa: PLC0415
-    from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
     with progress_bar(not quiet and not as_json, "critical loads") as tell:
         result = answer(read, tell)
-        tell("figures, report and data", 1.0)
-        files = write_results(result, folder, with_pdf=with_pdf)
+    if not quiet and not as_json:
+        _verdict(result)
+    from rodwell.answers.result.missed import missed  # noqa: PLC0415
+    from rodwell.report.folders.case import write_results  # noqa: PLC0415
+
+    write_results(result, folder, with_pdf=with_pdf)  # without a bar: its thread would keep figures in this process
     if as_json:
         print_json(result.as_dict(), indent=2)
     elif not quiet:
-        _summary(result, folder, files)
+        if details:
+            _details(result)
+        print_written(folder, "report.html", with_pdf)
     check_missed(missed(result), read.rtol)
 
 
-def _summary(answer: Answer, folder: Path, files: tuple[str, ...]) -> None:
-    """What a person reads in ten seconds, then the key numbers."""
+def _verdict(answer: Answer) -> None:
+    """What a person reads in ten seconds, as soon as it is known."""
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
 
     from rodwell.answers.words.meaning import sentences  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
-    from rodwell.report.folders.case import FILES  # noqa: PLC0415
-    from rodwell.report.pages.pdf import PDF  # noqa: PLC0415
-    from rodwell.report.reports.texts import rows  # noqa: PLC0415
+    from rodwell.quantities.text import plain  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(answer)
     body = f"[bold]{escape(text[0])}[/bold]\n\n" + "\n".join(f"• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(answer.case.title), title_align="left", border_style="blue"))
-    problem = answer.case.problem
+    if not answer.converged:
+        console.print(f"[bold red]Not every number meets the tolerance {plain(answer.case.rtol)}.[/bold red]")
+
+
+def _details(answer: Answer) -> None:
+    """The problem, how it was made, and the key numbers with their errors."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
+
+    from rodwell.answers.words.wording import forces_of  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.quantities.text import plain  # noqa: PLC0415
+    from rodwell.report.reports.texts import rows  # noqa: PLC0415
+
+    console = Console(highlight=False)
+    problem, scales = answer.case.problem, answer.case.scales
     console.print(
-        f"γ = {problem.weight:.4g}   α = {problem.alpha:g}° from the vertical   Δ/L = {problem.clearance:.4g}   "
-        f"{ends_text(problem)}   forces at s = 1, tension positive{', effective' if answer.case.with_fluids else ''}"
+        f"γ = {plain(problem.weight)}   α = {plain(problem.alpha)}° from the vertical   "
+        f"Δ/L = {plain(problem.clearance)}   "
+        f"{ends_text(problem)}   {forces_of(answer.case).convention}{', effective' if answer.case.with_fluids else ''}"
     )
-    scales = answer.case.scales
     if scales is not None:
         console.print(escape("; ".join(filter(None, (fact.short(scales.system) for fact in answer.case.facts)))))
-    physical = [] if scales is None else [">physical"]
-    names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
+    names = ("label", "value", "error", "note")
     cells = [[escape(row[name]) for name in names] for row in rows(answer.key_numbers.values(), answer.case)]
-    print_listing(console, ["", *physical, ">B = L = 1", ">± error", ""], cells, notes=True)
-    if not answer.converged:
-        console.print(f"[bold red]Not every number meets the tolerance {answer.case.rtol:g}.[/bold red]")
-    named = [name for name in (*FILES, PDF) if name in files]
-    where = escape(printable(str(folder)))
-    console.print(f"\nWritten to [bold]{where}[/bold]: {', '.join(named)}, figures as PNG and SVG")
+    print_listing(console, ["", ">value", ">± error", ""], cells, notes=True)

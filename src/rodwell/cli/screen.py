@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,7 @@ import click
 
 from rodwell.cli.options import OutPath, check_missed, print_json, print_written, progress_bar
 from rodwell.errors import InputError
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
@@ -37,6 +38,8 @@ SHOWN = 12
 @click.option("--decimal", help="Decimal mark, point or comma, where numbers such as 1,234 do not tell.")
 @click.option("--well", help="Which well, if the file holds several.")
 @click.option("--all-wells", is_flag=True, help="Every well of the file, each into a folder of its own.")
+@click.option("--units", type=click.Choice(["si", "field"]), help="Units of the results.  [default: by the survey]")
+@click.option("--details", is_flag=True, help="Print stations and assumptions too, not the verdict only.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of the summary.")
 def screen(
     survey: Path,
@@ -51,6 +54,8 @@ def screen(
     decimal: str | None,
     well: str | None,
     all_wells: bool,
+    units: str | None,
+    details: bool,
     as_json: bool,
 ) -> None:
     """Screen the well of SURVEY, a file of measured depth and inclination, station by station.
@@ -82,7 +87,9 @@ def screen(
     for each in folders.values():
         check_writable(each)
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
-    done = {name: _screened(read, each, forces, folders[name], as_json) for name, each in wells.items()}
+    if units is not None:
+        wells = {name: replace(each, depth_unit={"si": "m", "field": "ft"}[units]) for name, each in wells.items()}
+    done = {name: _screened(read, each, forces, folders[name], as_json, details) for name, each in wells.items()}
     if as_json:
         data = {name: screening_dict(each) for name, each in done.items()}
         print_json({"wells": data} if all_wells else next(iter(data.values())))
@@ -123,7 +130,7 @@ def _folder_name(well: str, number: int) -> str:
 
 
 def _screened(
-    case: Case, well: Survey, forces: dict[str, float | None], folder: Path, as_json: bool
+    case: Case, well: Survey, forces: dict[str, float | None], folder: Path, as_json: bool, details: bool
 ) -> Screening:  # fmt: skip
     """Screen one well, write its folder, and print what was found unless it is wanted as JSON."""
     from rodwell.report.folders.well import write_screening  # noqa: PLC0415
@@ -132,10 +139,10 @@ def _screened(
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(case, well, **forces, signs_meant=True, progress=tell)
         tell("figure and data", 1.0)
-        files = write_screening(result, folder)
+        write_screening(result, folder)
     if not as_json:
-        _print(result)
-        print_written(folder, files)
+        _print(result, details)
+        print_written(folder, "report.html")
     return result
 
 
@@ -160,8 +167,8 @@ def _force(option: str, text: str | None) -> float | None:
     return value
 
 
-def _print(screening: Screening) -> None:
-    """Verdict, a few stations from top to bottom with the worst among them, assumptions."""
+def _print(screening: Screening, details: bool) -> None:
+    """Verdict; with ``details`` a few stations from top to bottom with the worst among them, assumptions."""
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
@@ -172,6 +179,10 @@ def _print(screening: Screening) -> None:
     text = sentences(screening)
     body = f"[bold]{escape(text[0])}[/bold]" + "".join(f"\n• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(screening.case.title), title_align="left", border_style="blue"))
+    if not details:
+        for note in screening.survey.notes:  # how the file was read is never left out
+            console.print(escape(note), style="dim")
+        return
     console.print(_stations(screening))
     for line in assumptions(screening):
         console.print(escape(line), style="dim")
@@ -199,8 +210,8 @@ def _stations(screening: Screening) -> object:
     columns = [screening.critical.values, screening.lift_off.values, *screening.formulas.values()]
     columns += [] if screening.compression is None else [screening.compression]
     for i in shown:
-        cells = [f"{screening.survey.md[i] / metre:.6g}", f"{screening.survey.inclination[i]:.3g}°"]
-        cells += ["–" if np.isnan(c[i]) else minus(f"{c[i] / newton:.4g}") for c in columns]
-        cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{100 * used[i]:.3g} %"]
+        cells = [plain(screening.survey.md[i] / metre, 6), f"{plain(screening.survey.inclination[i], 3)}°"]
+        cells += ["–" if np.isnan(c[i]) else plain(c[i] / newton) for c in columns]
+        cells += [] if used is None else ["–" if np.isnan(used[i]) else f"{plain(100 * used[i], 3)} %"]
         table.add_row(*cells, style="bold red" if i == mark else None)
     return table

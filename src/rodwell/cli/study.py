@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from rodwell.studies.sweep.study import Study
 
 
-def run_study(file: CaseText, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool) -> None:
+def run_study(
+    file: CaseText, folder: Path, units: str | None, as_json: bool, quiet: bool, with_pdf: bool, details: bool = False
+) -> None:
     """Compute the study in ``file``, write its results to ``folder``, and print a summary or JSON."""
     from rodwell.report.folders.study import write_study  # noqa: PLC0415
     from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
@@ -22,18 +24,18 @@ def run_study(file: CaseText, folder: Path, units: str | None, as_json: bool, qu
     with progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
         tell("figure, report and data", 1.0)
-        files = write_study(result, folder, with_pdf=with_pdf)
+        write_study(result, folder, with_pdf=with_pdf)
     if as_json:
         print_json(result.as_dict())
     elif not quiet:
-        _summary(result)
-        print_written(folder, files)
+        _summary(result, details)
+        print_written(folder, "report.html", with_pdf)
     rtol = next(point.case.rtol for point in result.points if point.case is not None)
     check_missed([f"point {point.number + 1}: {what}" for point in result.points for what in point.missed], rtol)
 
 
-def _summary(study: Study) -> None:
-    """Worst cases, and the table."""
+def _summary(study: Study, details: bool) -> None:
+    """Worst cases and, with ``details``, the tables."""
     from rich.console import Console  # noqa: PLC0415
     from rich.markup import escape  # noqa: PLC0415
     from rich.panel import Panel  # noqa: PLC0415
@@ -46,6 +48,8 @@ def _summary(study: Study) -> None:
     body = f"[bold]{escape(text[0])}[/bold]" + "".join(f"\n• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(study.title), title_align="left", border_style="blue"))
     console.print("−F: compression at s = 1, positive. First mode; straight hole, no friction.")
+    if not details:
+        return
     table = Table(box=None, pad_edge=False, header_style="bold")
     for title in head(study, short=True):
         table.add_column(escape(title), justify="right")

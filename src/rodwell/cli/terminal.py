@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import re
 import signal
 import sys
 import threading
@@ -13,7 +14,8 @@ from types import FrameType
 PLAIN = {
     "−": "-", "–": "-", "—": "-", "‑": "-", "±": "+/-", "×": "x", "·": "*", "°": " deg", "…": "...", "•": "*",
     "→": "->",
-    "≥": ">=", "≤": "<=", "≈": "~", "∞": "inf", "√": "sqrt", "∫": "integral ", "µ": "u", "Δ": "Delta", "γ": "gamma",
+    "≥": ">=", "≤": "<=", "≈": "~", "∞": "inf", "√": "sqrt", "∛": "cbrt",
+    "∜": "4th root ", "∫": "integral ", "µ": "u", "Δ": "Delta", "γ": "gamma",
     "α": "alpha", "β": "beta", "ν": "nu", "ξ": "xi", "ω": "omega", "θ": "theta", "κ": "kappa", "π": "pi", "ρ": "rho",
     "σ": "sigma", "τ": "tau", "φ": "phi", "ψ": "psi", "Ω": "Omega", "⁻": "^-", "″": "in", "′": "ft", "’": "'",
     "“": '"', "”": '"', "\u00a0": " ", "\u2009": " ", "\u202f": " ",
@@ -28,7 +30,8 @@ def _plain(error: UnicodeError) -> tuple[str | bytes, int]:
     """Replace what cannot be encoded: by what means the same, digits above and below the line too, or by its escape."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
-    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+    plain = "".join(map(_in_ascii, error.object[error.start : error.end]))
+    return re.sub(r"(?<=\^-)\^|(?<=\d)\^(?=\d)", "", plain), error.end  # 10⁻¹² is 10^-12
 
 
 def _in_ascii(character: str) -> str:

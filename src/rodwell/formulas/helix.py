@@ -10,6 +10,7 @@ import math
 
 from rodwell.errors import InputError
 from rodwell.formulas.record import FormulaInputs, Value, formula, sine
+from rodwell.quantities.text import plain
 
 LARGEST_HELIX = 4.0 / (3.0 * math.sqrt(3.0))
 """Largest F r²/B of a weightless helix, 0.7698, at sin²η = 2/3."""
@@ -24,10 +25,12 @@ def _small(rod: FormulaInputs) -> list[str]:
         return ["no compression"]
     size = force * rod.r**2 / rod.B
     if size >= LARGEST_HELIX:
-        return [f"no weightless helix bears this force: F r²/B = {size:.3g} > 0.7698"]
+        return [f"no weightless helix bears this force: F r²/B = {plain(size, 3)} > 0.7698"]
     angle = helix_angle(size)
     return (
-        [] if angle <= 0.1 else [f"not a small angle: η = {angle:.2g} rad, N is {100 * math.sin(angle) ** 2:.1f} % low"]
+        []
+        if angle <= 0.1
+        else [f"not a small angle: η = {plain(angle, 2)} rad, N is {100 * math.sin(angle) ** 2:.1f} % low"]
     )
 
 
@@ -154,7 +157,7 @@ def _lateral_range(rod: FormulaInputs) -> list[str]:
     if "F" not in known or rod.lateral == 0.0:
         return ["needs a compression and a lateral weight"]
     part = known["F"] / (2.0 * math.sqrt(rod.B * rod.lateral / rod.r))
-    return [] if 1.0 <= part <= 2.8 else [f"F is {part:.3g} F_p, must be from 1 to 2.8"]
+    return [] if 1.0 <= part <= 2.8 else [f"F is {plain(part, 3)} F_p, must be from 1 to 2.8"]
 
 
 @formula(

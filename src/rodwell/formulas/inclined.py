@@ -17,11 +17,12 @@ from rodwell.formulas.record import (
     pressed,
     sine,
 )
+from rodwell.quantities.text import plain
 
 HELICAL = 2.0 * math.sqrt(2.0)
 WU = 2.0 * (2.0 * math.sqrt(2.0) - 1.0)
 
-LONG_HOLE = "long pipe (37.2 (B r/(w sin α))^¼), not near vertical, small axial weight"
+LONG_HOLE = "long pipe (37.2 ∜(B r/(w sin α))), not near vertical, small axial weight"
 NO_AXIAL = "constant axial force, small angles, no friction; ends do not matter"
 LOCAL = (inclined, pressed, long, light)
 
@@ -93,7 +94,7 @@ def dawson_paslay(B: Value, w: Value, alpha: Value, r: Value) -> Value:
     holds="inclined holes, not near vertical; a fit to experiments, whose range is not stated (flagged below α = 30°, "
     "our choice)",
     assumes="any coherent units: its dimension fails by length^0.001 (metres against inches: 0.4 %)",
-    checks=(inclined, pressed, lambda rod: [f"near vertical: α = {rod.alpha:g}°"] if rod.alpha < 30.0 else []),
+    checks=(inclined, pressed, lambda rod: [f"near vertical: α = {plain(rod.alpha)}°"] if rod.alpha < 30.0 else []),
     defect=0.001,
 )
 def dellinger(B: Value, w: Value, alpha: Value, r: Value) -> Value:
@@ -106,7 +107,7 @@ def dellinger(B: Value, w: Value, alpha: Value, r: Value) -> Value:
     kind="helical",
     place="bottom",
     source="Chen, Lin & Cheatham 1990",
-    evidence="read in sources as 2(2EIW/r)^½; re-derived: a weightless helix and the straight rod have equal energy",
+    evidence="read in sources as 2√(2EIW/r); re-derived: a weightless helix and the straight rod have equal energy",
     holds=LONG_HOLE,
     assumes=NO_AXIAL + "; an energy-equality load, not a bifurcation",
     checks=LOCAL,
@@ -210,7 +211,7 @@ def mitchell_unloading(B: Value, w: Value, alpha: Value, r: Value) -> Value:
 
 
 @formula(
-    "L = 37.2 (B r/(w sin α))^¼",
+    "L = 37.2 ∜(B r/(w sin α))",
     kind="limit",
     dimension=(0, 1),
     source="Wicks et al. 2008, Appendix B",
@@ -224,7 +225,7 @@ def long_pipe(B: Value, w: Value, alpha: Value, r: Value) -> Value:
 
 
 @formula(
-    "L = 2.9 (B r/(w sin α))^¼",
+    "L = 2.9 ∜(B r/(w sin α))",
     kind="limit",
     dimension=(0, 1),
     source="Wicks et al. 2008, Appendix B",

@@ -27,14 +27,14 @@ LEFT_OUT: tuple[LeftOut, ...] = (
     ),
     LeftOut(
         "Lubinski 1950, second order",
-        "3.75 (B w²)^⅓",
-        "known from memory only. For pinned ends the exact second coefficient is 3.75 at L = 50 (B/w)^⅓, "
+        "3.75 ∛(B w²)",
+        "known from memory only. For pinned ends the exact second coefficient is 3.75 at L = 50 ∛(B/w), "
         "where the first is 1.571, not 1.94",
     ),
     LeftOut(
         "Wu–Juvkam-Wold 1992, vertical, top of the helix",
-        "0.14 (B w²)^⅓",
-        "known from memory only. The derivation behind 2.55 and 5.55 gives 5.5539 − (16π²)^⅓ = 0.149",
+        "0.14 ∛(B w²)",
+        "known from memory only. The derivation behind 2.55 and 5.55 gives 5.5539 − ∛(16π²) = 0.149",
     ),
     LeftOut(
         "Wu–Juvkam-Wold 1995, curved hole",

@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.formulas.inclined import dawson_paslay
 from rodwell.formulas.record import FormulaInputs, Value, formula, horizontal, inclined, light, long, pressed, sine
+from rodwell.quantities.text import plain
 
 STEEL_WEIGHT = 65.5
 """Density of steel in lb/gal (ppg), the field's buoyancy number."""
@@ -123,7 +124,7 @@ MOST_FRICTION = 15.0 / (7.0 * math.pi)
 
 def _frictional(rod: FormulaInputs) -> list[str]:
     mu = dict(rod.more).get("mu", 0.0)
-    return [] if mu <= 0.3 else [f"printed up to μ = 0.3, here μ = {mu:g}"]
+    return [] if mu <= 0.3 else [f"printed up to μ = 0.3, here μ = {plain(mu)}"]
 
 
 GAO = "Gao & Miska 2010, from the code of HDD-Push-Buckling-Calc"

@@ -6,6 +6,7 @@ import math
 
 from rodwell.errors import InputError
 from rodwell.formulas.record import FormulaInputs, Value, formula, horizontal
+from rodwell.quantities.text import plain
 
 WEIGHTLESS = "helical over the whole distance, weight dropped"
 
@@ -31,7 +32,7 @@ def coiled_tubing_yield(sigma_y: Value, A: Value, r: Value, D: Value, I: Value) 
     evidence="derived: strain r²F/(4B) of the helix over the length F/w",
     holds="vertical, neutral point inside the string",
     assumes="helical from the packer to the neutral point; F at the packer; elastic and pressure terms apart",
-    checks=(lambda rod: [] if rod.alpha == 0.0 else [f"for a vertical hole, α is {rod.alpha:g}°"],),
+    checks=(lambda rod: [] if rod.alpha == 0.0 else [f"for a vertical hole, α is {plain(rod.alpha)}°"],),
 )
 def tubing_shortening(B: Value, w: Value, r: Value, F: Value) -> Value:
     """Shortening of long vertical tubing by helical buckling."""

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from rodwell.quantities.text import plain
+
 Value = Any
 """What formulas take and give: a float, or a quantity with units (pint)."""
 
@@ -220,7 +222,7 @@ def long(rod: FormulaInputs) -> list[str]:
     if rod.lateral == 0.0:
         return []
     least = LONG * (rod.B * rod.r / rod.lateral) ** 0.25
-    return [f"not long: L is {rod.L / least:.2g} of 37.2 (B r/(w sin α))^¼"] if least > rod.L else []
+    return [f"not long: L is {plain(rod.L / least, 2)} of 37.2 ∜(B r/(w sin α))"] if least > rod.L else []
 
 
 AXIAL_PART = 0.1
@@ -232,18 +234,18 @@ def light(rod: FormulaInputs) -> list[str]:
     load = 2.0 * math.sqrt(rod.B * rod.lateral / rod.r)
     if rod.axial <= AXIAL_PART * load:
         return []
-    size = f"{rod.axial / load:.2g} times the sinusoidal load" if load > 0.0 else "all there is"
+    size = f"{plain(rod.axial / load, 2)} times the sinusoidal load" if load > 0.0 else "all there is"
     return [f"axial weight, which the formula ignores, is {size}"]
 
 
 def vertical(rod: FormulaInputs) -> list[str]:
     """The hole must be vertical."""
-    return [] if rod.alpha == 0.0 else [f"for a vertical hole, α is {rod.alpha:g}°"]
+    return [] if rod.alpha == 0.0 else [f"for a vertical hole, α is {plain(rod.alpha)}°"]
 
 
 def horizontal(rod: FormulaInputs) -> list[str]:
     """The hole must be horizontal."""
-    return [] if rod.alpha == 90.0 else [f"for a horizontal hole, α is {rod.alpha:g}°"]
+    return [] if rod.alpha == 90.0 else [f"for a horizontal hole, α is {plain(rod.alpha)}°"]
 
 
 def ends_are(first: str, last: str) -> Check:

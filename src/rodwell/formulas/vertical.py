@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from rodwell.formulas.record import FormulaInputs, Value, ends_are, formula, vertical
+from rodwell.quantities.text import plain
 
 HANGING = 1.0187929716474710
 """−a′₁, the first zero of Ai′ with its sign changed."""
@@ -15,24 +16,24 @@ def _hanging_length(rod: FormulaInputs) -> list[str]:
     if rod.w == 0.0:
         return ["weightless"]
     size = rod.L / (rod.B / rod.w) ** (1.0 / 3.0)
-    return [] if size >= 4.0 else [f"short: L is {size:.2g} of (B/w)^⅓"]
+    return [] if size >= 4.0 else [f"short: L is {plain(size, 2)} of ∛(B/w)"]
 
 
 def _number_depends(rod: FormulaInputs) -> list[str]:
-    """The length at which the coefficient 1.94 is exact for pinned ends is near 8 (B/w)^⅓."""
+    """The length at which the coefficient 1.94 is exact for pinned ends is near 8 ∛(B/w)."""
     if rod.w == 0.0:
         return ["weightless"]
     size = rod.L / (rod.B / rod.w) ** (1.0 / 3.0)
-    return [] if 6.0 <= size <= 10.0 else [f"the number fits L of about 8 (B/w)^⅓, here it is {size:.3g}"]
+    return [] if 6.0 <= size <= 10.0 else [f"the number fits L of about 8 ∛(B/w), here it is {plain(size, 3)}"]
 
 
 @formula(
-    "F = 1.94 (B w²)^⅓",
+    "F = 1.94 ∛(B w²)",
     kind="sinusoidal",
     place="bottom",
     source="Lubinski 1950, first order",
-    evidence="read in sources; for pinned ends the exact coefficient is 1.94 at a length of 7.93 (B/w)^⅓ (tested)",
-    holds="vertical, hinged bit; as a number, strings of about 8 (B/w)^⅓ with pinned ends (6 to 10: 5 %)",
+    evidence="read in sources; for pinned ends the exact coefficient is 1.94 at a length of 7.93 ∛(B/w) (tested)",
+    holds="vertical, hinged bit; as a number, strings of about 8 ∛(B/w) with pinned ends (6 to 10: 5 %)",
     assumes="string in its own weight, no wall; force at the bit",
     checks=(vertical, ends_are("pinned", "pinned"), _number_depends),
 )
@@ -42,13 +43,13 @@ def lubinski(B: Value, w: Value) -> Value:
 
 
 @formula(
-    "F = 2.55 (B w²)^⅓",
+    "F = 2.55 ∛(B w²)",
     kind="sinusoidal",
     place="bottom",
     source="Wu & Juvkam-Wold 1992, as in Oyedokun 2014",
-    evidence="second-hand; equal to ¾ (4π²)^⅓: a half sine over the length of the smallest load (derived, tested)",
+    evidence="second-hand; equal to ¾ ∛(4π²): a half sine over the length of the smallest load (derived, tested)",
     holds="vertical, pinned ends",
-    assumes="energy method with one half sine over the buckled length, about 3.40 (B/w)^⅓; an upper bound there",
+    assumes="energy method with one half sine over the buckled length, about 3.40 ∛(B/w); an upper bound there",
     checks=(vertical, ends_are("pinned", "pinned")),
 )
 def wu_vertical_sinusoidal(B: Value, w: Value) -> Value:
@@ -57,11 +58,11 @@ def wu_vertical_sinusoidal(B: Value, w: Value) -> Value:
 
 
 @formula(
-    "F = 5.55 (B w²)^⅓",
+    "F = 5.55 ∛(B w²)",
     kind="helical",
     place="bottom",
     source="Wu & Juvkam-Wold 1992, as in Oyedokun 2014",
-    evidence="second-hand; equal to twice the energy-equality load ¾ (16π²)^⅓ less ¾ (4π²)^⅓ (derived, tested)",
+    evidence="second-hand; equal to twice the energy-equality load ¾ ∛(16π²) less ¾ ∛(4π²) (derived, tested)",
     holds="vertical",
     assumes="energy method; the mean of it and of the sinusoidal load is the energy-equality load",
     checks=(vertical,),
@@ -72,12 +73,12 @@ def wu_vertical_helical(B: Value, w: Value) -> Value:
 
 
 @formula(
-    "F = 1.018793 (B w²)^⅓, −a′₁ with Ai′(a′₁) = 0",
+    "F = 1.018793 ∛(B w²), −a′₁ with Ai′(a′₁) = 0",
     kind="sinusoidal",
     place="bottom",
     source="closed form; attribution to Wang 1983 and 1986 is from memory only",
     evidence="derived: Airy's equation with no moment at the bit; checked here against the exact loads",
-    holds="vertical, pinned bit, upper end free to move sideways and turn, L ≥ 4 (B/w)^⅓",
+    holds="vertical, pinned bit, upper end free to move sideways and turn, L ≥ 4 ∛(B/w)",
     assumes="hanging string, no wall; force at the bit",
     checks=(vertical, ends_are("pinned", "free"), _hanging_length),
 )
@@ -88,7 +89,11 @@ def long_hanging(B: Value, w: Value) -> Value:
 
 def _chord(rod: FormulaInputs) -> list[str]:
     limit = 74.628569 * rod.B / rod.L**3
-    return [] if rod.w <= limit else [f"w L³/B above 74.63, where the chord (79) ends: {rod.w * rod.L**3 / rod.B:.4g}"]
+    return (
+        []
+        if rod.w <= limit
+        else [f"w L³/B above 74.63, where the chord (79) ends: {plain(rod.w * rod.L**3 / rod.B, 4)}"]
+    )
 
 
 @formula(
@@ -107,7 +112,7 @@ def clamped_vertical(B: Value, w: Value, L: Value) -> Value:
 
 
 @formula(
-    "L = (74.628569 B/w)^⅓",
+    "L = ∛(74.628569 B/w)",
     kind="limit",
     dimension=(0, 1),
     source="the paper, Eq. (87) and section 5",
@@ -121,7 +126,7 @@ def tallest_clamped(B: Value, w: Value) -> Value:
 
 
 @formula(
-    "L = (18.956266 B/w)^⅓",
+    "L = ∛(18.956266 B/w)",
     kind="limit",
     dimension=(0, 1),
     source="the paper, Eq. (88); Wang 1987",
@@ -135,7 +140,7 @@ def tallest_swaying(B: Value, w: Value) -> Value:
 
 
 @formula(
-    "M = 3πB/(4π²B/w)^⅓",
+    "M = 3πB/∛(4π²B/w)",
     kind="torque",
     dimension=(1, 1),
     source="Oyedokun 2014",

@@ -14,16 +14,18 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.answers.data.along import Along
-from rodwell.plots.string import mark_steps
-from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
+from rodwell.plots.sections import mark_steps
+from rodwell.plots.style import ACTS, BUCKLES, GREY, INK, LIFTS_OFF, LIMIT, MODES, SIZE, new_axes, parameters
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, plain
+from rodwell.quantities.text import plain
 from rodwell.strength.local import LocalLimits
 
-COLOURS = {"at buckling": MODES[0], "at lift-off": MODES[3]}
-APPLIED = (WARN, MODES[1], MODES[2], MODES[4])
+COLOURS = {"at buckling": BUCKLES, "at lift-off": LIFTS_OFF}
+PARTS = (MODES[2], MODES[3], MODES[4], GREY)
+"""Parts of the stress: colours that mean no state."""
 
 
 WORTH_A_LINE = 0.01
@@ -38,32 +40,38 @@ def upright(problem: Problem, scales: Scales | None) -> bool:
 def plot_force(
     states: Sequence[Along], scales: Scales | None = None, local: LocalLimits | None = None, ax: Any = None
 ) -> Any:
-    """Draw the effective axial force along the rod in several states against the local limits; return the axes."""
+    """Draw the effective axial force along the rod in several states against the local limits; return the axes.
+
+    With ``scales`` compression is positive, without them tension.
+    """
     ax = new_axes() if ax is None else ax
     problem = states[0].state.problem
     down = upright(problem, scales)
     largest = max(float(np.max(np.abs(one.fields["rod_F1"]))) for one in states)
     ff, uf = axis("force", scales, largest)
+    said, sign = Forces(scales, problem.hung_weight), 1.0 if scales is None else -1.0
     applied = 0
     for one in states:
-        colour, width = COLOURS.get(one.state.name), 1.4
-        if colour is None:
-            colour, width, applied = APPLIED[applied % len(APPLIED)], 2.4, applied + 1
-        end = "bottom" if down else "s = 1"
-        force = one.state.at_bottom if down else one.state.force
-        label = f"{one.state.name}: {minus(plain(force * ff, 4))} {uf} at {'the ' if down else ''}{end}"
-        _draw(ax, _places(one.s, scales, down), one.fields["rod_F1"] * ff, down, color=colour, lw=width, label=label)
+        look: dict[str, Any] = {"color": COLOURS.get(one.state.name, ACTS), "lw": 1.4}
+        if one.state.name not in COLOURS:
+            mark = ("", "o", "s", "^")[applied % 4]
+            look |= {"lw": 2.4, "marker": mark, "markevery": 0.2, "ms": 5.0}
+            applied += 1
+        label = f"{one.state.name}: {said.label(one.state.force)}{said.at_end}"
+        _draw(ax, _places(one.s, scales, down), sign * one.fields["rod_F1"] * ff, down, label=label, **look)
     if local is not None and local.applies and scales is not None:
-        for limit, label, dashes in (
-            (local.critical, "local: an endless rod buckles", (0, (5, 2))),
-            (local.lift_off, "local: an endless rod lifts off", (0, (1, 1.3))),
+        for limit, label, colour in (
+            (local.critical, "local: an endless rod buckles", BUCKLES),
+            (local.lift_off, "local: an endless rod lifts off", LIFTS_OFF),
         ):
             if limit.compression is not None:
                 line = ax.axvline if down else ax.axhline
-                line(-limit.compression.value / scales.factor("force") * ff, color=INK, lw=1.2, ls=dashes, label=label)
+                line(limit.compression.value / scales.factor("force") * ff, color=colour, lw=1.4, ls=LIMIT, label=label)
     mark_steps(ax, problem, axis("z", scales, 1.0)[0], down=down)
     _zero(ax, down)
-    _dress(ax, problem, scales, f"effective axial force  [{uf}]\n(tension positive)")
+    counted = "axial force" if scales is None else "compression"
+    positive = "\n(tension positive)" if scales is None else "\n(below 0: tension)"
+    _dress(ax, problem, scales, f"effective {counted}  [{uf}]{positive}")
     return ax
 
 
@@ -83,10 +91,10 @@ def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: A
     place = _places(one.s, scales, down)
     shown = strength is not None and strength < 4.0 * size
     lines = [
-        (t.axial, "axial (real force)", MODES[0], "-"),
-        (t.bending, "bending, outer surface, ±", MODES[1], "-"),
-        (t.torsion, "torsion (shear)", MODES[2], "-"),
-        (t.hoop_inner, "hoop, inner surface", MODES[3], "-"),
+        (t.axial, "axial (real force)", PARTS[0], "-"),
+        (t.bending, "bending, outer surface, ±", PARTS[1], "-"),
+        (t.torsion, "torsion (shear)", PARTS[2], "-"),
+        (t.hoop_inner, "hoop, inner surface", PARTS[3], "-"),
     ]
     for values, label, colour, dashes in lines:
         if float(np.max(np.abs(values))) > WORTH_A_LINE * size:
@@ -97,12 +105,12 @@ def plot_stress(one: Along, scales: Scales, strength: float | None = None, ax: A
     _draw(ax, place, t.von_mises / unit, down, color=INK, lw=2.4, label=label)
     if strength is not None and shown:
         values = np.full(one.s.shape, strength) if one.strength is None else one.strength
-        _draw(ax, place, values / unit, down, color=WARN, lw=1.6, ls=(0, (5, 2)), label="yield strength")
+        _draw(ax, place, values / unit, down, color=INK, lw=1.6, ls=LIMIT, label="yield strength")
     elif strength is not None:
         label = f"yield strength, not shown: {plain(strength / unit, 3)} {text}"
-        ax.plot([], [], color=WARN, lw=1.6, ls=(0, (5, 2)), label=label)
+        ax.plot([], [], color=INK, lw=1.6, ls=LIMIT, label=label)
     _zero(ax, down)
-    _dress(ax, problem, scales, f"stress in the rod {one.state.name}  [{text}]")
+    _dress(ax, problem, scales, f"stress in the rod {one.state.name}  [{text}]\n(tension positive)")
     return ax
 
 
@@ -127,8 +135,10 @@ def plot_along(
         plot_stress(shown, scales, strength, ax=axes[1])
         if down:
             axes[1].set_ylabel("")
+            axes[0].child_axes[0].set_visible(False)  # the scale at the right stands once, at the right of both
         else:
             axes[0].set_xlabel("")
+    axes[0].set_title(parameters(problem, scales), loc="left", fontsize=8.5)
     return axes[0]
 
 
@@ -152,7 +162,10 @@ def _dress(ax: Any, problem: Problem, scales: Scales | None, label: str) -> None
     length, unit = axis("z", scales, 1.0)
     if upright(problem, scales):
         ax.set_ylim(length, 0.0)
-        ax.set_ylabel(f"distance along the hole below the upper end s = 1  [{unit}]")
+        ax.set_ylabel(f"depth along the hole, below the top s = 1  [{unit}]")
+        beside = ax.secondary_yaxis("right", functions=(lambda y: length - y, lambda y: length - y))
+        beside.set_ylabel(f"above the bottom s = 0  [{unit}]")
+        beside.spines["right"].set_visible(True)
         ax.set_xlabel(label.replace("\n", " "))
         ax.locator_params(axis="x", nbins=6)
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=1)

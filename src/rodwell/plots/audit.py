@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from rodwell.formulas import FORMULAS
 from rodwell.formulas.record import Place
-from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
+from rodwell.plots.style import FORMULA, GREY, INK, LIMIT, MODES, RC, new_axes
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import minus, plain
 from rodwell.studies.audit.error_map import PANELS, ErrorMap
 
 LEVELS = (-75.0, -50.0, -25.0, -10.0, 0.0, 10.0, 25.0, 50.0, 100.0)
@@ -54,7 +54,7 @@ def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS
         for ax in axes[len(panels) :]:
             ax.set_visible(False)
         for ax in axes[:: min(3, len(panels))]:
-            ax.set_ylabel("α from the vertical  [degrees]")
+            ax.set_ylabel("α from the vertical  [°]")
         for ax in axes[max(0, len(panels) - 3) : len(panels)]:
             ax.set_xlabel("weight γ = mg L³/B")
             ax.tick_params(labelbottom=True)
@@ -62,7 +62,7 @@ def plot_error_map(chart: ErrorMap, panels: Sequence[tuple[str, Place]] = PANELS
         bar.set_label("formula / exact first critical load − 1  [%]\n← below it          above it, unsafe →")
         bar.ax.set_yticklabels([minus(f"{level:+.0f}").replace("+0", "0") for level in LEVELS])
         figure.suptitle(
-            f"Δ/L = {chart.problem.clearance:.4g},  {ends_text(chart.problem)}", x=0.01, ha="left", fontsize=9.5
+            f"Δ/L = {plain(chart.problem.clearance)},  {ends_text(chart.problem)}", x=0.01, ha="left", fontsize=9.5
         )
         return figure
 
@@ -88,12 +88,12 @@ def plot_dellinger(chart: ErrorMap, ax: Any = None) -> Any:
         colour, alpha = MODES[i % len(MODES)], float(chart.alphas[i])
         exact = chart.exact("top")[i]
         fit = [FORMULAS["dellinger"].function(1.0, w, alpha, chart.problem.clearance) for w in chart.weights]
-        ax.plot(chart.weights, exact, color=colour, lw=1.8, label=f"exact, α = {alpha:g}°")
-        ax.plot(chart.weights, fit, color=colour, lw=1.4, ls=(0, (4, 2)), label=f"(89), α = {alpha:g}°")
+        ax.plot(chart.weights, exact, color=colour, lw=1.8, label=f"exact, α = {plain(alpha)}°")
+        ax.plot(chart.weights, fit, color=colour, lw=1.4, ls=FORMULA, label=f"(89), α = {plain(alpha)}°")
     ax.axhline(0.0, color=INK, lw=0.8)
     ax.set_xlabel("weight γ = mg L³/B")
     ax.set_ylabel("critical compression −F at s = 1  [B/L²]")
-    ax.set_title(f"Δ/L = {chart.problem.clearance:g},  {ends_text(chart.problem)}", loc="left", fontsize=9.5)
+    ax.set_title(f"Δ/L = {plain(chart.problem.clearance)},  {ends_text(chart.problem)}", loc="left", fontsize=9.5)
     ax.margins(x=0.01)
     ax.legend(ncols=1, loc="center left", bbox_to_anchor=(1.01, 0.5))
     return ax
@@ -117,7 +117,7 @@ def plot_hanging(
     for i, (label, (size, coefficient)) in enumerate(curves.items()):
         ax.plot(size, coefficient, color=MODES[i % len(MODES)], lw=1.8, label=label)
     for label, value in lines.items():
-        ax.axhline(value, color=GREY, lw=1.0, ls=(0, (4, 2)))
+        ax.axhline(value, color=GREY, lw=1.0, ls=LIMIT)
         ax.annotate(label, (1.0, value), xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
                     va="center", fontsize=8.5, color=INK, annotation_clip=False)  # fmt: skip
     ax.set_xscale("log")

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from rodwell.analysis.curves.curve import Curve
-from rodwell.plots.style import INK, MODES, WARN, new_axes
+from rodwell.plots.style import INK, WARN, marked, new_axes
+from rodwell.quantities.text import plain
 
 AXES = {
     "weight": "weight γ = mg L³/B",
-    "alpha": "inclination α from the vertical  [degrees]",
+    "alpha": "inclination α from the vertical  [°]",
     "clearance": "clearance Δ/L",
     "twist": "end twisting moment T₁  [B/L]",
 }
@@ -33,7 +34,7 @@ def plot_curves(curves: Sequence[Curve], ax: Any = None) -> Any:
     sign = -1.0 if first.quantity == "force" else 1.0
     seen = set()
     for i, curve in enumerate(curves):
-        ax.plot(curve.x, sign * curve.values, color=MODES[i % len(MODES)], lw=1.8, label=f"{curve.kind}, {curve.name}")
+        ax.plot(curve.x, sign * curve.values, lw=1.8, label=f"{curve.kind}, {curve.name}", **marked(i))
         for mark in curve.marks:
             marker = MARKERS[mark.kind][0]
             face = WARN if marker == "o" else INK
@@ -54,9 +55,9 @@ def plot_curves(curves: Sequence[Curve], ax: Any = None) -> Any:
 def _title(curve: Curve) -> str:
     problem = curve.problem
     fixed = {
-        "weight": f"γ = {problem.weight:g}",
-        "alpha": f"α = {problem.alpha:g}°",
-        "clearance": f"Δ/L = {problem.clearance:g}",
+        "weight": f"γ = {plain(problem.weight, 6)}",
+        "alpha": f"α = {plain(problem.alpha)}°",
+        "clearance": f"Δ/L = {plain(problem.clearance)}",
     }
     parts = [text for name, text in fixed.items() if name != curve.over]
     return ",  ".join([*parts, "-".join(problem.ends), *(["on top"] if problem.on_top else [])])

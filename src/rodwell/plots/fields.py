@@ -10,9 +10,9 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.errors import unknown_name
 from rodwell.plots.style import GREY, MODES, new_axes
 from rodwell.plots.units import axis
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.names import FIELDS, QUANTITIES
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, plain
 
 PLACES = 601
 
@@ -33,13 +33,12 @@ def plot_field(solution: Solution, field: str, scales: Scales | None = None, ax:
     quantity = QUANTITIES[field]
     fs, us = axis("z", scales, 1.0)
     fv, uv = axis(field, scales, float(np.max(np.abs(values))))
-    ff, uf = axis("force", scales, abs(solution.force))
-    label = minus(f"F = {plain(solution.force * ff, 4)} {uf} at s = 1")
-    ax.plot(s * fs, values * fv, color=MODES[len(ax.lines) // 2 % len(MODES)], lw=1.6, label=label)
+    said = Forces(scales, solution.problem.hung_weight)
+    ax.plot(s * fs, values * fv, color=MODES[len(ax.lines) // 2 % len(MODES)], lw=1.6, label=said.label(solution.force))
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, fs)
     ax.set_xlabel(f"distance along the rod from s = 0  [{us}]")
     name = quantity.meaning.partition(":")[0].partition(",")[0]
     ax.set_ylabel(f"{name}\n{quantity.symbol}  [{uv}]" if uv else f"{name}, {quantity.symbol}")
-    ax.legend(title="end force, tension positive")
+    ax.legend(title=said.legend.replace("\n", " "))
     return ax

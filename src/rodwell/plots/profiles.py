@@ -12,11 +12,11 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
-from rodwell.plots.string import mark_steps
-from rodwell.plots.style import GREY, INK, MODES, SIZE, WARN, new_axes
+from rodwell.plots.sections import mark_steps
+from rodwell.plots.style import GREY, INK, SIZE, WARN, marked, new_axes, parameters
 from rodwell.plots.units import axis
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, plain
 
 SHOWN = 5
 """States between buckling and lift-off of which the contact pressure is drawn."""
@@ -28,12 +28,11 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
     part = shown_part(critical[:most])
     s = drawn_places(critical[:most], part)
     fs, us = axis("z", scales, part)
-    forces = critical.forces[:most]
-    ff, uf = axis("force", scales, float(np.max(np.abs(forces))))
+    said = Forces(scales, critical[0].problem.hung_weight)
     for mode in critical[:most]:
         ax.plot(
-            s * fs, mode.shape(s), color=MODES[mode.number - 1], lw=2.2 if mode.number == 1 else 1.3,
-            label=minus(f"mode {mode.number}: F = {plain(mode.force * ff, 4)} {uf}"),
+            s * fs, mode.shape(s), lw=2.2 if mode.number == 1 else 1.3,
+            label=f"mode {mode.number}: {said.label(mode.force)}", **marked(mode.number - 1),
         )  # fmt: skip
     mark_steps(ax, critical[0].problem, fs)
     ax.axhline(0.0, color=INK, lw=0.8)
@@ -41,7 +40,8 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
     ax.set_ylim(-1.25, 1.55)
     ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
     ax.set_ylabel("sideways deflection y, scaled")
-    ax.legend(loc="upper center", ncols=2)
+    ax.legend(loc="upper center", ncols=2, title=said.legend.replace("\n", " "))
+    ax.set_title(parameters(critical[0].problem, scales), loc="left", fontsize=8.5)
     return ax
 
 
@@ -65,25 +65,25 @@ def plot_contact_pressure(
     states = states_to_lift_off(branch) if states is None else states
     part = shown_part(states)
     s = drawn_places(states, part)
-    pressures = [state.fields(s)["contact_pressure"] for state in states]
+    sign = 1.0 if scales is None else -1.0  # engineers count the push on the wall
+    pressures = [sign * state.fields(s)["contact_pressure"] for state in states]
     fs, us = axis("z", scales, part)
     fp, up = axis("contact_pressure", scales, max(float(np.max(np.abs(p))) for p in pressures))
-    ff, uf = axis("force", scales, max(abs(state.force) for state in states))
+    said = Forces(scales, branch.problem.hung_weight)
     for state, pressure, color in zip(states, pressures, _shades(len(states)), strict=True):
-        label = minus(f"F = {plain(state.force * ff, 4)} {uf}")
-        ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=label)
+        ax.plot(s * fs, pressure * fp, color=color, lw=1.5, label=said.label(state.force))
     mark_steps(ax, branch.problem, fs)
-    _lift_off_marks(ax, branch, fs, part)
-    low, high = ax.get_ylim()
+    _lift_off_marks(ax, branch, fs, part, sign)
+    low, high = sorted(sign * edge for edge in ax.get_ylim())  # pressed below, pulled above 0
     high = max(high, -0.12 * low)
-    ax.axhspan(0.0, 10.0 * abs(low) + 10.0 * high, color=WARN, alpha=0.07, lw=0)
+    ax.axhspan(0.0, sign * (10.0 * abs(low) + 10.0 * high), color=WARN, alpha=0.07, lw=0)
     ax.axhline(0.0, color=WARN, lw=1.0)
-    ax.set_ylim(low, high)
+    ax.set_ylim(*sorted((sign * low, sign * high)))
     ax.set_xlim(0.0, part * fs)
     place = _free_place(branch, part)
     ax.text(
         place * part * fs,
-        0.5 * high,
+        sign * 0.5 * high,
         "the wall would have to pull",
         color=WARN,
         ha={0.005: "left", 0.5: "center", 0.995: "right"}[place],
@@ -91,8 +91,10 @@ def plot_contact_pressure(
         fontsize=8.5,
     )
     ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
-    ax.set_ylabel(f"contact pressure p  [{up}]\n(below 0: pressed on the wall)")
-    _legend(ax)
+    name = "contact pressure p" if scales is None else "push on the wall"
+    where = "below 0: pressed on the wall" if scales is None else "above 0: pressed on it"
+    ax.set_ylabel(f"{name}  [{up}]\n({where})")
+    _legend(ax, said)
     return ax
 
 
@@ -103,7 +105,7 @@ def _free_place(branch: Branch, part: float) -> float:
     return max((0.995, 0.005, 0.5), key=lambda place: min((min(abs(place - s), 0.3) for s in marked), default=1.0))
 
 
-def _lift_off_marks(ax: Any, branch: Branch, fs: float, part: float) -> None:
+def _lift_off_marks(ax: Any, branch: Branch, fs: float, part: float, sign: float) -> None:
     lift = branch.lift_off
     if lift is None or branch.lift_off_at_buckling:
         return
@@ -113,7 +115,7 @@ def _lift_off_marks(ax: Any, branch: Branch, fs: float, part: float) -> None:
         ax.annotate(
             "lift-off",
             (s * fs, 0.0),
-            xytext=({"left": 4, "center": 0, "right": -4}[side], 9),
+            xytext=({"left": 4, "center": 0, "right": -4}[side], 9 if sign > 0.0 else -17),
             textcoords="offset points",
             ha=side,
             color=WARN,
@@ -129,9 +131,9 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     curves = [state.fields(s)["T2"] for state in states]
     fs, us = axis("z", scales, part)
     ft, ut = axis("T2", scales, max(float(np.max(np.abs(c))) for c in curves))
-    ff, uf = axis("force", scales, max(abs(state.force) for state in states))
+    said = Forces(scales, states[0].problem.hung_weight)
     for state, curve, color in zip(states, curves, _shades(len(states)), strict=True):
-        ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=minus(f"F = {plain(state.force * ff, 4)} {uf}"))
+        ax.plot(s * fs, curve * ft, color=color, lw=1.5, label=said.label(state.force))
     mark_steps(ax, states[0].problem, fs)
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xlim(0.0, part * fs)
@@ -141,7 +143,7 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
         ax.set_yticks([0.0])
         ax.text(0.5, 0.6, "none: no lateral weight", color=GREY, ha="center", transform=ax.transAxes)
     if legend:
-        _legend(ax)
+        _legend(ax, said)
     return ax
 
 
@@ -153,13 +155,14 @@ def plot_wall_loads(branch: Branch, scales: Scales | None = None) -> Any:
     plot_contact_pressure(branch, scales, ax=upper, states=states)
     plot_torque(states, scales, ax=lower, legend=False)
     upper.set_xlabel("")
+    upper.set_title(parameters(branch.problem, scales), loc="left", fontsize=8.5)
     return upper
 
 
 def _shades(count: int) -> Any:
-    """Colours of successive states, light to dark."""
-    return mpl.colormaps["viridis"](np.linspace(0.85, 0.0, count))
+    """Colours of successive states, light to dark; not so dark that they vanish on a dark page."""
+    return mpl.colormaps["viridis"](np.linspace(0.85, 0.22, count))
 
 
-def _legend(ax: Any) -> None:
-    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title="end force at s = 1\n(tension positive)")
+def _legend(ax: Any, said: Forces) -> None:
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), title=said.legend)

@@ -19,8 +19,10 @@ from rodwell.analysis.space.surfaces import straight_contact
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, plain
+from rodwell.quantities.text import plain
+from rodwell.quantities.value import Value
 
 ELEVATION, AZIMUTH = 20.0, -66.0
 LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])
@@ -59,6 +61,7 @@ def plot_rod(
                 fontsize=9,
             )
         _colour_bar(ax, rod, scales)
+        ax.figure.text(0.02, 0.93, enlarged(rod), fontsize=9.5, fontweight="bold")
         ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax
 
@@ -125,7 +128,7 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     """The scale of colours, in the reader's units; p > 0 is contact where the rod lies outside."""
     low, high = limits(rod.pull)
     factor, unit = axis("contact_pressure", scales, max(-low, high))
-    sign = -1.0 if rod.outside else 1.0
+    sign = (-1.0 if rod.outside else 1.0) * (1.0 if scales is None else -1.0)  # engineers count the push on the wall
     p = np.linspace(low, high, 256)
     below, above = np.minimum(p, 0.0) / (-low or 1.0), np.maximum(p, 0.0) / (high or 1.0)
     colours = palette(below + above)
@@ -137,20 +140,25 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     bar.ax.grid(visible=False)
     bar.outline.set_visible(False)
     bar.formatter.set_powerlimits((-3, 4))
-    bar.set_label(f"contact pressure p  [{unit}]")
+    name = "contact pressure p" if scales is None else "push on the wall"
+    bar.set_label(f"{name}  [{unit}]")
+
+
+def enlarged(rod: Geometry) -> str:
+    """By how much the picture is enlarged across the axis, to stand in it."""
+    return "true scale" if rod.radial_scale == 1.0 else f"× {plain(rod.radial_scale, 3)} across the axis"
 
 
 def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
-    factor, unit = axis("force", scales, solution.force)
+    said = Forces(scales, solution.problem.hung_weight)
     length = "" if scales is None else f", length {scales.text(1.0, 'length')}"
-    scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
-    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ"
+    radius = f"{plain(rod.rod_radius / rod.clearance, 3)} Δ"
     if scales is not None:
         radius = scales.text(rod.rod_radius, "length")
     marks = "; red rings: lift-off" if rod.lift_off else ""
-    load = minus(f"F = {plain(solution.force * factor, 4)} {unit}")
+    load = said.load(Value(solution.force))
     drawn_as = f"rod radius drawn {radius}; thin lines: material lines{marks}"
-    return f"{load} at s = 1 (tension positive){length}; {scale}\n{drawn_as}"
+    return f"{load[:1].upper()}{load[1:]}{length}\n{drawn_as}"
 
 
 WIDE = (7.6, 3.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import matplotlib as mpl
@@ -12,8 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rodwell.answers.result.assessment import BUCKLED
-from rodwell.plots.style import INK, MODES, RC, WARN
+from rodwell.plots.style import DASHDOT, INK, LIMIT, MODES, RC, WARN
 from rodwell.quantities.value import Value
+from rodwell.studies.sweep.labels import label
 from rodwell.studies.sweep.load_columns import fails, most_loads
 from rodwell.studies.sweep.loads import LoadResult
 from rodwell.studies.sweep.points import StudyPoint
@@ -21,7 +23,7 @@ from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import scales
 from rodwell.studies.sweep.varied import Varied
 
-DASHES, DOTS = (0, (4, 2)), (0, (1, 1.5))
+DASHES, DOTS = DASHDOT, LIMIT
 
 BUCKLED_MARK: dict[str, Any] = {"marker": "D", "ms": 5, "mfc": "white", "mec": INK, "mew": 1.2}
 FAILS_MARK: dict[str, Any] = {"marker": "X", "ms": 7, "mfc": WARN, "mec": "white", "mew": 0.6}
@@ -52,6 +54,7 @@ def plot_study(study: Study) -> Figure:
         for colour, (_label, points) in zip(MODES, families, strict=False):
             _curve(upper, study, across, points, loads["critical"], scale, colour, "-")
             _curve(upper, study, across, points, loads["lift_off"], scale, colour, DASHES)
+            _switches(upper, study, across, points, loads["critical"], scale)
             _loads(upper, study, across, points, scale, colour)
         _ring_worst(upper, study, across, loads, scale, {p.number for _, points in families for p in points})
         upper.set_ylabel(f"end compression −F at s = 1  [{force}]")
@@ -72,7 +75,9 @@ def plot_study(study: Study) -> Figure:
         _label_across(last[0] if last else lower, study.varied[across])
         figure.legend(handles=_key(study, families), loc="outside lower center", ncols=3, handlelength=3.0)
         left_out = 0 if other is None else len(study.varied[other].values) - len(families)
-        note = f"\n{left_out} values of {study.varied[other or 0].name} are in the table only" if left_out else ""
+        note = (
+            f"\n{left_out} values of {label(study.varied[other or 0].name)} are in the table only" if left_out else ""
+        )
         figure.suptitle(study.title + note, x=0.01, ha="left", fontsize=10)
         return figure
 
@@ -95,7 +100,7 @@ def _families(study: Study, across: int, other: int | None) -> list[tuple[str, l
     shown = sorted({int(i) for i in np.linspace(0, count - 1, min(count, MOST_CURVES)).round()})
     return [
         (
-            f"{study.varied[other].key} = {study.varied[other].text(i)}",
+            f"{label(study.varied[other].name)} {study.varied[other].text(i)}",
             sorted((p for p in study.points if p.at[other] == i), key=lambda point: key[point.at[across]]),
         )
         for i in shown
@@ -135,6 +140,32 @@ def _curve(
     ax.errorbar(x, y, yerr=errors, color=colour, ls=joined, lw=1.7, marker="o", ms=3.5, elinewidth=1.0)
 
 
+SWITCH: dict[str, Any] = {"marker": "|", "ms": 13, "mec": INK, "mew": 1.6}
+
+
+def _switches(
+    ax: Any, study: Study, across: int, points: list[StudyPoint], values: dict[int, Value], scale: float
+) -> None:
+    """Mark between which points another mode comes first: its number of half waves changes."""
+    for before, after in _switched(study, across, points):
+        x, y = (
+            0.5 * (one + two)
+            for one, two in (
+                (_position(study.varied[across])[before.at[across]], _position(study.varied[across])[after.at[across]]),
+                (values[before.number].value / scale, values[after.number].value / scale),
+            )
+        )
+        ax.plot(x, y, ls="none", zorder=5, **SWITCH)
+
+
+def _switched(study: Study, across: int, points: list[StudyPoint]) -> list[tuple[StudyPoint, StudyPoint]]:
+    """Neighbours of one curve whose first modes have other numbers of half waves."""
+    if study.varied[across].numbers is None:
+        return []
+    known = [point for point in points if point.half_waves is not None]
+    return [(one, two) for one, two in pairwise(known) if round(one.half_waves or 0.0) != round(two.half_waves or 0.0)]
+
+
 def _most(point: StudyPoint) -> LoadResult | None:
     """The most compressive load that acts at a point."""
     return min(point.loads, key=lambda state: state.load.force, default=None)
@@ -171,6 +202,9 @@ def _key(study: Study, families: list[tuple[str, list[StudyPoint]]]) -> list[Lin
         Line2D([], [], color=plain, lw=1.7, label="buckles"),
         Line2D([], [], color=plain, lw=1.7, ls=DASHES, label="leaves the wall"),
     ]
+    across = _axes_of(study)[0]
+    if any(_switched(study, across, points) for _, points in families):
+        out.append(Line2D([], [], ls="none", label="another mode comes first", **SWITCH))
     if not study.load_varies:
         out.append(Line2D([], [], ls="none", marker="o", ms=11, mfc="none", mec=WARN, mew=2.0, label="worst case"))
     if most_loads(study):
@@ -195,6 +229,6 @@ def _ring_worst(
 
 
 def _label_across(ax: Any, varied: Varied) -> None:
-    ax.set_xlabel(f"{varied.name}  [{varied.unit}]" if varied.unit else varied.name)
+    ax.set_xlabel(varied.label)
     if varied.numbers is None:
         ax.set_xticks(range(len(varied.values)), [str(value) for value in varied.values], rotation=15)

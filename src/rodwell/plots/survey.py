@@ -10,12 +10,12 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from rodwell.plots.style import GREY, INK, MODES, RC, WARN
+from rodwell.plots.style import ACTS, BUCKLES, FORMULA, GREY, INK, LIFTS_OFF, MODES, RC, WARN
+from rodwell.quantities.text import plain
 from rodwell.studies.well.screening import BESIDE, Screening
 from rodwell.studies.well.verdict import units
 
-EXACT, LIFT_OFF = MODES[0], MODES[3]
-LINES = ((MODES[1], (0, (4, 2))), (MODES[2], (0, (4, 2))), (MODES[4], (0, (1, 1.3))))
+LINES = ((MODES[2], FORMULA), (MODES[3], FORMULA), (MODES[4], FORMULA))
 """Colours and dashes of the formulas, in turn."""
 
 
@@ -31,12 +31,12 @@ def plot_screening(screening: Screening) -> Figure:
         FigureCanvasAgg(figure)
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1, 3.4))
         left.plot(screening.survey.inclination, md, color=INK, lw=1.5)
-        left.set_xlabel("inclination from\nthe vertical  [deg]")
+        left.set_xlabel("inclination from\nthe vertical  [°]")
         left.set_ylabel(f"measured depth  [{depth}]")
         left.set_xlim(left=0.0)
         _limit_lines(right, screening, md, newton)
         if screening.compression is not None:
-            right.plot(screening.compression / newton, md, color=WARN, lw=2.0, label="the string")
+            right.plot(screening.compression / newton, md, color=ACTS, lw=2.6, label="the string")
             right.axvline(0.0, color=GREY, lw=0.8)
         _mark(right, screening, md, newton)
         right.set_xlabel(f"compression  [{force}]")
@@ -50,8 +50,8 @@ def plot_screening(screening: Screening) -> Figure:
 def _limit_lines(ax: Any, screening: Screening, md: Any, newton: float) -> None:
     """Exact loads with bands of their errors, and the formulas."""
     for loads, label, colour in (
-        (screening.critical, "exact: buckles", EXACT),
-        (screening.lift_off, "exact: leaves the wall", LIFT_OFF),
+        (screening.critical, "exact: buckles", BUCKLES),
+        (screening.lift_off, "exact: leaves the wall", LIFTS_OFF),
     ):
         values, errors = loads.values / newton, loads.errors / newton
         ax.fill_betweenx(md, values - errors, values + errors, color=colour, alpha=0.25, lw=0)
@@ -66,7 +66,7 @@ def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:
     i, x, label = screening.weakest, screening.critical.values, "weakest station"
     if worst is not None and screening.compression is not None and screening.utilisation is not None:
         i, x = worst, screening.compression
-        label = f"largest utilisation, {100.0 * screening.utilisation[worst]:.3g} %"
+        label = f"largest utilisation, {plain(100.0 * float(screening.utilisation[worst]), 3)} %"
     ax.plot(x[i] / newton, md[i], "o", color=WARN, mec=INK, ms=7, zorder=6, clip_on=False, label=label)
 
 

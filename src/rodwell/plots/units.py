@@ -17,4 +17,4 @@ def axis(name: str, scales: Scales | None, largest: float) -> tuple[float, str]:
     dimension = QUANTITIES[name].dimension
     factor = scales.factor(dimension)
     unit, text = scales.system.unit(dimension, float(np.abs(largest)) * factor)
-    return factor / unit, text.replace("N m", "N·m")
+    return factor / unit, text

@@ -135,6 +135,12 @@ class Rod:
         return self.sections == PLAIN
 
 
+def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
+    """Raise for a string of sections, where only a uniform rod is taken; ``why`` says why, and what to do."""
+    if sections:
+        raise InputError("sections", f"{len(sections)} of them", why)
+
+
 def lower_half(sections: tuple[Section, ...]) -> tuple[Section, ...]:
     """Sections of the half from s = 0 to ½, with lengths in its own length."""
     breaks = Rod(sections).breaks if sections else np.array([0.0])

@@ -14,13 +14,15 @@ class Scales:
     """Length L in m and bending stiffness B in N m² of the rod: they carry every unit.
 
     ``radius`` is the rod's outer radius in m where it is known. The theory does not need it, pictures do. ``system``
-    says in which units summaries, reports and figures show results; data files stay in SI.
+    says in which units summaries, reports and figures show results; data files stay in SI. ``bottom`` says that they
+    show end forces at the lower end s = 0, where the case gives its loads, and not at s = 1.
     """
 
     length: float
     stiffness: float
     radius: float | None = None
     system: System = SI
+    bottom: bool = False
 
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of ``dimension`` (see :data:`rodwell.quantities.names.UNITS`)."""
@@ -32,9 +34,13 @@ class Scales:
         dimension = QUANTITIES[name].dimension
         return self.factor(dimension), SI_UNITS[dimension]
 
-    def text(self, value: float, dimension: str, digits: int = 4) -> str:
+    def text(self, value: float, dimension: str, digits: int = 4, *, zeros: bool = False) -> str:
         """A number in units B = L = 1 as text in the units of ``system``."""
-        return self.system.text(value * self.factor(dimension), dimension, digits)
+        return self.system.text(value * self.factor(dimension), dimension, digits, zeros=zeros)
+
+    def amount(self, number: Value, dimension: str, digits: int = 4) -> str:
+        """A number in units B = L = 1 as text in the units of ``system``, with the digits that its error allows."""
+        return self.system.amount(number.times(self.factor(dimension)), dimension, digits)
 
     def beside_error(self, number: Value, dimension: str, digits: int = 6) -> str:
         """A number in units B = L = 1 as text for a table that has its error, in the units of ``system``."""
@@ -47,6 +53,7 @@ class Scales:
     def shown(self, number: Value, dimension: str) -> dict[str, float | str]:
         """The same in the units of ``system``."""
         unit, text = self.system.unit(dimension)
+        text = SI_UNITS[dimension] if self.system.name == "si" else text
         return _plain(number.times(self.factor(dimension) / unit), text)
 
 

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from rodwell.quantities.text import minus, plain, prefix_for, readable, supported
+from rodwell.quantities.text import certain, plain, prefix_for, readable, supported
 from rodwell.quantities.value import Value
 from rodwell.quantities.written import (
     DEFINITIONS,
     NUMBER,
     AmbiguousUnitError,
+    as_typed,
     direction,
     number_and_rest,
     plain_unit,
@@ -150,7 +151,7 @@ def is_quick(unit: str) -> bool:
 
 def _split(text: str, examples: str) -> tuple[float, str]:
     """Number and unit; nothing else may stand in the text, and nothing is evaluated."""
-    found = _QUANTITY.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST_TEXT else None
+    found = _QUANTITY.fullmatch(as_typed(text)) if len(text) <= LONGEST_TEXT else None
     if found is None or not is_quick(found[2]):
         how = remedy(text) if len(text) <= LONGEST_TEXT else ""
         raise ValueError(f"is not a number with a unit; write {how}for example {examples}")
@@ -185,14 +186,20 @@ LBF, FOOT, INCH, GALLON = 4.4482216152605, 0.3048, 0.0254, 231.0 * 0.0254**3
 
 POUND = 0.45359237
 
-_PREFIXED = ("N", "N/m", "N m", "J", "Pa", "m")
+_PREFIXED = ("N", "N/m", "N·m", "J", "Pa", "m")
+
+
+def _below(unit: str, value: float) -> tuple[tuple[str, float], ...]:
+    """The unit with the prefixes of small numbers."""
+    return tuple((f"{prefix}{unit}", value * size) for prefix, size in (("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)))
+
 
 _UNITS: dict[str, dict[str, tuple[tuple[str, float], ...]]] = {
     "si": {
         "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("m", 1.0),), "curvature": (("1/m", 1.0),),
-        "force": (("N", 1.0),), "force_per_length": (("N/m", 1.0),), "moment": (("N m", 1.0),),
+        "force": (("N", 1.0),), "force_per_length": (("N/m", 1.0),), "moment": (("N·m", 1.0),),
         "energy": (("J", 1.0),), "stress": (("Pa", 1.0),), "density": (("kg/m³", 1.0),),
-        "stiffness": (("N m²", 1.0),), "temperature": (("K", 1.0),),
+        "stiffness": (("N·m²", 1.0),), "temperature": (("K", 1.0),),
     },
     "field": {
         "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("ft", FOOT), ("in", INCH)),
@@ -202,20 +209,24 @@ _UNITS: dict[str, dict[str, tuple[tuple[str, float], ...]]] = {
         "temperature": (("°F", 5.0 / 9.0),),
     },
     "mm": {
-        "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("mm", 1e-3),), "curvature": (("1/mm", 1e3),),
-        "force": (("N", 1.0),), "force_per_length": (("N/mm", 1e3),), "moment": (("N·mm", 1e-3),),
-        "energy": (("N·mm", 1e-3),), "stress": (("MPa", 1e6),), "density": (("kg/m³", 1.0),),
+        "1": (("1", 1.0),), "angle": (("rad", 1.0),), "length": (("mm", 1e-3), ("µm", 1e-6)),
+        "curvature": (("1/mm", 1e3),), "force": (("N", 1.0), *_below("N", 1.0)),
+        "force_per_length": (("N/mm", 1e3), *_below("N/mm", 1e3)), "moment": (("N·mm", 1e-3), *_below("N·mm", 1e-3)),
+        "energy": (("N·mm", 1e-3), *_below("N·mm", 1e-3)), "stress": (("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0)),
+        "density": (("kg/m³", 1.0),),
         "stiffness": (("N·mm²", 1e-6),),
         "temperature": (("K", 1.0),),
     },
 }  # fmt: skip
-"""Units by system and dimension: text and SI value. The first is that of tables; a second is for small values."""
+"""Units by system and dimension: text and SI value. The first is that of tables; those after it for small values."""
 
 SYSTEMS = tuple(_UNITS)
 """Systems of units in which results can be had."""
 
-SMALL = 3.0
-"""Below this many of the first unit, the second is used: a rod has feet, its clearance inches."""
+SMALL = {"ft": 3.0}
+"""Below this many of a unit the next is used: a rod has feet, its clearance inches."""
+
+SMALL_ELSE = 0.1
 
 
 @dataclass(frozen=True)
@@ -235,21 +246,28 @@ class System:
         if self.name == "si":
             scale, prefix = prefix_for(size) if text in _PREFIXED else (1.0, "")
             return scale, prefix + text
-        if abs(size) < SMALL * value:
-            text, value = _UNITS[self.name][dimension][-1]
+        for text, value in _UNITS[self.name][dimension]:
+            if abs(size) >= SMALL.get(text, SMALL_ELSE) * value or size == 0.0:
+                break
         return value, text
 
-    def text(self, value: float, dimension: str, digits: int = 4) -> str:
+    def text(self, value: float, dimension: str, digits: int = 4, *, zeros: bool = False) -> str:
         """Return an SI ``value`` as text in the unit that suits it: "−12.35 kN", "−2776 lbf"."""
         if self.name == "si" and (text := _UNITS["si"][dimension][0][0]) in _PREFIXED:
-            return readable(value, text, digits)
+            return readable(value, text, digits, zeros=zeros)
         unit, text = self.unit(dimension, value)
-        return minus(f"{plain(value / unit, digits)} {text if text != '1' else ''}".rstrip())
+        return f"{plain(value / unit, digits, zeros=zeros)} {text if text != '1' else ''}".rstrip()
+
+    def amount(self, number: Value, dimension: str, digits: int = 4) -> str:
+        """Return a :class:`Value` in SI as text with the digits that its error allows, for a sentence."""
+        count = certain(number, digits)
+        text = self.text(number.value, dimension, count or 1, zeros=count > 0 and number.error > 0.0)
+        return text if count else f"{text} ± {self.text(number.error, dimension, 1)}"
 
     def beside_error(self, number: Value, dimension: str, digits: int = 6) -> str:
         """Return a :class:`Value` in SI as text for a table that has its error: with the digits that this supports."""
         count = supported(number, digits)
-        return self.text(number.value if count else 0.0, dimension, max(count, 1))
+        return self.text(number.value if count else 0.0, dimension, max(count, 1), zeros=number.error > 0.0)
 
 
 SI = System()

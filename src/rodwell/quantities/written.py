@@ -97,9 +97,18 @@ class AmbiguousUnitError(ValueError):
     """A unit that means several things; the message says what to write instead."""
 
 
+_POWER_OF_TEN = re.compile(r"(?<=\d)\s*[×x*·]\s*10([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,3})")
+_RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
+
+
+def as_typed(text: str) -> str:
+    """A number as it is written in results, as keyboards have it: −6.4 × 10⁻⁵ as -6.4e-5."""
+    return _POWER_OF_TEN.sub(lambda found: f"e{found[1].translate(_RAISED)}", text.replace("−", "-"))
+
+
 def number_and_rest(text: str) -> tuple[float, str] | None:
     """The number that a text begins with, and what follows; None where it begins with none that can be read."""
-    found = _LEADING.fullmatch(text.replace("−", "-")) if len(text) <= LONGEST else None
+    found = _LEADING.fullmatch(as_typed(text)) if len(text) <= LONGEST else None
     return None if found is None else (_number(found[1]), found[2])
 
 

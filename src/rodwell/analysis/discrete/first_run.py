@@ -59,12 +59,14 @@ def done() -> bool:
     return on_disk(*KERNELS[1])
 
 
-def begin(problem: Problem) -> None:
+def begin(problem: Problem | None = None) -> None:
     """Start the second process, on the first run; where the largest kernel is at hand already, nothing is asked.
 
     Kernels of a string of sections are compiled as they are needed: most rods are uniform.
     """
-    if not problem.sections and not newton.overloads and newton.stats.cache_path is not None and not done():
+    if problem is not None and problem.sections:
+        return
+    if not newton.overloads and newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)
 
 

@@ -30,6 +30,14 @@ LONG = 257
 ABOUT = 1e-6
 LEAST_ELEMENTS = 8
 
+LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {
+    False: ((0.04, 7), (0.015, 5)),
+    True: ((0.12, 7), (0.015, 5)),
+}
+"""Degrees where the shortest section is short against the waves of the string: below so many radians of the mean
+wavenumber, so high a degree; of critical loads (False) and of branches. Round-off in the coefficients is enlarged by
+the fourth power of that ratio, and more the higher the degree, and in short elements a low degree resolves as much."""
+
 
 def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
     """Places (m,), rising, each step twice, and the section (m,) that each belongs to."""
@@ -72,8 +80,10 @@ def wkb_load(problem: Problem, number: float) -> float:
     euler = whole**2 / problem.rod.compliance
     low = float(np.min(axial - 2.0 * np.sqrt(np.abs(foundation) * stiffness)))
     high = low + euler
+    step = euler
     while phase(high) < whole:
-        low, high = high, low + 2.0 * (high - low)
+        step *= 2.0
+        low, high = high, high + step
     middle = 0.5 * (low + high)
     while high - low > ABOUT * euler and low < middle < high:
         low, high = (middle, high) if phase(middle) < whole else (low, middle)
@@ -84,7 +94,7 @@ def wkb_load(problem: Problem, number: float) -> float:
 def linear_space(problem: Problem, count: int) -> SplineSpace:
     """Spline space for critical loads up to about number ``count``."""
     load = wkb_load(problem, count)
-    return _space(problem, (load, load), LEAST_WAVENUMBER, LINEAR_ELEMENTS_PER_RADIAN, None)
+    return _space(problem, (load, load), LEAST_WAVENUMBER, LINEAR_ELEMENTS_PER_RADIAN, branch=False)
 
 
 def free_space(problem: Problem, count: int) -> SplineSpace:
@@ -93,18 +103,16 @@ def free_space(problem: Problem, count: int) -> SplineSpace:
     upright = problem.but(weight=weight, alpha=alpha, twist=0.0, on_top=False)
     load = wkb_load(upright, count)
     least = LEAST_WAVENUMBER + abs(problem.twist) / min(section[1] for section in problem.sections)
-    return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, None)
+    return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, branch=False)
 
 
 def first_space(problem: Problem, compression: float, tension: float) -> SplineSpace:
     """Spline space for branches between the most compressive and the most tensile end force, tension positive."""
     least = 2.0 * np.pi * (1 + abs(problem.turns))
-    return _space(problem, (-compression, -tension), least, ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH)
+    return _space(problem, (-compression, -tension), least, ELEMENTS_PER_RADIAN, branch=True)
 
 
-def _space(
-    problem: Problem, loads: tuple[float, float], least: float, per_radian: float, per_element: int | None
-) -> SplineSpace:
+def _space(problem: Problem, loads: tuple[float, float], least: float, per_radian: float, branch: bool) -> SplineSpace:
     """Space that resolves √(|P|/b) + (a/b)^¼ and ``least`` at compressions −F from one load to the other."""
     places, section = _places(problem)
     stiffness, axial, foundation = _local(problem, places, section)
@@ -129,4 +137,7 @@ def _space(
     if problem.symmetric:
         mesh = 0.5 * (mesh + (1.0 - mesh[::-1]))
         mesh[starts] = breaks[:-1]
-    return SplineSpace(mesh, DEGREE, per_element, mesh[starts[1:]])
+    shortest = float(np.min(lengths)) * float(phase[-1])
+    degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
+    per_element = POINTS_OF_BRANCH if branch and degree == DEGREE else None
+    return SplineSpace(mesh, degree, per_element, mesh[starts[1:]])

@@ -11,7 +11,7 @@ Contact is kept: disturbances that leave the wall cost energy of first order whe
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,7 +27,8 @@ LONGEST = 0.01
 """Smallest ν looked at: a modulation over a hundred periods. Below, the eigenvalue is a multiple of ν²."""
 
 
-class Stability(NamedTuple):
+@dataclass(frozen=True)
+class Stability:
     """What the second variation says of a state kept on the wall.
 
     Attributes

@@ -14,6 +14,7 @@ from rodwell.numerics.stretches.carry import Sampler, fit, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
 from rodwell.numerics.stretches.walk import Motion, row_of
+from rodwell.problem.ends import HOLD_ANGLE
 from rodwell.quantities.arrays import FloatArray
 
 LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
@@ -59,10 +60,18 @@ def solved(
     It is at the load; or, where ``fixed`` names two ends of stretches (−1 and the number of breaks: the ends of the
     rod), at the distance they have now.
     """
+    pattern = replace(pattern, turns=turns_of(model, sample))
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]
     return None if state is None else PatternedState(pattern, elements, state)
+
+
+def turns_of(model: RodInHole, sample: Sampler) -> int:
+    """How often a shape winds around the hole: where the rod rolls over its axis, its end has turned once more."""
+    if model.problem.ends[1] not in HOLD_ANGLE:
+        return 0
+    return int(np.round(float(sample(np.array([1.0]))[1][0, 0]) / (2.0 * np.pi)))
 
 
 def _fixed_distance(shape: Shape, first: int, last: int) -> Row:

@@ -142,7 +142,7 @@ def _penetration(state: PatternedState) -> float:
     deepest = 0.0
     for i, on in enumerate(state.pattern.touching):
         if not on:
-            s = np.linspace(*state.bounds[i : i + 2], 400)
+            s = np.linspace(float(state.bounds[i]), float(state.bounds[i + 1]), 400)
             x, y, _ = position(state, s)
             deepest = max(deepest, float(np.max(np.hypot(x[0], y[0]))) / state.model.problem.clearance - 1.0)
     return max(deepest, 0.0)

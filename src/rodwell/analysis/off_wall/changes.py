@@ -37,7 +37,11 @@ FIRST_GAP = 0.25
 FIRST_CONTACT = 5e-4
 """Length of a contact stretch, in L, below which it is taken for a point: Newton's method is stiff there."""
 
-HALVINGS = 6
+SHORTEST_CONTACT = 1.2e-4
+"""Length below which no contact stretch starts, though what happens next is passed over with it."""
+
+HALVINGS, ALONE = 6, 3
+"""How often a first gap is halved, and how often before others open with it that would be next."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
          GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
@@ -55,10 +59,14 @@ class Changed:
 
 @dataclass(repr=False)
 class _Plan:
-    """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold."""
+    """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold.
+
+    ``half`` is half the first length of a gap, ``contact`` the first length of a stretch in contact.
+    """
 
     state: PatternedState
     half: float
+    contact: float
     touching: list[bool]
     breaks: list[float]
     bumps: list[Bump] = field(default_factory=list)
@@ -81,8 +89,9 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
     """
     half, first = part * FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
     vanished = list(vanished)
-    for _ in range(HALVINGS):
-        plan = _Plan(state, half, list(state.pattern.touching), list(state.solved.shape.breaks))
+    contact, last = 2.2 * FIRST_CONTACT, None
+    for tried in range(HALVINGS):
+        plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
         for condition in sorted(vanished, key=lambda one: -one.s):
             _EDITS[condition.kind](plan, condition)
         pattern = Pattern(tuple(plan.touching), state.pattern.turns)
@@ -90,17 +99,18 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
         found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
         if found is not None:
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
-            if first.kind not in (OPENS,) or not hurt:
-                return Changed(found, _growing(first, found, plan), NAMES[first.kind])
-            spots = [one.s for one in hurt if one.kind == OPENS]
+            last = Changed(found, _growing(first, found, plan), NAMES[first.kind])
+            if not hurt or first.kind not in (OPENS, GROWS, GROWS_AT_END):
+                return last
+            spots = [one.s for one in hurt if one.kind == OPENS and tried >= ALONE]
             known = [one.s for one in vanished]
             vanished += [
                 one for one in conditions(state)
                 if one.kind == OPENS and min(abs(one.s - s) for s in known) > 1e-6
                 and any(abs(one.s - s) < 2.0 * half for s in spots)
             ]  # fmt: skip
-        half *= 0.5
-    return None
+        half, contact = 0.5 * half, max(0.5 * contact, SHORTEST_CONTACT)
+    return last if first.kind in (GROWS, GROWS_AT_END) else None
 
 
 def _just_now(condition: Condition) -> bool:
@@ -158,7 +168,7 @@ def _lose(plan: _Plan, condition: Condition) -> None:
 
 def _grow(plan: _Plan, condition: Condition) -> None:
     """A point of contact grows to a stretch."""
-    i, half = condition.number, 1.1 * FIRST_CONTACT
+    i, half = condition.number, 0.5 * plan.contact
     s = plan.breaks[i]
     plan.touching.insert(i + 1, True)
     plan.breaks[i : i + 1] = [s - half, s + half]
@@ -167,7 +177,7 @@ def _grow(plan: _Plan, condition: Condition) -> None:
 
 def _grow_at_end(plan: _Plan, condition: Condition) -> None:
     """Contact grows from a radially held end."""
-    size = 2.2 * FIRST_CONTACT
+    size = plan.contact
     if condition.number:
         plan.touching.append(True)
         plan.breaks.append(1.0 - size)

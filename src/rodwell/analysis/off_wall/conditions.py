@@ -120,9 +120,8 @@ def pressing(state: PatternedState, stretch: int) -> list[Condition]:
             min(int(k) // PER_ELEMENT, len(functions) - 1),
         }:
             part = int(k) - e * PER_ELEMENT
-            value, where = lowest(
-                functions[e], np.linspace(*xi[[max(part - 1, 0), min(part + 1, PER_ELEMENT)]], CLOSER)
-            )
+            around = float(xi[max(part - 1, 0)]), float(xi[min(part + 1, PER_ELEMENT)])
+            value, where = lowest(functions[e], np.linspace(*around, CLOSER))
             left, right = shape.places[elements[e]], shape.places[elements[e] + 1]
             if value <= best[0] or np.isnan(best[1]):
                 best = (value, float(left + (right - left) * where))

@@ -7,26 +7,44 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import at_load, needs_new_elements, wavenumber, with_new_elements
+from rodwell.analysis.off_wall.arrange import needs_new_elements, wavenumber, with_new_elements
 from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, changed, shortened
 from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
+from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.happening import (
     BRANCH_POINT,
     END,
     FOLD,
+    LOAD_PEAK,
     Followed,
     PathEvent,
-    load_rate,
     together,
     unresolved,
     watch,
 )
-from rodwell.numerics.stretches.newton import softest, stiffness_along
-from rodwell.numerics.stretches.walk import Motion, locate, row_of, search, step, tangent, tangent_in_load
+from rodwell.analysis.off_wall.turning import growing_direction, turning_points
+from rodwell.numerics.stretches.walk import (
+    Motion,
+    between,
+    length,
+    locate,
+    row_of,
+    search,
+    step,
+    tangent,
+    tangent_in_load,
+)
+from rodwell.quantities.arrays import FloatArray
 
 FIRST_STEP, LARGEST_STEP, SMALLEST_STEP = 0.02, 0.25, 1e-7
 EASY, HARD = 5, 8
 """Steps of Newton's method up to which the next step grows, and from which on it shrinks."""
+
+MOST_SHRUNK = 0.6
+"""By how much of its length a stretch may shrink in a step."""
+
+PAST = 0.02
+"""Part of a step by which a place is passed where something happens that ends nothing."""
 
 SHORT_GAP = 0.3
 """Length of a gap, times the wavenumber, below which it is about to close."""
@@ -45,17 +63,20 @@ def followed(
     until: float,
     *,
     along: Motion | None = None,
-    load_controlled: bool = True,
+    control: Control = FORCE,
     most_states: int = MOST_STATES,
     progress: Callable[[float], None] | None = None,
 ) -> Followed:
-    """Follow equilibria from a state to the end force ``until``.
+    """Follow equilibria from a state until the controlled quantity has the value ``until``.
 
-    With the load controlled, the path ends where it folds in the load, or loses stability; else it goes on there.
+    The path ends where it folds in that quantity, or loses stability while it is controlled.
     """
     if along is None:
-        along = tangent_in_load(start.solved, until - start.load)
-    return _Walker(Followed(), start, along, until, load_controlled, progress=progress).walk(most_states)
+        sense = until - control.value(start.solved)
+        along = tangent_in_load(start.solved, sense if control.by_force else -sense)  # at first the load grows with it
+        if control.rate(start.solved, along) * sense < 0.0:
+            along = along.times(-1.0)
+    return _Walker(Followed(), start, along, until, control, progress=progress).walk(most_states)
 
 
 @dataclass(eq=False)
@@ -66,14 +87,14 @@ class _Walker:
     state: PatternedState
     along: Motion
     until: float
-    load_controlled: bool
+    control: Control
     size: float = FIRST_STEP
     progress: Callable[[float], None] | None = None
 
     def walk(self, most_states: int) -> Followed:
         """Go on until the end of the range, or until it cannot."""
         self.result.states.append(self.state)
-        self.sense = np.sign(self.until - self.state.load)
+        self.sense = float(np.sign(self.until - self.control.value(self.state.solved)))
         while not self.result.ended:
             if len(self.result.states) >= most_states:
                 self.result.ended = f"it has more than {most_states} states"
@@ -85,7 +106,11 @@ class _Walker:
     def _next(self) -> None:
         self._renew_elements()
         state = self.state
-        outcome, solved, steps = step(state.model, state.solved, self.along, self.size)
+        lengths, rates = self._lengths()
+        most = MOST_SHRUNK / max(
+            float(np.max(-rates / lengths)), MOST_SHRUNK / LARGEST_STEP
+        )  # no stretch is passed over
+        outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most))
         if solved is None:
             self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
             return
@@ -96,14 +121,18 @@ class _Walker:
             self._accept(new, turned)
             self.size *= 0.6 if steps >= HARD else (1.5 if steps <= EASY else 1.0)
             self.size = min(self.size, LARGEST_STEP)
-        elif found.kind in (FOLD, BRANCH_POINT):
-            self._stability_lost(found, new, turned)
+        elif found.kind in (FOLD, BRANCH_POINT, LOAD_PEAK):
+            self._turned(found, new, turned)
         elif found.kind == END:
             self._accept(found.state, turned)
             self.result.events.append(found)
             self.result.ended = END
         elif found.kind:
             self._change(found)
+
+    def _lengths(self) -> tuple[FloatArray, FloatArray]:
+        """Lengths of the stretches and their rates along the path."""
+        return np.diff(self.state.bounds), np.diff(np.concatenate([[0.0], self.along.breaks, [0.0]]))
 
     def _renew_elements(self) -> None:
         """Make new elements where the old ones no longer fit; breaks and load tell the direction."""
@@ -121,13 +150,9 @@ class _Walker:
         state = self.state
         broken = [one for one in conditions(new) if one.value < 0.0]
         candidates = [(one.kind, watch(one, state)) for one in broken]
-        if self.along.load * turned.load < 0.0:
-            candidates.append((FOLD, load_rate(self.along)))
-        elif new.solved.index != state.solved.index:
-            direction = softest(new.solved)
-            candidates.append((BRANCH_POINT, lambda one: stiffness_along(one, direction)))
-        if (new.load - self.until) * self.sense >= 0.0:
-            candidates.append((END, lambda one: one.shape.load - self.until))
+        candidates += turning_points(self.control, (self.state, self.along), (new, turned), self.sense)
+        if (self.control.value(new.solved) - self.until) * self.sense >= 0.0:
+            candidates.append((END, lambda one: self.control.value(one) - self.until))
         located = []
         row = row_of(self.along, state.solved.shape.chain, state.load)
         for kind, value in candidates:
@@ -147,18 +172,34 @@ class _Walker:
         at_once = together(event.state, broken, number)
         return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
 
-    def _stability_lost(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
+    def _turned(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
+        """At a fold or a change of the index: go on, or end."""
         self.result.events.append(event)
-        if self.load_controlled and (event.kind == FOLD or new.solved.index > self.state.solved.index):
-            self.result.states.append(event.state)
+        self.result.states.append(event.state)
+        worse = self.control.index(new.solved, turned, self.sense) > self.control.index(
+            self.state.solved, self.along, self.sense
+        )
+        if event.kind == FOLD or (event.kind == BRANCH_POINT and worse):
             self.state, self.result.ended = event.state, event.kind
         else:
-            self._accept(new, turned)
+            self._pass(event, new, turned)
+
+    def _pass(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
+        """Go on behind an event that ends nothing: to the end of the step, or just past it if more happens within."""
+        state = self.state
+        if any(one.value < 0.0 for one in conditions(new)):
+            chain, load = state.solved.shape.chain, state.load
+            there = length(between(state.solved.shape, event.state.solved.shape), chain, load)
+            near = step(state.model, state.solved, self.along, there * (1.0 + PAST) + PAST * self.size)[1]
+            if near is not None:
+                new = PatternedState(state.pattern, state.elements, near)
+                turned = tangent(near, self.along)
+        self._accept(new, turned)
 
     def _change(self, event: PathEvent) -> None:
         """Go over to the pattern that follows."""
         self.result.states.append(event.state)
-        self.state, before = event.state, self.along
+        self.state = event.state
         if event.together[0].kind == LEAVES:  # a gap so short that its ends no longer push
             free = [i for i in (event.together[0].number, event.together[0].number + 1)
                     if not event.state.pattern.touching[i]]  # fmt: skip
@@ -170,9 +211,9 @@ class _Walker:
             found = changed(event.state, event.together, part)
             if found is None:
                 break
-            after, along = found, self._direction(found)
-            beyond = (found.state.load - self.until) * self.sense > 0.0
-            if along.load * before.load > 0.0 and not beyond:
+            after, along = found, growing_direction(found, self.along.load or self.sense)
+            beyond = (self.control.value(found.state.solved) - self.until) * self.sense > 0.0
+            if self.control.rate(found.state.solved, along) * self.sense > 0.0 and not beyond:
                 break
             part *= 0.5  # the first state may lie behind a fold
         if after is None:
@@ -181,27 +222,19 @@ class _Walker:
         self.result.events.append(replace(event, kind=after.name))
         self._enter(after)
 
-    def _direction(self, after: Changed) -> Motion:
-        """The sense in which a new pattern exists."""
-        start = after.state
-        along = tangent_in_load(start.solved, self.along.load or self.sense)
-        here, size = after.grows(start.solved), 1e-3
-        ahead = step(start.model, start.solved, along, size)[1]
-        return along.times(-1.0) if ahead is not None and after.grows(ahead) < here else along
-
     def _enter(self, after: Changed) -> None:
         """Start on a new pattern, in the sense in which it exists."""
-        along = self._direction(after)
-        turned_back = along.load * self.along.load < 0.0
+        along = growing_direction(after, self.along.load or self.sense)
+        turned_back = self.control.rate(after.state.solved, along) * self.sense < 0.0
         self.state, self.size = after.state, max(min(self.size, 0.5 * FIRST_STEP), 1e-3)
         self.along = along
-        if (self.state.load - self.until) * self.sense > 0.0:  # the first state lies beyond the end
-            last = at_load(self.state, self.until)
-            if last is not None and all(one.value > -NEARLY * abs(self.until) for one in conditions(last)):
+        if (self.control.value(self.state.solved) - self.until) * self.sense > 0.0:  # the first state lies beyond
+            last = self.control.at(self.state, self.until)
+            if last is not None and all(one.value > -NEARLY * abs(self.state.load) for one in conditions(last)):
                 self.state, self.result.ended = last, END
                 self.result.states.append(last)
                 return
-        if turned_back and self.load_controlled:
+        if turned_back:
             self.result.ended = FOLD
             self.result.events.append(PathEvent(FOLD, self.result.last))
         else:
@@ -210,7 +243,7 @@ class _Walker:
     def _short_stretch(self) -> bool:
         """Whether a stretch was about to vanish, and the pattern without it has been entered."""
         state = self.state
-        lengths, rates = np.diff(state.bounds), np.diff(np.concatenate([[0.0], self.along.breaks, [0.0]]))
+        lengths, rates = self._lengths()
         short = SHORT_GAP / wavenumber(state.model, state.load)
         vanishing = [
             i for i, on in enumerate(state.pattern.touching)
@@ -229,7 +262,7 @@ class _Walker:
         after, condition = found
         along = tangent_in_load(after.state.solved, self.along.load)
         at = search(after.state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
-        if at is None:
+        if at is None or (self.control.value(at) - self.until) * self.sense > 0.0:  # not before the end
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
         places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))

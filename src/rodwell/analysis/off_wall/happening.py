@@ -9,7 +9,7 @@ from rodwell.analysis.off_wall.conditions import Condition, PatternedState, cond
 from rodwell.numerics.stretches.newton import Solved
 from rodwell.numerics.stretches.walk import Motion, tangent
 
-FOLD, BRANCH_POINT, END = "fold", "branch_point", "end"
+FOLD, BRANCH_POINT, END, LOAD_PEAK = "fold", "branch_point", "end", "load_peak"
 
 TOGETHER = 1e-5
 """Conditions vanish together whose values at the place are this much smaller than at the end of the step."""
@@ -76,7 +76,9 @@ def together(state: PatternedState, broken: list[Condition], first: int, *, stri
         same = [other for other in now if (other.kind, other.number) == (one.kind, one.number)]
         return min(same, key=lambda other: abs(other.s - one.s), default=None)
 
-    at = here(lead) or lead
+    # a function of a whole stretch was located: what vanishes there is the lowest of its minima
+    of_lead = [one for one in now if (one.kind, one.number) == (lead.kind, lead.number)]
+    at = min(of_lead, key=lambda one: one.value, default=lead)
     others = broken if strict else [one for one in now if one.kind == lead.kind]
     found = [at._replace(value=0.0)]
     for one in others:

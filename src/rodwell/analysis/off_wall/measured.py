@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,8 @@ def measured(state: PatternedState) -> Numbers:
     )  # fmt: skip
 
 
-def _pressure(state: PatternedState, e: int, left: float, h: float):
+def _pressure(state: PatternedState, e: int, left: float, h: float) -> Callable[[FloatArray], FloatArray]:
+    """Contact pressure of an element as a function of ξ."""
     shape = state.solved.shape
 
     def pressure(xi: FloatArray) -> FloatArray:
@@ -68,7 +70,9 @@ def _pressure(state: PatternedState, e: int, left: float, h: float):
     return pressure
 
 
-def _inside(state: PatternedState, e: int):
+def _inside(state: PatternedState, e: int) -> Callable[[FloatArray], FloatArray]:
+    """How far beyond the wall an element is, in Δ (negative: a gap), as a function of ξ."""
+
     def inside(xi: FloatArray) -> FloatArray:
         x, y = state.solved.shape.at(e, xi, 1)[:, 0]
         return np.asarray(np.hypot(x, y) - 1.0)

@@ -103,8 +103,8 @@ class RodInHole:
         first = d * phi1 * around
         second = d * (phi2 * around - phi1**2 * radial)
         third = d * ((phi3 - phi1**3) * around - 3.0 * phi1 * phi2 * radial)
-        args: Any = (-d, first[0], second[0], first[1], second[1])
-        _, _, g, _, h = hole_density(1.0, *args, self.at_load(0.0), self._rates)
+        (x1, y1), (x2, y2) = first, second
+        _, _, g, _, h = hole_density(1.0, -d, x1, x2, y1, y2, self.at_load(0.0), self._rates)
         moment, by_slope = np.array([g[2], g[4]]), np.array([g[1], g[3]])
         mixed = np.array([[h[1][0], h[1][2]], [h[3][0], h[3][2]]])  # of x″, y″ by x′, y′
         bend = np.array([[h[1][1], h[1][3]], [h[3][1], h[3][3]]])

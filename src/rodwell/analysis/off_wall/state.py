@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import refined
+from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.measured import Numbers, measured, position
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
+from rodwell.numerics.stretches.carry import sampler
 from rodwell.physics.off_wall.forces import in_space
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -22,7 +23,7 @@ from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
 
-MOST_DEGREES = 6
+MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
 
 FLAT = 1e-6
@@ -92,10 +93,10 @@ class ContactState:
         """
         return self.fine.solved.index
 
-    @property
+    @cached_property
     def turns(self) -> int:
         """Whole turns of the end s = 1 around the hole."""
-        return self.fine.pattern.turns
+        return turns_of(self.fine.model, sampler(self.fine.solved.shape))
 
     @cached_property
     def kind(self) -> str:

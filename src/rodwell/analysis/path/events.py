@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, plain
 from rodwell.quantities.value import Value
 
@@ -16,6 +17,7 @@ ROUND_OFF = 1e-12
 """By how much of itself a load asked for may lie beyond the last state."""
 
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
+LOAD_PEAK = "load_peak"
 TOUCH_DOWN = "touch_down"
 
 MEANING = {
@@ -28,7 +30,8 @@ MEANING = {
     "contact_lost": "a contact is lost",
     "touches": "the rod touches the wall anew",
     TOUCH_DOWN: "contact is complete again",
-    FOLD: "limit point: no equilibrium nearby beyond this load",
+    FOLD: "limit point: no equilibrium nearby beyond it",
+    LOAD_PEAK: "the load passes an extremum",
     BRANCH_POINT: "the state gives way to one of another shape",
     SNAP: "the rod snaps",
 }
@@ -118,11 +121,11 @@ class Leg:
     runs: list[list[PatternedState]] = field(default_factory=list)
     straight: list[tuple[float, float]] = field(default_factory=list)
 
-    def near(self, force: float) -> list[PatternedState]:
-        """Known states on either side of an end force, the nearer first."""
+    def near(self, value: float, control: Control) -> list[PatternedState]:
+        """Known states on either side of a value of the controlled quantity, the nearer first."""
         for run in reversed(self.runs):
             for one, other in pairwise(run):
-                slack = ROUND_OFF * abs(force)
-                if min(one.load, other.load) - slack <= force <= max(one.load, other.load) + slack:
-                    return sorted((one, other), key=lambda state: abs(state.load - force))
+                slack, known = ROUND_OFF * abs(value), [control.value(state.solved) for state in (one, other)]
+                if min(known) - slack <= value <= max(known) + slack:
+                    return sorted((one, other), key=lambda state: abs(control.value(state.solved) - value))
         return []

@@ -9,6 +9,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.arrange import at_load, solved
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import END, Followed
 from rodwell.analysis.off_wall.model import RodInHole
@@ -61,8 +62,9 @@ class Walked:
 
 @dataclass(frozen=True)
 class How:
-    """How a path is followed: tolerance, seeds of disturbances, buckling mode, and who is told."""
+    """How a path is followed: what is controlled, tolerance, seeds of disturbances, buckling mode, who is told."""
 
+    control: Control
     rtol: float
     seeds: int
     mode: Mode
@@ -92,7 +94,7 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
             if out.ended:
                 return out
             continue
-        path = followed(out.last, target, progress=how.progress)
+        path = followed(out.last, target, control=how.control, progress=how.progress)
         if _came_to_rest(out, path, how):
             begin = how.mode.force
             continue
@@ -101,6 +103,11 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
         _tell(out, path, how)
         if path.ended == END:
             out.ended = END
+        elif path.ended in (FOLD, BRANCH_POINT) and not how.control.by_force:
+            out.ended = (
+                f"the state ceases to be stable at F = {path.last.load:.8g} B/L² while its {how.control.name} is held; "
+                "where the rod goes from there is found for a controlled end force only"
+            )
         elif path.ended in (FOLD, BRANCH_POINT):
             begin = path.last.load
             _give_way(out, path, sense, how)
@@ -114,6 +121,9 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
 
 def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, sense: float, how: How) -> float:
     """Keep the rod straight as far as it is; return where it buckles."""
+    if not how.control.by_force:
+        out.ended = END if sense < 0.0 else "the buckled rod on the wall, where the path begins, is not stable"
+        return target
     critical = Value(how.mode.force, how.mode.error)
     if sense > 0.0 or target >= critical.value:
         out.leg.straight.append((begin, target))

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.discrete import first_run
-from rodwell.analysis.off_wall.arrange import at_load
-from rodwell.analysis.off_wall.conditions import conditions
+from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.control import CONTROLS, FORCE, Control
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
-from rodwell.analysis.path.checks import checked_problem
+from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, straight_state, walked
 from rodwell.analysis.path.start import on_wall
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 SEEDS = 3
 """Random disturbances with which a rod that gives way is sent downhill, either way along its softest direction."""
 
-ASSUMPTIONS = "quasi-static, frictionless and without inertia; dead end force, hard wall"
+ASSUMPTIONS = "quasi-static, frictionless and without inertia; hard wall"
 
 Progress = Callable[[str, float], None]
 
@@ -45,10 +45,16 @@ class PathState:
 
     leg: str
     state: ContactState
+    control: Control = FORCE
+
+    @property
+    def stability_index(self) -> int:
+        """The stability index where the end force, or the shortening, is controlled."""
+        return self.control.index_at(self.state.fine.solved)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
-        return {"leg": self.leg, **self.state.as_dict()}
+        return {"leg": self.leg, **self.state.as_dict(), "stability_index": self.stability_index}
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +66,8 @@ class LoadPath(Shown):
     problem
         The rod in its hole.
     until, unload_to
-        End forces at s = 1 in B/L², tension positive, to which it is loaded, and unloaded (None: not).
+        End forces at s = 1 in B/L², tension positive, or shortenings in L, to which it is loaded, and unloaded (None:
+        not).
     events
         In order of happening: :class:`PathPoint`.
     legs
@@ -73,6 +80,8 @@ class LoadPath(Shown):
         The tolerance asked for.
     mirror
         Whether it took the other arm of the buckling mode.
+    control
+        What is controlled: "force" or "shortening".
     """
 
     problem: Problem
@@ -84,9 +93,11 @@ class LoadPath(Shown):
     ended_because: str
     rtol: float
     mirror: bool = False
+    control: str = "force"
 
     def __repr__(self) -> str:
-        return f"<LoadPath to {self.until:g} B/L²: " + ", ".join(
+        unit = "B/L²" if self.control == "force" else "L of shortening"
+        return f"<LoadPath to {self.until:g} {unit}: " + ", ".join(
             f"{one.kind} {one.force.value:.6g}" for one in self.events
         ) + ">"  # fmt: skip
 
@@ -111,8 +122,8 @@ class LoadPath(Shown):
             f"{one.kind} at {one.force.value:.8g} ± {one.force.error:.0e}" for one in self.events if not one.met
         )
 
-    def at(self, force: float) -> tuple[PathState, ...]:
-        """States at an end force, one for each leg that passes it.
+    def at(self, value: float) -> tuple[PathState, ...]:
+        """States at a value of what is controlled (the end force, or the shortening), one for each leg that passes it.
 
         Raises
         ------
@@ -121,10 +132,16 @@ class LoadPath(Shown):
         NotConvergedError
             If the state could not be solved for.
         """
-        force = checked_force("force", force)
-        found = [PathState(leg.name, self._on(leg, force)) for leg in self.legs if _passes(leg, force)]
+        value = checked_force(self.control, value)
+        control = CONTROLS[self.control]
+        found = [
+            PathState(leg.name, self._on(leg, value, control), control)
+            for leg in self.legs if _passes(leg, value, control)
+        ]  # fmt: skip
         if not found:
-            raise InputError("force", force, f"the path does not pass it: {self.ended_because or 'see its events'}")
+            raise InputError(
+                self.control, value, f"the path does not pass it: {self.ended_because or 'see its events'}"
+            )
         return tuple(found)
 
     @property
@@ -132,15 +149,15 @@ class LoadPath(Shown):
         """What happens, in sentences: loads as compression at s = 1 in B/L²."""
         return sentences(self.events)
 
-    def _on(self, leg: Leg, force: float) -> ContactState:
+    def _on(self, leg: Leg, value: float, control: Control) -> ContactState:
         model = RodInHole(self.problem)
-        if any(min(a, b) <= force <= max(a, b) for a, b in leg.straight):
-            return contact_state(straight_state(model, force))
-        for near in leg.near(force):
-            state = at_load(near, force)
+        if control.by_force and any(min(a, b) <= value <= max(a, b) for a, b in leg.straight):
+            return contact_state(straight_state(model, value))
+        for near in leg.near(value, control):
+            state = control.at(near, value)
             if state is not None and all(one.value > -1e-9 for one in conditions(state)):
                 return contact_state(state)
-        raise NotConvergedError(f"no state of the {leg.name} path was found at F = {force:.8g} B/L²")
+        raise NotConvergedError(f"no state of the {leg.name} path was found at {control.name} = {value:.8g}")
 
     @cached_property
     def curve(self) -> dict[str, FloatArray]:
@@ -170,6 +187,7 @@ class LoadPath(Shown):
             "states": [one for force in at for one in self._plain_states(force)],
             "reached": self.reached,
             "ended_because": self.ended_because,
+            "control": self.control,
             "assumptions": ASSUMPTIONS,
         }
 
@@ -185,8 +203,9 @@ class LoadPath(Shown):
         return drawn(self, ax)
 
 
-def _passes(leg: Leg, force: float) -> bool:
-    return bool(leg.near(force)) or any(min(a, b) <= force <= max(a, b) for a, b in leg.straight)
+def _passes(leg: Leg, value: float, control: Control) -> bool:
+    straight = control.by_force and any(min(a, b) <= value <= max(a, b) for a, b in leg.straight)
+    return straight or bool(leg.near(value, control))
 
 
 def load_path(
@@ -194,6 +213,7 @@ def load_path(
     *,
     until: float,
     unload_to: float | None = None,
+    control: str = "force",
     mirror: bool = False,
     seeds: int = SEEDS,
     rtol: float = RTOL,
@@ -209,6 +229,10 @@ def load_path(
         End force at s = 1 in B/L², tension positive, to which the compression grows.
     unload_to
         End force to which it is taken back; None: not at all.
+    control
+        "force": the end force is a dead load; or "shortening": the approach of the ends is prescribed, as by a stiff
+        machine. Then ``until`` and ``unload_to`` are shortenings in L, the load may pass extrema, and the stability
+        index is that of the rod so held.
     mirror
         The other of the two arms of the buckling mode: with twist they differ.
     seeds
@@ -225,40 +249,44 @@ def load_path(
     NotConvergedError
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
-    first_run.begin()
     checked_problem(problem)
-    until, rtol = checked_force("until", until), checked_rtol(rtol)
-    unload_to = None if unload_to is None else checked_force("unload_to", unload_to)
-    if unload_to is not None and unload_to <= until:
-        raise InputError("unload_to", unload_to, f"must be above until, {until:g} B/L²: less compression")
+    first_run.begin(problem)
+    rtol, way = checked_rtol(rtol), checked_control(control)
+    until, unload_to = checked_range(way, until, unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
     mode = critical_loads(problem, 1, rtol=rtol)[0]
 
     def told(leg: str) -> Callable[[float], None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
-    up = _loaded(problem, until, mirror, How(rtol, seeds, mode, told(LOADING)))
+    up = _loaded(problem, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
     walks = [up]
     if up.ended == END and unload_to is not None:
-        how = How(rtol, seeds, mode, told(UNLOADING))
+        how = How(way, rtol, seeds, mode, told(UNLOADING))
         walks.append(walked(up.last, RodInHole(problem), until, unload_to, Leg(UNLOADING), how))
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
     events = tuple(event for walk in walks for event in walk.events)
-    return LoadPath(problem, until, unload_to, events, tuple(w.leg for w in walks), not ended, ended, rtol, mirror)
+    legs = tuple(walk.leg for walk in walks)
+    return LoadPath(problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name)
 
 
 def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
     model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
-    if until >= how.mode.force:
+    control, sense = how.control, -1.0 if how.control.by_force else 1.0
+    if control.by_force and until >= how.mode.force:
         return walked(None, model, max(top, until), until, leg, how)
     stays = problem.pressed and "ball" not in problem.ends
-    begun = on_wall(problem, 1, mirror, until, how.rtol) if stays else None
+
+    def before(state: PatternedState) -> bool:
+        return (until - control.value(state.solved)) * sense > 0.0
+
+    begun = on_wall(problem, 1, mirror, how.rtol, before) if stays else None
     if begun is None:
-        return walked(None, model, top, until, leg, how)
+        return walked(None, model, top if control.by_force else 0.0, until, leg, how)
     critical = PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), LOADING)
     leg.straight.append((top, how.mode.force))
-    out = walked(begun.start, model, begun.start.load, until, leg, how)
+    out = walked(begun.start, model, control.value(begun.start.solved), until, leg, how)
     out.events.insert(0, critical)
     _add_wall(leg, model, begun)
     return out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,22 +51,27 @@ def carried(model: RodInHole, solution: Solution) -> PatternedState | None:
     return solved(model, pattern, np.zeros(0), solution.force, sampled(solution))
 
 
-def on_wall(problem: Problem, mode: int, mirror: bool, until: float, rtol: float) -> OnWall | None:
-    """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is not stable at first."""
+def on_wall(
+    problem: Problem, mode: int, mirror: bool, rtol: float, before: Callable[[PatternedState], bool]
+) -> OnWall | None:
+    """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is not stable at first.
+
+    The state from which chains go on is the last one ``before`` the end of the path.
+    """
     model = RodInHole(problem)
     branch = follow(problem, mode, until=None, mirror=mirror, rtol=rtol)
     kept: list[int] = []
     force = branch.force
     for i in range(1, len(branch)):
         past = branch.lift_off is not None and force[i] <= branch.lift_off.force
-        if past or branch.stability_index[i] != 0 or force[i] >= force[i - 1] or force[i] <= until:
+        if past or branch.stability_index[i] != 0 or force[i] >= force[i - 1]:
             break
         kept.append(i)
     amplitudes = [(i, _amplitude(branch[i])) for i in kept[::-1]]
     for i, amplitude in amplitudes:
         if amplitude >= ENOUGH:
             start = carried(model, branch[i])
-            if start is not None and start.solved.index == 0:
+            if start is not None and start.solved.index == 0 and before(start):
                 return OnWall(branch, tuple(k for k in kept if k <= i), start)
     return None
 

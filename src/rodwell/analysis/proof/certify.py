@@ -22,6 +22,7 @@ from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.rod import refuse_sections
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""
@@ -132,12 +133,10 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
     refuse_off_wall(problem.ends, "loads with proof")
-    if problem.sections:
-        raise InputError(
-            "sections",
-            f"{len(problem.sections)} of them",
-            "loads with proof are those of a uniform rod, whose solutions the counts use: ask for critical loads",
-        )
+    refuse_sections(
+        problem.sections,
+        "loads with proof are those of a uniform rod, whose solutions the counts use: ask for critical loads",
+    )
     counter = Counter(lambda x: _rod(problem, x))
     # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
     against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0

@@ -17,13 +17,13 @@ SIDES = 24
 """Sides of the rod's cross-section; a multiple of four puts vertices on the wall and on all material lines."""
 
 RAISED = 1.05
-"""Radius of a material line against the rod's, so that it stays visible on a rod with flat sides."""
+"""Radius of a material line against the rod's, so that it stays visible on flat sides; not beyond the wall."""
 
 LINE_WIDTH = 0.13
 """Half the width of a material line in radians around the rod."""
 
 RING = (1.35, 0.22)
-"""Radii of a ring around the rod, and of its own cross-section, against the rod's radius."""
+"""Radii of a ring around the rod, and of its own cross-section, against the rod's radius; the wall flattens it."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def material_lines(geometry: Geometry, count: int = 2, width: float = LINE_WIDTH
     out = []
     for middle in 2.0 * np.pi * np.arange(count) / count:
         phi = middle + np.array([-width, 0.0, width])
-        vertices = _around(geometry, phi, RAISED * geometry.drawn_radius).reshape(-1, 3)
+        vertices = within_wall(geometry, _around(geometry, phi, RAISED * geometry.drawn_radius).reshape(-1, 3))
         places = np.arange(geometry.s.size)
         triangles = _grid(places.size, phi.size, closed=False)
         out.append(Mesh(vertices, triangles, np.repeat(places, phi.size), np.tile(phi, places.size)))
@@ -99,7 +99,16 @@ def ring(geometry: Geometry, s: float, sides: int = 32, around: int = 10) -> Mes
     index = np.arange(sides * around).reshape(sides, around)
     i, j = np.roll(index, -1, axis=0), np.roll(index, -1, axis=1)
     triangles = _split(index, i, np.roll(i, -1, axis=1), j)
-    return Mesh(vertices.reshape(-1, 3), triangles, np.full(sides * around, nearest), np.zeros(sides * around))
+    flat = within_wall(geometry, vertices.reshape(-1, 3))
+    return Mesh(flat, triangles, np.full(sides * around, nearest), np.zeros(sides * around))
+
+
+def within_wall(geometry: Geometry, points: FloatArray) -> FloatArray:
+    """The points (n, 3), those beyond the wall that the rod touches put back onto it: nothing pierces the cylinder."""
+    away = np.hypot(points[:, 0], points[:, 1])
+    beyond = away < geometry.wall_radius if geometry.outside else away > geometry.wall_radius
+    back = np.where(beyond, geometry.wall_radius / np.maximum(away, 1e-300), 1.0)
+    return np.column_stack([points[:, 0] * back, points[:, 1] * back, points[:, 2]])
 
 
 def cylinder(geometry: Geometry, sides: int = 96) -> Mesh:

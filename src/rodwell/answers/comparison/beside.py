@@ -38,6 +38,10 @@ EXTRA = {
 SAFE, UNSAFE, LOW, NO_LOAD = "safe", "unsafe", "low", "no load"
 """Verdicts on a formula's load."""
 
+USELESS, NOT_APPLICABLE = "safe but useless", "not applicable"
+FAR_BELOW = -50.0
+"""A safe load this many percent from the exact one, or more, says nothing of where the rod buckles."""
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -95,6 +99,14 @@ class FormulaRow:
         if self.value == 0.0:
             return NO_LOAD
         return UNSAFE if not main.safe else SAFE if self.valid else LOW
+
+    @property
+    def judgement(self) -> str:
+        """The verdict for those who use the formula: "safe", "safe but useless", "unsafe", "not applicable"."""
+        if not self.valid or self.main is None:
+            return NOT_APPLICABLE
+        percent = self.main.percent
+        return USELESS if self.verdict == SAFE and percent is not None and percent <= FAR_BELOW else self.verdict
 
     def beside(self, load: str, place: Place | None) -> Comparison | None:
         """Return the comparison with an exact load at a place."""

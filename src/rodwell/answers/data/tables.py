@@ -40,7 +40,7 @@ def _row(key: KeyNumber, scales: Scales | None) -> tuple[Cell, ...]:
     if scales is not None:
         shown = scales.shown(key.number, key.dimension)
         cells += [shown["value"], shown["error"], shown["unit"]]
-    return (*cells, key.note or None)
+    return (*cells, key.remark or None)
 
 
 def _special_points(branches: Iterable[Branch], scales: Scales | None) -> Table:

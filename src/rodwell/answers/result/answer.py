@@ -37,7 +37,7 @@ ARMS = "twist makes the arms differ: the rod may take either"
 class Answer(Computed, Shown):
     """The answer to a case: a record of what was computed, see :class:`Computed` for its fields, and what follows."""
 
-    @property
+    @cached_property
     def converged(self) -> bool:
         """Whether every reported number meets the tolerance: branches, special points and key numbers."""
         rtol = self.case.rtol
@@ -61,11 +61,11 @@ class Answer(Computed, Shown):
         out += real_force(met, self.case) + ([] if self.untouched else critical_length(self.case.problem))
         lift = self.lift_off
         if lift is not None:
-            note = "at s/L = " + ", ".join(f"{s:.6g}" for s in lift.s)
-            if self.first.lift_off_at_buckling:
-                note = "coincides with buckling: no lateral weight presses the rod to the wall"
+            at_once = self.first.lift_off_at_buckling
+            note = "coincides with buckling: no lateral weight presses the rod to the wall" if at_once else ""
+            places = () if at_once else tuple(lift.s)
             label, load = "Lift-off load, end force at s = 1", self.lift_off_load or lift.load
-            out.append(KeyNumber("lift_off_load", label, load, "force", force_scale(load.value), note))
+            out.append(KeyNumber("lift_off_load", label, load, "force", force_scale(load.value), note, places))
             out += real_force(out[-1], self.case)
         other = None if self.other_arm is None else self.other_arm.lift_off
         if other is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.key_number import KeyNumber, force_scale
-from rodwell.quantities.text import percent, plain
+from rodwell.quantities.text import percent
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import LIFTS_OFF, Limit
 from rodwell.strength.loaded import LoadedRod
@@ -20,7 +20,7 @@ def assessment_numbers(a: Assessment) -> list[KeyNumber]:
     for support in a.supports(state):
         label = f"Largest load on a support {state.name}, part of its capacity: {support.text}"
         used = Value(support.utilisation, support.error / support.capacity)
-        note = f"{plain(100.0 * used.value, 3)} % of its capacity"
+        note = f"{percent(used)} of its capacity"
         out.append(KeyNumber(f"support_{support.kind}_used", label, used, "1", max(1.0, used.value), note))
     return out
 
@@ -58,13 +58,16 @@ def _window(a: Assessment) -> list[KeyNumber]:
             continue
         label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
         scale = force_scale(limit.load.value) + a.case.problem.hung_weight
-        out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _place(limit)))
+        out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _when(limit), _places(limit)))
     return out
 
 
-def _place(limit: Limit) -> str:
-    where = [] if limit.s is None else [f"at s/L = {limit.s:.4g}"]
-    return "; ".join([*where, "on the buckled rod" if limit.buckled else "on the straight rod, before it buckles"])
+def _places(limit: Limit) -> tuple[float, ...]:
+    return () if limit.s is None else (limit.s,)
+
+
+def _when(limit: Limit) -> str:
+    return "on the buckled rod" if limit.buckled else "on the straight rod, before it buckles"
 
 
 def _stress(a: Assessment, state: LoadedRod, name: str) -> list[KeyNumber]:
@@ -74,11 +77,10 @@ def _stress(a: Assessment, state: LoadedRod, name: str) -> list[KeyNumber]:
         return []
     unit = scales.factor("stress")
     stress = Value(largest.value / unit, largest.error / unit)
-    note = f"at s/L = {largest.s:.4g}, {largest.fibre}"
     label = f"Largest von Mises stress in the rod {state.name}"
-    out = [KeyNumber(f"rod_stress_{name}", label, stress, "stress", stress.value, note)]
+    out = [KeyNumber(f"rod_stress_{name}", label, stress, "stress", stress.value, largest.fibre, (largest.s,))]
     if largest.safety is not None:
         label = f"Safety factor of the rod against yield {state.name}"
-        note = "yield strength / von Mises stress"
+        note = "yield strength / von Mises stress" + ("" if a.case.string is None else ", the least of all sections")
         out.append(KeyNumber(f"safety_factor_{name}", label, largest.safety, "1", largest.safety.value, note))
     return out

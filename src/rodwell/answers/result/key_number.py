@@ -16,7 +16,7 @@ from rodwell.quantities.value import Value
 class KeyNumber:
     """A number of the answer in units B = L = 1, and what it is.
 
-    ``scale`` is the size of its kind, against which the error is judged.
+    ``scale`` is the size of its kind, against which the error is judged; ``s`` holds the places s/L that it belongs to.
     """
 
     name: str
@@ -25,6 +25,13 @@ class KeyNumber:
     dimension: str
     scale: float
     note: str = ""
+    s: tuple[float, ...] = ()
+
+    @property
+    def remark(self) -> str:
+        """Places and note in one text, for data."""
+        places = ", ".join(f"{s:.6g}" for s in self.s)
+        return "; ".join(filter(None, (f"at s/L = {places}" if places else "", self.note)))
 
     @property
     def value(self) -> float:
@@ -57,8 +64,8 @@ class KeyNumber:
             out["si"] = scales.si(self.number, self.dimension)
             if scales.system != SI:
                 out[scales.system.name] = scales.shown(self.number, self.dimension)
-        if self.note:
-            out["note"] = self.note
+        if self.remark:
+            out["note"] = self.remark
         return out
 
 

@@ -13,7 +13,7 @@ from rodwell.case.cylinder import Cylinder
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import percent
+from rodwell.quantities.text import percent, plain
 from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
 
@@ -65,7 +65,7 @@ def critical_length(problem: Problem) -> list[KeyNumber]:
         return []
     length = (number / problem.weight) ** (1.0 / 3.0)
     value = Value(length, length * ROUNDED / number / 3.0)
-    note = f"L_cr = ({number:g} B/mg)^⅓: a longer rod buckles under its own weight, F = 0 at s = 1"
+    note = f"L_cr = ∛({plain(number, 8)} B/mg): a longer rod buckles under its own weight, F = 0 at s = 1"
     label = "Critical length under self-weight, vertical"
     return [KeyNumber("critical_length", label, value, "length", length, note)]
 
@@ -74,13 +74,14 @@ def real_force(key: KeyNumber, case: Case) -> list[KeyNumber]:
     """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
     if case.rod is None or case.scales is None:
         return []
-    less = case.fluids.effective_minus_real(case.rod, 0.0) / case.scales.factor("force")
+    at_top = case.rod if case.string is None else case.string.at_end(bottom=False)
+    less = case.fluids.effective_minus_real(at_top, 0.0) / case.scales.factor("force")
     if less == 0.0:
         return []
     label = f"{key.label.split(',')[0]} as real force in the wall of the pipe, at s = 1"
     scale = abs(key.value) + abs(less) + EULER
     real = Value(key.value - less, key.error)
-    return [KeyNumber(f"{key.name}_real", label, real, "force", scale, "N_real = N + pᵢ Aᵢ − pₒ Aₒ")]
+    return [KeyNumber(f"{key.name}_real", label, real, "force", scale, "effective force + pᵢ Aᵢ − pₒ Aₒ")]
 
 
 def stress_number(state: Solution, cylinder: Cylinder, scales: Scales) -> KeyNumber:
@@ -88,10 +89,10 @@ def stress_number(state: Solution, cylinder: Cylinder, scales: Scales) -> KeyNum
     stress = cylinder_stress(state, cylinder, scales)
     unit = scales.factor("stress")
     used = Value(stress.utilisation, stress.utilisation * stress.error / stress.value)
-    note = f"{percent(used)} of the yield strength, at s/L = {stress.s:.4g}"
+    note = f"{percent(used)} of the yield strength"
     label = "Largest equivalent (von Mises) stress in the cylinder"
     value = Value(stress.value / unit, stress.error / unit)
-    return KeyNumber("cylinder_stress", label, value, "stress", value.value, note)
+    return KeyNumber("cylinder_stress", label, value, "stress", value.value, note, (stress.s,))
 
 
 RADIAN = 1.0
@@ -116,8 +117,7 @@ def state_numbers(state: Solution) -> list[KeyNumber]:
     wall, shortening, end = state.wall, state.number(Measured.SHORTENING), state.problem.ends[1]
 
     def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> KeyNumber:
-        place = f"at s/L = {peak.s:.4g}"
-        return KeyNumber(name, label, peak, QUANTITIES[field].dimension, scale or peak.value, place)
+        return KeyNumber(name, label, peak, QUANTITIES[field].dimension, scale or peak.value, s=(peak.s,))
 
     in_rod = state.largest("rod_M2")
     torque = Value(wall.torque.value if wall.needs_torque else 0.0, wall.torque.error)

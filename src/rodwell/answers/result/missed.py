@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from rodwell.analysis.branch.missed import missed as missed_on
 from rodwell.answers.result.answer import Answer
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import with_error
 
 
 def missed(answer: Answer) -> list[str]:
     """Return what misses the tolerance: key numbers first, then branches, then states at loads."""
     rtol = answer.case.rtol
     out = [
-        f"{key.label}: {minus(f'{key.value:.8g} ± {key.error:.0e}')}"
+        f"{key.label}: {with_error(key.number, 8)}"
         for key in answer.key_numbers.values()
         if not key.number.within(rtol, key.scale)
     ]

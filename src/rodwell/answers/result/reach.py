@@ -5,9 +5,10 @@ from __future__ import annotations
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import extended
 from rodwell.analysis.branch.special import END, LIFT_OFF
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus
 from rodwell.quantities.tolerance import LARGEST_FORCE
+from rodwell.quantities.value import Value
 
 UNSOLVED = "the branch passes this load, but the state there could not be computed"
 
@@ -39,10 +40,10 @@ def out_of_reach(branch: Branch, force: float) -> bool:
 
 def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
     """How far the branch goes, in the reader's units, and why it ends."""
-    lowest, number = branch.reach[0], 1 if branch.mode is None else branch.mode.number
-    text = minus(f"{lowest:.6g} B/L²") if scales is None else scales.text(lowest, "force", 6)
+    lowest, number = Value(branch.reach[0]), 1 if branch.mode is None else branch.mode.number
+    far = Forces(scales, branch.problem.hung_weight).load(lowest)
     return (
-        f"the branch of mode {number} goes no lower than {text} and ends there or on its way back ({_ending(branch)})"
+        f"the branch of mode {number} goes no farther than {far} and ends there or on its way back ({_ending(branch)})"
     )
 
 
@@ -53,11 +54,10 @@ def _ending(branch: Branch) -> str:
 
 def no_lift_off(scales: Scales | None, branch: Branch) -> str:
     """Why the first branch has no lift-off, in words."""
-    load = float(branch.force[-1])
-    text = minus(f"{load:.6g} B/L²") if scales is None else scales.text(load, "force", 6)
+    far = Forces(scales, branch.problem.hung_weight).load(Value(float(branch.force[-1])))
     if branch.ended_because == END:
         return (
-            f"was not found: the branch was followed to the end force {text} at s = 1 (tension positive), where the "
-            "search ends, and the rod stays on the wall all the way"
+            f"was not found: the branch was followed to {far}, where the search ends, and the rod stays on the wall "
+            "all the way"
         )
-    return f"was not found: the branch could be followed to the end force {text} at s = 1 only: {branch.ended_because}"
+    return f"was not found: the branch could be followed to {far} only: {branch.ended_because}"

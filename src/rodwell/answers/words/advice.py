@@ -11,15 +11,21 @@ from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.result.reach import passes
 from rodwell.answers.words.meaning import SMALL_LOAD
-from rodwell.answers.words.wording import force_text
+from rodwell.answers.words.wording import forces_of
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
-from rodwell.quantities.text import amount, minus, percent
+from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
 
 GOOD, CAUTION, BAD, OPEN = "good", "caution", "bad", "open"
 """Levels of a status; "open" where no load was given that could be judged."""
+
+UNCERTAIN = {"si": "30 m ± 0.1 m", "field": "300 ft ± 1 ft", "mm": "120 mm ± 1 mm"}
+"""An input with its uncertainty as it may be written, in the reader's units."""
+
+CONVERGED = "numerically converged"
+"""The one word on numerical errors that stands on the front; the errors themselves stand in the tables."""
 
 CLOSE = 0.1
 """A load that comes nearer to a limit than this part of the limit calls for caution."""
@@ -46,26 +52,26 @@ def statuses(answer: Answer) -> tuple[Status, ...]:
 
 def judged(case: Case) -> float | None:
     """The end force at s = 1 in B/L² that is judged: the most compressive load that acts, or else the one asked for."""
-    applied = _most(case)
+    applied = most_compressive(case)
     return case.until if applied is None else applied.force
 
 
-def _most(case: Case) -> AppliedLoad | None:
+def most_compressive(case: Case) -> AppliedLoad | None:
     """The most compressive load that acts."""
     return min(case.applied, key=lambda load: load.force, default=None)
 
 
 def _buckling(computed: Computed) -> Status:
-    load, limit, scales = judged(computed.case), computed.buckling, computed.case.scales
-    where = force_text(scales, limit)
+    load, limit, said = judged(computed.case), computed.buckling, forces_of(computed.case)
+    where = said.load(limit)
     if load is None:
-        reason = f"straight as long as the end force at s = 1 is above {where}"
+        reason = f"straight as long as it keeps {said.below(limit)}"
         return Status("Buckling", OPEN, "no load given", reason)
     if load >= limit.value:
         level, margin = _margin(computed.case, load, limit)
         word = "straight" if level == GOOD else "straight, close to buckling"
         return Status("Buckling", level, word, f"{margin} the load at which it buckles, {where}")
-    reason = f"at {force_text(scales, Value(load))}, beyond {where}"
+    reason = f"beyond the load at which it buckles, {where}"
     if computed.untouched:
         return Status("Buckling", BAD, "buckled, off the wall", f"{reason}: nothing presses it to the wall")
     state = _state(computed, load)
@@ -87,7 +93,7 @@ def _state(computed: Computed, load: float) -> Solution | None:
 def _contact(computed: Computed) -> Status:
     load, lift, subject = judged(computed.case), computed.lift_off, "Contact"
     limit = computed.lift_off_load
-    where = "" if limit is None else force_text(computed.case.scales, limit)
+    where = "" if limit is None else forces_of(computed.case).load(limit)
     if load is None:
         reason = f"leaves the wall at {where}" if where else "no lift-off over the range computed"
         return Status(subject, OPEN, "no load given", reason)
@@ -105,13 +111,12 @@ def _contact(computed: Computed) -> Status:
 
 
 def _margin(case: Case, force: float, limit: Value) -> tuple[str, str]:
-    """Level of a force that has not reached a limit, and how far from it that is, measured where the load was given."""
-    most = _most(case)
-    at_bottom = most is not None and most.bottom
-    size = abs(limit.value - case.problem.hung_weight) if at_bottom else abs(limit.value)
+    """Level of a force that has not reached a limit, and how far from it that is, at the end shown."""
+    said = forces_of(case)
+    load, size = said.compression(Value(force)).value, abs(said.compression(limit).value)
     if size < SMALL_LOAD:
         return GOOD, "above"
-    share = (force - limit.value) / size
+    share = (said.compression(limit).value - load) / size
     part = Value(share, limit.error * (1.0 + share) / size)
     return (CAUTION if share < CLOSE else GOOD), f"{percent(part)} short of"
 
@@ -147,10 +152,12 @@ def _theory(a: Assessment) -> Status | None:
 
 
 def _numbers(case: Case, converged: bool) -> Status:
-    tolerance = minus(f"{case.rtol:g}")
+    tolerance = plain(case.rtol)
     if converged:
-        return Status("Numbers", GOOD, "converged", f"every number meets the tolerance {tolerance}")
-    return Status("Numbers", BAD, "not converged", f"not every number meets the tolerance {tolerance}: see the errors")
+        return Status("Numbers", GOOD, CONVERGED, f"every number to {tolerance}; errors stand in the tables")
+    return Status(
+        "Numbers", BAD, f"not {CONVERGED}", f"not every number meets the tolerance {tolerance}: see the errors"
+    )
 
 
 def next_steps(answer: Answer) -> tuple[str, ...]:
@@ -159,14 +166,15 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
     if not answer.converged:
         out.append(
             "Trust only the digits that the errors leave; if they are enough, give a larger analysis.rtol than "
-            f"{minus(f'{case.rtol:g}')}."
+            f"{plain(case.rtol)}."
         )
     out += _about_the_load(answer)
     if not case.uncertain and case.scales is not None:
         out.append(
-            'Give inputs that are not known well with their uncertainty ("30 m ± 0.1 m"): the loads then get one too.'
+            "Give inputs that are not known well with their uncertainty "
+            f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
         )
-    if case.scales is not None:
+    if case.scales is not None and not case.problem.sections:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
     else:
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")
@@ -175,12 +183,12 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
 
 def _about_the_load(computed: Computed) -> list[str]:
     load, limit, lift = judged(computed.case), computed.buckling, computed.lift_off_load
-    scales = computed.case.scales
+    said = forces_of(computed.case)
     if load is None:
         return ["Give the end force that acts as load.applied in the case file: this page then judges it."]
     if load >= limit.value:
         return []
-    out = [f"To keep the rod straight, keep the end force at s = 1 above {force_text(scales, limit)}."]
+    out = [f"To keep the rod straight, keep {said.below(limit)}."]
     if lift is not None and load <= lift.value and lift.value < limit.value:
-        out.append(f"To keep it on the wall, keep the end force at s = 1 above {force_text(scales, lift)}.")
+        out.append(f"To keep it on the wall, keep {said.below(lift)}.")
     return out

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rodwell.answers.result.computed import Computed
-from rodwell.answers.words.wording import force_text
+from rodwell.answers.words.wording import forces_of
 from rodwell.quantities.value import Value
 
 KEPT = (
@@ -15,20 +15,20 @@ KEPT = (
 
 def without_wall(computed: Computed) -> str:
     """Both loads where twist counts, or would: with the wall's help and without; empty for a rod without twist."""
-    problem, scales = computed.case.problem, computed.case.scales
-    if problem.twist == 0.0:
+    said = forces_of(computed.case)
+    if computed.case.problem.twist == 0.0:
         return ""
     alone = Value(computed.without_wall.force, computed.without_wall.error)
     if not computed.untouched:
         return (
             "Its weight keeps the straight rod on the wall, where twist does not make it buckle; without the wall's "
-            f"help it would buckle at the end force {force_text(scales, alone)} at s = 1."
+            f"help it would buckle at {said.load(alone)}."
         )
     kept = computed.critical[0].load
     return (
-        "Nothing presses this rod to the wall, so twist counts: with the wall's help it buckles at the end force "
-        f"{force_text(scales, computed.buckling)} at s = 1, without it at {force_text(scales, alone)}; a rod kept on "
-        f"the wall would at {force_text(scales, kept)}. {KEPT}"
+        "Nothing presses this rod to the wall, so twist counts: with the wall's help it buckles at "
+        f"{said.load(computed.buckling)}, without it at {said.load(alone)}; a rod kept on the wall would at "
+        f"{said.load(kept)}. {KEPT}"
     )
 
 
@@ -41,7 +41,7 @@ def other_arm(computed: Computed) -> str:
         return f" That is the arm that lifts off first; the other was not followed to lift-off ({other.ended_because})."
     text = (
         " Twist makes the two arms of the mode differ, and the rod may take either: this one counts, the other lifts "
-        f"off at {force_text(computed.case.scales, other.lift_off.load)}"
+        f"off at {forces_of(computed.case).load(other.lift_off.load)}"
     )
     first, second = (branch.special_points[0].index_after for branch in (computed.first, other))
     return text + (", and is stable at first." if first > 0 == second else ".")

@@ -15,24 +15,25 @@ from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.first_met import other_arm, without_wall
 from rodwell.answers.words.reach import unreached
+from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
-from rodwell.answers.words.wording import force_text, place_text, places_text, size_text
+from rodwell.answers.words.wording import forces_of, place_text, places_text, size_text
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, percent
+from rodwell.quantities.text import minus, percent, plain, signed
 from rodwell.quantities.value import Value
 
 ASSUMPTIONS = (
-    "end force and end torque are dead loads at s = 1",
+    "end force and end torque are dead loads at the upper end s = 1",
     "rod inextensible, unshearable, linearly elastic, straight when free",
     "cylinder rigid and straight; contact without friction",
     "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
 )
 
 EFFECTIVE = (
-    "forces are effective ones, N = N_real − pᵢ Aᵢ + pₒ Aₒ (tension positive), and the weight is the buoyed one: "
+    "forces are effective ones, real force − pᵢ Aᵢ + pₒ Aₒ (tension positive), and the weight is the buoyed one: "
     "fluids at rest"
 )
 """What is assumed of mud and pressures."""
@@ -73,7 +74,7 @@ def sentences(answer: Answer) -> list[str]:
         _mode(answer.critical, answer.case, kept=answer.untouched),
         _asked(answer),
         _lift_off(answer),
-        "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case.scales),
+        "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case),
     ]
     out += [_stability(answer), *window_sentences(a)]
     out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
@@ -96,7 +97,7 @@ def _mode(critical: Sequence[Mode], case: Case, *, kept: bool) -> str:
     text = "Kept on the wall it would buckle" if kept else "It buckles"
     text += f" sideways along the wall into {about}{waves} half wave{plural}, {shape} about mid-length."
     if farthest < LOWER_PART:
-        place = place_text(case.scales, Value(farthest, error / _falls(first, farthest)))
+        place = place_text(case, Value(farthest, error / _falls(first, farthest)))
         text += f" Beyond {place} the rod stays straight (deflections below {FADED:g} of the largest)."
     if len(critical) > 1:
         second, size = critical[1], max(abs(first.force), 1e-300)
@@ -124,34 +125,34 @@ def _falls(mode: Mode, faded: float) -> float:
 
 def _asked(computed: Computed) -> str:
     """The rod at the end force asked for, if that does not buckle it."""
-    until, scales = computed.case.until, computed.case.scales
+    until, said = computed.case.until, forces_of(computed.case)
     if until is None or until < computed.buckling.value:
         return ""
     return (
-        f"At the end force asked for, {force_text(scales, Value(until))} at s = 1, the straight rod is stable; the "
+        f"At the end force asked for, {said.load(Value(until), other=True)}, the straight rod is stable; the "
         "diagrams go beyond it to show what follows."
     )
 
 
 def _lift_off(computed: Computed) -> str:
-    lift, first, scales = computed.lift_off, computed.first, computed.case.scales
+    lift, first, said = computed.lift_off, computed.first, forces_of(computed.case)
     if lift is None and not first.reached_end:
-        lowest, highest = (force_text(scales, Value(force)) for force in first.reach)
+        lowest, highest = (said.load(Value(force)) for force in first.reach)
         return (
-            f"No lift-off was found on the first mode, but its branch could be followed only over end forces from "
-            f"{lowest} to {highest} at s = 1: {first.ended_because}."
+            f"No lift-off was found on the first mode, but its branch could be followed only from {lowest} to "
+            f"{highest}: {first.ended_because}."
         )
     if lift is None:
-        down_to = force_text(scales, Value(computed.until))
-        return f"The first mode does not lift off the wall down to the end force {down_to} at s = 1."
+        far = said.load(Value(computed.until), other=True)
+        return f"The first mode does not lift off the wall down to {far}."
     if first.lift_off_at_buckling:
         return (
             "Lift-off coincides with buckling: no lateral weight presses the rod to the wall, so it leaves the wall "
             "as soon as it buckles."
         )
     return (
-        f"The buckled rod stays on the wall until the end force at s = 1 is {force_text(scales, lift.load)}; there it "
-        f"lifts off at {places_text(scales, lift)}.{other_arm(computed)}"
+        f"The buckled rod stays on the wall until it is under {said.load(lift.load, other=True)}; there it lifts off "
+        f"at {places_text(computed.case, lift)}.{other_arm(computed)}"
     )
 
 
@@ -170,27 +171,28 @@ def _stability(computed: Computed) -> str:
         return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
     if lost.kind == CRITICAL:
         return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
-    where = force_text(computed.case.scales, lost.load)
+    where = forces_of(computed.case).load(lost.load)
     return (
-        f"The buckled shape of mode 1 is stable only until the end force at s = 1 is {where} (under dead loads): "
-        "there the rod takes another shape."
+        f"The buckled shape of mode 1 is stable only until it is under {where} (dead loads): there the rod takes "
+        "another shape."
     )
 
 
 def _inputs(computed: Computed) -> str:
     """What a change of the inputs does to the load that matters, and what their uncertainty does."""
-    load, spread = computed.sensitivities[-1], computed.spreads[-1]
+    load, spread = shown_sensitivities(computed)[-1]
     if abs(load.force) < SMALL_LOAD:
         return ""
     e = load.elasticities()
     names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
     parts = ", ".join(f"{names[name]} {_signed(e[name])}" for name in names)
-    text = f"One percent more of an input changes the {load.name} by: {parts}; one degree more from the vertical by "
-    text += f"{_signed(e['alpha'])}."
+    where = forces_of(computed.case).at_end
+    text = f"One percent more of an input changes the {load.name}{where} by: {parts}; one degree more from the "
+    text += f"vertical by {_signed(e['alpha'])}."
     if spread is not None:
         scales = computed.case.scales
-        size = f"{spread.total:.2g} B/L²" if scales is None else scales.system.text(spread.total, "force", 3)
-        text += f" The uncertainties given make it uncertain by ±{size}, most of it from {spread.largest}."
+        size = f"{plain(spread.total, 2)} B/L²" if scales is None else scales.system.text(spread.total, "force", 2)
+        text += f" The uncertainties given make it uncertain by ± {size}, most of it from {spread.largest}."
     return text
 
 
@@ -199,8 +201,9 @@ def _signed(change: Value) -> str:
     places, (value, error) = 2, change
     while places > 0 and 0.5 * 10.0**-places < error:
         places -= 1
-    text = f"{value:+.{places}f}" if 0.5 * 10.0**-places >= error else f"{value:+.1g} ± {error:.1g}"
-    return minus(f"{text} %")
+    if 0.5 * 10.0**-places >= error:
+        return minus(f"{value:+.{places}f} %")
+    return f"{signed(value, 1)} ± {plain(error, 1)} %"
 
 
 def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
@@ -217,7 +220,7 @@ def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
     )
     stress = ""
     if "cylinder_stress" in numbers:
-        note = numbers["cylinder_stress"].note.split(",")[0]
+        note = numbers["cylinder_stress"].note
         stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {note}."
     return (
         f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rodwell.answers.result.assessment import UNKNOWN, Assessment
 from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
-from rodwell.answers.words.wording import force_text
+from rodwell.answers.words.wording import forces_of
 from rodwell.quantities.value import Value
 
 
@@ -21,4 +21,4 @@ def unreached(a: Assessment) -> list[str]:
 
 
 def _load(a: Assessment, force: float) -> str:
-    return f"{force_text(a.case.scales, Value(force))} at s = 1"
+    return forces_of(a.case).load(Value(force))

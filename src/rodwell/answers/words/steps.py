@@ -6,21 +6,27 @@ from typing import Any
 
 from rodwell.analysis.state.wall import StepLoad
 from rodwell.answers.words.wording import place_text, size_text
-from rodwell.quantities.scales import Scales
+from rodwell.case.case import Case
+from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 
 MOST = 6
 """Steps that are named."""
 
 
-def steps_note(steps: tuple[StepLoad, ...], scales: Scales | None = None) -> str:
-    """What the wall would have to exert at steps of a buckled string, and what it means; nothing without any."""
+def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:
+    """What the wall would have to exert at steps of a buckled string, and what it means; nothing without any.
+
+    In the units of ``case``; without one in those with B = L = 1.
+    """
     lifting = [step for step in steps if step.lifts]
     if not lifting:
         return ""
-    shown = ", ".join(place_text(scales, Value(step.s)) for step in lifting[:MOST])
+    places = (Value(step.s) for step in lifting[:MOST])
+    shown = ", ".join(f"s/L = {amount(place)}" if case is None else place_text(case, place) for place in places)
     shown += ", …" if len(lifting) > MOST else ""
     largest = max((step.couple for step in lifting), key=lambda couple: abs(couple.value))
+    scales = None if case is None else case.scales
     couple = size_text(scales, Value(abs(largest.value), largest.error), "moment", "B/L")
     return (
         f"Where the bending stiffness has a step ({shown}) the wall would have to hold the buckled rod by a couple, of "

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
-from rodwell.answers.words.wording import force_text, quantity, size_text
+from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
-from rodwell.quantities.text import amount, minus, percent
+from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, YIELDS
 from rodwell.strength.loaded import LoadedRod
@@ -38,13 +39,13 @@ def window_sentences(a: Assessment) -> list[str]:
         if limit.kind in (LIFTS_OFF, UNSTABLE):
             continue
         if limit.load is None:
-            out.append(f"{limit.name.capitalize()} is reached at any end force.")
+            out.append(f"{limit.name[:1].upper()}{limit.name[1:]} is reached at any end force.")
             continue
         when = (
             "after buckling, before lift-off" if limit.buckled else "before buckling: the elastic loads come too late"
         )
-        where = force_text(a.case.scales, limit.load)
-        out.append(f"{limit.name.capitalize()} at the end force {where} at s = 1, {when}.")
+        where = forces_of(a.case).load(limit.load, other=True)
+        out.append(f"{limit.name[:1].upper()}{limit.name[1:]} at {where}, {when}.")
     return [*out, *_stresses(a), local_sentence(a)]
 
 
@@ -56,17 +57,16 @@ def _assumed(case: Case) -> str:
 
 def _range(a: Assessment) -> str:
     """Where the straight rod buckles, and how far it is from there to lift-off."""
-    load, scales = a.window.buckling, a.case.scales
-    if load.value > 0.0:
+    load, said = a.window.buckling, forces_of(a.case)
+    if said.compression(load).value < 0.0:
         cause = "own weight" if not a.computed.untouched else "weight and twist" if a.case.problem.weight else "twist"
         text = (
-            f"The rod buckles under its {cause}: it stays straight only if the end s = 1 is held in tension of at "
-            f"least {force_text(scales, load)}"
+            f"The rod buckles under its {cause}: it stays straight only if it is held in tension of at least "
+            f"{said.size(load)}{said.at_end}{said.other(load)}"
         )
     else:
         text = (
-            "The straight rod is stable until the compression at the end s = 1 reaches "
-            f"{force_text(scales, load.times(-1.0))}"
+            f"The straight rod is stable until the compression{said.at_end} reaches {said.size(load)}{said.other(load)}"
         )
     return text + _window(a)
 
@@ -81,8 +81,8 @@ def _window(a: Assessment) -> str:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    bottom = " of the compression at s = 0" if a.case.problem.hung_weight > 0.0 else ""
-    share = "" if window.share is None else f" ({percent(window.share)}{bottom})"
+    part = share_shown(a)
+    share = "" if part is None else f" ({percent(part)})"
     text = f"; buckled, it stays on the wall, stable, for another {size_text(scales, width)}{share} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
@@ -90,7 +90,7 @@ def _window(a: Assessment) -> str:
     yields = next((limit for limit in window.limits if limit.kind == YIELDS), None)
     if yields is not None:
         before = "buckles" if not yields.buckled else "lifts off"
-        where = "at any load" if yields.load is None else f"already at {force_text(scales, yields.load)}"
+        where = "at any load" if yields.load is None else f"already at {forces_of(a.case).load(yields.load)}"
         text += f"; but it yields {where}, before it {before}"
     return text
 
@@ -107,14 +107,29 @@ def _stress(a: Assessment, state: LoadedRod) -> str:
     return text if largest.safety.value >= 1.0 or state.name == "at lift-off" else text + ": it yields"
 
 
+def share_shown(a: Assessment) -> Value | None:
+    """Width of the window as a part of the compression at buckling, at the end at which loads are shown."""
+    width, size = a.window.width, forces_of(a.case).compression(a.window.buckling)
+    if width is None or size.value <= size.error:
+        return None
+    part = width.value / size.value
+    return Value(part, (width.error + abs(part) * size.error) / size.value)
+
+
+def load_text(case: Case, load: AppliedLoad) -> str:
+    """A load as it was given: "35 000 lbf of compression at the bottom"."""
+    sign = "compression" if load.given < 0.0 else "tension"
+    end = "the bottom" if load.bottom else "the top"
+    if case.scales is None:
+        return f"{plain(load.given, 6)} B/L² at {'s = 0' if load.bottom else 's = 1'} ({sign})"
+    kind = ", real force in the wall" if load.real else ""
+    at = "" if case.problem.axial_weight == 0.0 and not load.real else f" at {end}"
+    return f"{case.scales.system.text(abs(load.given), 'force', 6)} of {sign}{at}{kind}"
+
+
 def _at(a: Assessment, at: AtLoad) -> str:
     """What becomes of the rod at a load that acts."""
-    load, scales = at.load, a.case.scales
-    given = minus(f"{load.given:.6g} B/L²") if scales is None else scales.system.text(load.given, "force")
-    end = "the bottom, s = 0" if load.bottom else "the top, s = 1"
-    sign = "compression" if load.given < 0.0 else "tension"
-    kind = "real force in the wall, " if load.real else "effective, " if a.case.with_fluids else ""
-    start = f"At {given} at {end} ({kind}{sign})"
+    start = f"At {load_text(a.case, at.load)}"
     if at.what == STRAIGHT:
         text = f"{start} the rod is straight and stable, {_apart(a.case, at, a.window.buckling, 'buckling')}"
     elif at.what == BUCKLED:
@@ -125,7 +140,7 @@ def _at(a: Assessment, at: AtLoad) -> str:
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
         lost = a.window.stable_until
-        where = "" if lost is None or lost.load is None else f", which ends at {force_text(scales, lost.load)} at s = 1"
+        where = "" if lost is None or lost.load is None else f", which ends at {forces_of(a.case).load(lost.load)}"
         text = f"{start} the rod is buckled beyond the stable part of mode 1{where}"
         return f"{text}: it takes another shape, not given here"
     elif at.what == LEFT:
@@ -155,8 +170,10 @@ def _apart(case: Case, at: AtLoad, limit: Value, what: str) -> str:
         if other <= 0.0 or load < 0.0
         else percent(Value(abs(1.0 - load / other), limit.error * load / other**2))
     )
-    force = Value(-other, limit.error)
-    there = f"{amount(force, 6)} B/L²" if scales is None else size_text(scales, force)
+    if scales is None:
+        there = f"{amount(Value(-other, limit.error), 6)} B/L²"
+    else:
+        there = size_text(scales, Value(abs(other), limit.error)) + (" of tension" if other < 0.0 else "")
     return f"{far} {word} {what} ({there}{' effective' if at.load.real else ''} there)"
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from rodwell.case.case import Case
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import amount, certain
+from rodwell.quantities.text import amount
 from rodwell.quantities.units import System
 from rodwell.quantities.value import Value
 
@@ -15,34 +17,40 @@ if TYPE_CHECKING:
 
 def quantity(system: System, number: Value, dimension: str, digits: int = 4) -> str:
     """A number in SI units in the reader's, rounded like :func:`amount`."""
-    count = certain(number, digits)
-    text = system.text(number.value, dimension, count or 1)
-    return text if count else f"{text} ± {system.text(number.error, dimension, 1)}"
+    return system.amount(number, dimension, digits)
 
 
 def size_text(scales: Scales | None, number: Value, dimension: str = "force", unit: str = "B/L²") -> str:
     """A number in units B = L = 1 in the reader's units only."""
     if scales is None:
         return f"{amount(number)} {unit}"
-    return quantity(scales.system, number.times(scales.factor(dimension)), dimension)
+    return scales.amount(number, dimension)
 
 
-def force_text(scales: Scales | None, force: Value) -> str:
-    """A force in the reader's units: SI first where the case has dimensions. Without error: a force that was given."""
-    text = f"{amount(force, 6)} B/L²"
-    return text if scales is None else f"{size_text(scales, force)} ({text})"
+def forces_of(case: Case) -> Forces:
+    """How end forces of a case are said: at which end, with which sign."""
+    return Forces(case.scales, case.problem.hung_weight)
 
 
-def place_text(scales: Scales | None, place: Value) -> str:
-    """A place along the rod, s/L."""
+def place_text(case: Case, place: Value) -> str:
+    """A place along the rod: by its distance from the end s = 0 and, in an inclined hole, its depth below s = 1."""
+    scales = case.scales
     text = f"s/L = {amount(place)}"
-    return text if scales is None else f"{size_text(scales, place, 'length')} from the end s = 0 ({text})"
+    if scales is None:
+        return text
+    above = size_text(scales, place, "length")
+    if case.problem.axial_weight == 0.0:
+        return f"{above} from the end s = 0"
+    if not 0.0 < place.value < 1.0:
+        return "the bottom" if place.value <= 0.0 else "the top"
+    depth = size_text(scales, Value(1.0 - place.value, place.error), "length")
+    return f"{above} above the bottom ({depth} below the top)"
 
 
-def places_text(scales: Scales | None, point: SpecialPoint) -> str:
+def places_text(case: Case, point: SpecialPoint) -> str:
     """The places of a special point; their errors from the places of the largest pressure on the coarser mesh."""
     from rodwell.analysis.discrete.measures import pressure_maxima  # noqa: PLC0415
 
     maxima, _, _ = pressure_maxima(point.solution.meshes.coarse, point.solution.point.coarse)
     places = (Value(s, min(abs(float(t) - s) for t in maxima)) for s in point.s)
-    return " and ".join(place_text(scales, place) for place in places)
+    return " and ".join(place_text(case, place) for place in places)

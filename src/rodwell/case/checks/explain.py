@@ -24,6 +24,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "pressure": schema.PressureAtEnd,
     "packer": schema.PackerInput,
     "catalogue": schema.CatalogueFiles,
+    "report": schema.ReportInput,
 }
 """Sections of a case file."""
 

@@ -12,7 +12,6 @@ SECTIONS_ELSEWHERE = {
     "thermal": "is out of scope in this version: thermal strain is not treated; leave it out",
     "well": "is out of scope in this version: a case is one rod in a straight hole; for a whole well take "
     "`rodwell screen SURVEY --case CASE`, for torque and drag `rodwell drag WELL`",
-    "report": "is out of scope in this version: the report takes its heading from `title` at the top of the file",
     "survey": "is not part of a case file: give it on the command line, `rodwell screen SURVEY --case CASE`",
     "torque": "is not a section; the end twisting moment is load.twist",
     "force": "is not a section; the end force is load.applied, compression negative",

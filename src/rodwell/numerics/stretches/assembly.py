@@ -168,12 +168,12 @@ def _add(out: Assembled, one: Condensed, to_polar: FloatArray, covector: FloatAr
     """Add elements of a kind to the chain's blocks, in the coordinates of its nodes."""
     group, chain = one.group, out.shape.chain
     k = group.size
-    block = np.zeros((k, 8, 8))
+    block: FloatArray = np.zeros((k, 8, 8))
     block[:, one.slots[:, None], one.slots] = one.block
-    vectors = np.zeros((k, 8, 5))
+    vectors: FloatArray = np.zeros((k, 8, 5))
     vectors[:, one.slots, :4] = one.vectors
     vectors[:, one.slots, 4] = one.raw
-    block, vectors = block.reshape(k, 2, 4, 2, 4), vectors.reshape(k, 2, 4, 5)
+    block, vectors = np.asarray(block.reshape(k, 2, 4, 2, 4)), np.asarray(vectors.reshape(k, 2, 4, 5))
     if one.fields == 2:
         for end in range(2):
             np.add.at(covector, group + end, vectors[:, end, :, 4])

@@ -20,7 +20,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 from rodwell.numerics.splines import banded
 from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of, reactions
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain, Shape
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray
 
 WIDTH = 8
 """Coordinates of two neighbouring nodes: the Hessian's band."""
@@ -125,7 +125,7 @@ def gap_curvature(shape: Shape, element: int, xi: float) -> float:
     return -(float(u[:, 0] @ u[:, 2] + u[:, 1] @ u[:, 1]) / r - radial**2 / r)
 
 
-def lower_band(diagonal: FloatArray, below: FloatArray, held: FloatArray) -> FloatArray:
+def lower_band(diagonal: FloatArray, below: FloatArray, held: BoolArray) -> FloatArray:
     """Blocks as the lower triangle of a band, rows and columns that are held replaced by those of the identity."""
     n = diagonal.shape[0]
     free = ~held
@@ -183,7 +183,7 @@ def _solve(
     known[m] = target + reached[0]
     extra = np.linalg.solve(small, known)
     nodes = -(solved[..., 0] + solved[..., 1:] @ extra)
-    return nodes * free, extra[:m], float(extra[m])
+    return np.asarray(nodes * free), np.asarray(extra[:m], dtype=float), float(extra[m])
 
 
 def solve(

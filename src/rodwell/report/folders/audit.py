@@ -5,8 +5,11 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+from rodwell.case.about import NOBODY, About
 from rodwell.plots.audit import plot_error_map
-from rodwell.report.folders.pictures import save_figure
+from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.pages.pdf import write_report
+from rodwell.report.reports.audit import audit_report
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import as_text
 from rodwell.store.text import write_json
@@ -15,10 +18,12 @@ from rodwell.studies.audit.error_map import ErrorMap
 from rodwell.studies.audit.tables import csv_rows
 
 
-def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, ...]:
-    """Write the tables (JSON, CSV) and the chart (PNG, SVG, CSV of its loads) to ``out``: all files, or none.
+def write_audit(
+    audit: Audit, chart: ErrorMap | None, out: Path, about: About = NOBODY, source: str = "case"
+) -> tuple[str, ...]:
+    """Write report, tables (JSON, CSV) and the chart (PNG, SVG, CSV of its loads) to ``out``: all files, or none.
 
-    Returns the names of the files.
+    ``about`` stands at the head of the report, ``source`` at its foot. Returns the names of the files.
 
     Raises
     ------
@@ -31,6 +36,9 @@ def write_audit(audit: Audit, chart: ErrorMap | None, out: Path) -> tuple[str, .
         if chart is not None:
             _write_csv(folder / "audit-chart.csv", _chart_rows(chart))
             save_figure(plot_error_map(chart), folder / "audit-chart")
+        pictures = kept(folder, ("audit-chart",), about)
+        names = [file.name for file in folder.iterdir()]
+        write_report(audit_report(audit, names, about=about, source=source), pictures, folder)
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 

@@ -10,8 +10,9 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
+from rodwell.report.folders.beside import done_beside
 from rodwell.report.folders.pictures import draw, draw_curves, draw_diagram
-from rodwell.report.pages.pdf import check_pdf, write_report
+from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
 from rodwell.report.reports.case import case_report
@@ -20,17 +21,6 @@ from rodwell.store.netcdf import write_answer, write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
-
-FILES = {
-    "report.html": "the report, self-contained",
-    "rod-3d.html": "the rod in its cylinder, to turn and zoom",
-    "answer.json": "key figures and special points",
-    "tables.xlsx": "key figures, special points and every state along the rod as a workbook",
-    "key-figures.csv": "the key figures as a table",
-    "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
-    "branches.nc": "every field along every branch (NetCDF)",
-    "case.toml": "the case as it was read",
-}
 
 
 def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) -> tuple[str, ...]:
@@ -46,18 +36,20 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False) ->
     if with_pdf:
         check_pdf()
     with whole_folder(Path(out)) as folder:
-        pictures = draw(answer, folder)
+        with done_beside(draw, answer, folder) as drawn:
+            write_json(answer.as_dict(), folder / "answer.json")
+            tables, states = answer_tables(answer), along_tables(answer.assessment)
+            write_csv(tables[0], folder / "key-figures.csv")
+            write_csv(along_table(states), folder / "along-rod.csv")
+            write_xlsx([*tables, *states], folder / "tables.xlsx")
+            (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
+            write_answer(answer, folder / "branches.nc")
+            rod = view(answer.shown, answer.case.scales)
+            pictures = drawn()
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
-        rod = view(answer.shown, answer.case.scales)
-        write_report(case_report(answer), pictures, folder, viewer(rod, still=still), with_pdf=with_pdf)
-        write_viewer(folder / "rod-3d.html", rod, answer.case.title)
-        write_json(answer.as_dict(), folder / "answer.json")
-        tables, states = answer_tables(answer), along_tables(answer.assessment)
-        write_csv(tables[0], folder / "key-figures.csv")
-        write_csv(along_table(states), folder / "along-rod.csv")
-        write_xlsx([*tables, *states], folder / "tables.xlsx")
-        (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
-        write_answer(answer, folder / "branches.nc")
+        write_viewer(folder / "rod-3d.html", rod, answer.case.title, still=still)
+        report = case_report(answer, [*(file.name for file in folder.iterdir()), *([PDF] if with_pdf else [])])
+        write_report(report, pictures, folder, viewer(rod, still=still), with_pdf=with_pdf)
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 

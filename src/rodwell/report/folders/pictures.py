@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
+from rodwell.case.about import About
 from rodwell.errors import InputError
 from rodwell.plots.along import plot_along, upright
 from rodwell.plots.bifurcation import plot_bifurcation
@@ -23,9 +25,11 @@ from rodwell.plots.cylinder import plot_cylinder_moments
 from rodwell.plots.methods import plot
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
-from rodwell.plots.string import name_sections, plot_string
-from rodwell.plots.style import RC, new_axes
+from rodwell.plots.sections import name_sections, plot_string
+from rodwell.plots.sketch import plot_sketch
+from rodwell.plots.style import RC, new_axes, with_dark_style, with_separators
 from rodwell.plots.units import axis
+from rodwell.report.reports.front import LOGO
 from rodwell.store.folder import whole_folder
 
 DPI = 140
@@ -38,6 +42,7 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
     scales = answer.case.scales
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
+            "sketch": plot_sketch(answer.case),
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
@@ -52,9 +57,9 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             if name == "rod-3d":
                 out[name] = ("png", _as_png(ax.figure, folder / name))
             else:
-                save_figure(ax.figure, folder / name)
+                save_figure(getattr(ax, "figure", ax), folder / name)
                 out[name] = ("svg", (folder / f"{name}.svg").read_bytes())
-    return out
+    return out if answer.case.about.logo is None else out | {LOGO: answer.case.about.logo}
 
 
 def _along(a: Assessment) -> Any:
@@ -102,7 +107,16 @@ def save_figure(figure: Any, path: Path) -> None:
     """Write a figure as PNG and SVG, ``path`` without suffix; the layout found for the first serves both."""
     _as_png(figure, path)
     svg: Any = FigureCanvasSVG(figure)
-    svg.print_svg(path.with_suffix(".svg"), metadata={"Date": None})
+    text = io.StringIO()
+    svg.print_svg(text, metadata={"Date": None})
+    path.with_suffix(".svg").write_text(with_dark_style(text.getvalue()), encoding="utf-8")
+
+
+def kept(folder: Path, names: Sequence[str], about: About) -> dict[str, tuple[str, bytes]]:
+    """The pictures of these names that were written to ``folder``, and the logo, as a report takes them."""
+    files = {name: folder / f"{name}.svg" for name in names}
+    out = {name: ("svg", file.read_bytes()) for name, file in files.items() if file.exists()}
+    return out if about.logo is None else out | {LOGO: about.logo}
 
 
 def _as_png(figure: Any, path: Path) -> bytes:
@@ -110,6 +124,7 @@ def _as_png(figure: Any, path: Path) -> bytes:
 
     Layout is done once and the canvases draw once each: ``savefig`` draws every figure once more for nothing.
     """
+    with_separators(figure)
     figure.set_dpi(DPI)
     canvas: Any = FigureCanvasAgg(figure)
     if figure.get_layout_engine() is not None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.survey import plot_screening
-from rodwell.report.folders.pictures import save_figure
+from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.pages.pdf import write_report
+from rodwell.report.reports.well import screening_report
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
@@ -15,7 +17,7 @@ from rodwell.studies.well.tables import screening_table
 
 
 def write_screening(screening: Screening, out: Path) -> tuple[str, ...]:
-    """Write figure (PNG, SVG), table (CSV, XLSX) and data (JSON) to ``out``: all files, or none. Returns their names.
+    """Write report, figure, tables (CSV, XLSX) and data (JSON) to ``out``: all files, or none; return their names.
 
     Raises
     ------
@@ -28,4 +30,7 @@ def write_screening(screening: Screening, out: Path) -> tuple[str, ...]:
         write_xlsx([table], folder / "stations.xlsx")
         write_json(screening_dict(screening), folder / "screening.json", finite=True)
         save_figure(plot_screening(screening), folder / "limits")
+        pictures = kept(folder, ("limits",), screening.case.about)
+        names = [file.name for file in folder.iterdir()]
+        write_report(screening_report(screening, names), pictures, folder)
         return tuple(sorted(file.name for file in folder.iterdir()))

@@ -20,7 +20,7 @@ def render(report: Report, pictures: Pictures, rod: Viewer | None = None) -> str
     The picture of the rod on the front can be turned where ``rod`` is given; the still one among the pictures prints,
     and stands in where the browser cannot draw in three dimensions.
     """
-    images = {name: embedded(*picture) for name, picture in pictures.items()}
+    images = {name: {"source": embedded(*picture), "photo": picture[0] != "svg"} for name, picture in pictures.items()}
     if rod is not None:
         rod = replace(rod, caption=unbroken(rod.caption))
     style = (HERE / "assets" / STYLE).read_text(encoding="utf-8")

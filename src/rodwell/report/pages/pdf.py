@@ -71,7 +71,7 @@ def typeset(report: Report, pictures: Pictures, **options: Any) -> Any:
         template = shutil.copy(HERE / TEMPLATE, home)
         return typst.compile(
             template,
-            sys_inputs={"report": json.dumps(report.as_dict() | {"files": files})},
+            sys_inputs={"report": json.dumps(report.as_dict() | {"pictures": files})},
             font_paths=[str(Path(mpl.get_data_path(), "fonts", "ttf"))],
             **options,
         )

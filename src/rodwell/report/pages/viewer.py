@@ -19,10 +19,13 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import STOPS, Part, drawn, limits, scene
 from rodwell.analysis.space.surfaces import straight_contact
+from rodwell.plots.rod3d import enlarged
 from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, plain
+from rodwell.quantities.text import plain
+from rodwell.quantities.value import Value
 from rodwell.report.pages.templates import HERE, template
 
 PLACES, SIDES = (321, 801), 16
@@ -61,7 +64,7 @@ def view(solution: Solution, scales: Scales | None = None, rod: Geometry | None 
     if rod is None:
         elements = solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    return View(_data(solution, rod), _bar(rod, scales), caption(solution, rod, scales))
+    return View(_data(solution, rod, scales), _bar(rod, scales), caption(solution, rod, scales))
 
 
 def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
@@ -77,14 +80,16 @@ def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
         The viewer fills a page of its own; else it is part of a page that scrolls.
     """
     data = json.dumps(seen.data | {"embedded": not full}, separators=(",", ":"))
-    markup = template("viewer.html.j2").render(data=data, bar=seen.bar, still=still, full=full)
+    markup = template("viewer.html.j2").render(
+        data=data, bar=seen.bar, still=still, full=full, says=seen.data["says"], enlarged=seen.data["enlarged"] != 1.0
+    )
     three = f"/*\n{_asset('LICENSE-three.txt')}\n*/\n{_asset('three.min.js')}"
     return Viewer(markup, _asset("viewer.css"), (three, _asset("viewer.js")), seen.caption)
 
 
-def write_viewer(path: Path, seen: View, title: str = "") -> None:
-    """Write the viewer as a page of its own."""
-    shown = viewer(seen, full=True)
+def write_viewer(path: Path, seen: View, title: str = "", *, still: str = "") -> None:
+    """Write the viewer as a page of its own; ``still`` as in :func:`viewer`."""
+    shown = viewer(seen, still=still, full=True)
     page = template("rod3d.html.j2").render(
         title=title or "Rod in its cylinder", viewer=shown.markup, css=shown.css, scripts=shown.scripts,
         caption=shown.caption,
@@ -94,18 +99,18 @@ def write_viewer(path: Path, seen: View, title: str = "") -> None:
 
 def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     """What is shown, in which scale."""
-    factor, unit = axis("force", scales, solution.force)
-    load = minus(f"F = {plain(solution.force * factor, 4)} {unit}")
-    scale = "true scale" if rod.radial_scale == 1.0 else f"{rod.radial_scale:.3g} times enlarged across the axis"
-    radius = f"{rod.rod_radius / rod.clearance:.3g} Δ" if scales is None else scales.text(rod.rod_radius, "length")
+    load = Forces(scales, solution.problem.hung_weight).load(Value(solution.force))
+    radius = (
+        f"{plain(rod.rod_radius / rod.clearance, 3)} Δ" if scales is None else scales.text(rod.rod_radius, "length")
+    )
     marks = " Red rings: places of lift-off." if rod.lift_off else ""
     return (
-        f"{load} at s = 1 (tension positive); {scale}; rod radius drawn {radius}. Thin lines are material "
+        f"{load[:1].upper()}{load[1:]}; {enlarged(rod)}; rod radius drawn {radius}. Thin lines are material "
         f"lines of the rod; the cylinder is the wall that its surface touches.{marks}"
     )
 
 
-def _data(solution: Solution, rod: Geometry) -> dict[str, Any]:
+def _data(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
     middle = 0.5 * float(rod.centreline[-1, 2])
 
@@ -131,7 +136,30 @@ def _data(solution: Solution, rod: Geometry) -> dict[str, Any]:
         "arrow": [float(ends[1]), reach + 0.1, 0.0],
         "weight": solution.problem.weight,
         "height": 2.0 * reach,
+        "enlarged": rod.radial_scale,
+        "says": enlarged(rod),
+        "along": _along(solution, rod, scales, middle),
     }
+
+
+READINGS = 401
+"""Places along the rod at which the pointer reads numbers."""
+
+
+def _along(solution: Solution, rod: Geometry, scales: Scales | None, middle: float) -> dict[str, Any]:
+    """What stands under the pointer, place by place: where it is in the picture, and in words the numbers there."""
+    pick = np.unique(np.linspace(0, rod.s.size - 1, min(READINGS, rod.s.size)).round().astype(int))
+    points = _view(rod.centreline[pick]) - np.array([middle, 0.0, 0.0])
+    push = (1.0 if rod.outside else -1.0) * rod.fields["contact_pressure"][pick]
+    says = []
+    for s, p, y in zip(rod.s[pick], push, rod.fields["y"][pick], strict=True):
+        if scales is None:
+            says.append(f"s/L = {plain(s, 3)}, push {plain(p, 3)} B/L³, sideways {plain(y, 3)} L")
+            continue
+        place = scales.text(float(s), "length", 4)
+        per_length = scales.text(float(p), "force_per_length", 3)
+        says.append(f"{place} from s = 0, push {per_length}, sideways {scales.text(float(y), 'length', 3)}")
+    return {"points": _rounded(points), "says": says}
 
 
 def _view(points: FloatArray) -> FloatArray:
@@ -174,14 +202,15 @@ def _bar(rod: Geometry, scales: Scales | None) -> dict[str, str]:
     """The scale of colours: from the most pressed to no pressure, or to where the wall would have to pull most."""
     low, high = limits(rod.pull)
     factor, unit = axis("contact_pressure", scales, max(-low, high))
-    sign = -1.0 if rod.outside else 1.0
+    sign = (-1.0 if rod.outside else 1.0) * (1.0 if scales is None else -1.0)  # engineers count the push on the wall
     stops = [(place, colour) for place, colour in STOPS if place <= 0.0 or high > 0.0]
     start, width = (low, high - low) if high > low else (-1.0, 1.0)
     where = [(-place * low if place <= 0.0 else high, colour) for place, colour in stops]
     text = ", ".join(f"{colour} {100.0 * (value - start) / width:.1f}%" for value, colour in where)
-    first, last = (minus(f"{sign * x * factor:.4g}") for x in (low, high))
-    return {"first": first, "last": last.replace("−0", "0") if high == 0.0 else last, "unit": unit,
-            "gradient": f"linear-gradient(90deg, {text})"}  # fmt: skip
+    first, last = (plain(sign * x * factor) for x in (low, high))
+    name = "contact pressure p" if scales is None else "push on the wall"
+    gradient = f"linear-gradient(90deg, {text})"
+    return {"first": first, "last": last, "unit": f"{unit} {name}", "gradient": gradient}
 
 
 @cache

@@ -3,144 +3,133 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Iterable
 
 from rodwell._version import __version__
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
-from rodwell.answers.result.key_number import KeyNumber
-from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.first_met import KEPT
-from rodwell.answers.words.meaning import assumptions, sentences
+from rodwell.answers.words.meaning import sentences
+from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
-from rodwell.quantities.text import minus
-from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
+from rodwell.quantities.text import plain
+from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
+from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
+from rodwell.report.reports.front import LOGO, front
+from rodwell.report.reports.sections import string_section
 from rodwell.report.reports.strength import strength_sections
-from rodwell.report.reports.string import string_section
 from rodwell.report.reports.texts import (
-    PLAIN_UNITS,
     certificate,
     conversions,
     derived,
-    error_text,
     inputs,
-    number,
+    plain_rows,
     rows,
     sensitivities,
-    short,
     special,
 )
 
-DECISIVE = (
-    "first_load_met",
-    "critical_load_1",
-    "lift_off_load",
-    "window",
-    "rod_stress_lift_off",
-    "safety_factor_lift_off",
-    "largest_wall_force",
-    "total_wall_force",
-    "cylinder_stress",
-    "largest_bending",
-    "critical_length",
-    "end_shortening",
-)
-"""Key numbers that decide, most important first: the front shows those that a case has, six at most."""
 
-MOST_NUMBERS = 6
-
-
-def case_report(answer: Answer) -> Report:
-    """Return the content of a case's report."""
+def case_report(answer: Answer, files: Iterable[str] = ()) -> Report:
+    """Return the content of a case's report; ``files`` are the names of those that stand beside it."""
     case = answer.case
+    today = datetime.date.today().isoformat()
     return Report(
         title=case.title,
-        subtitle=f"Buckling, lift-off and wall loads of a rod in a cylinder · rodwell {__version__} · "
-        f"{datetime.date.today().isoformat()}",
-        front=_front(answer),
+        subtitle=f"Buckling, lift-off and wall loads of a rod in a cylinder · {today} · rodwell {__version__}",
+        front=front(answer),
         sections=(
             ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
-            key_numbers(answer),
+            _in_space(answer),
             *string_section(answer.assessment),
             *strength_sections(answer.assessment),
             _pictures(answer),
+            key_numbers(answer),
             _special_points(answer),
             _inputs_and_loads(answer),
             _inputs(case),
             *_conversions(case),
             _validity(answer),
             _trust(answer),
+            *_for_research(answer),
         ),
-        footer=f"Computed by rodwell {__version__} from {case.source}. B bending stiffness, L length of the rod.",
+        footer=f"Computed by rodwell {__version__} from {case.source}. {CONVENTION_OF_DATA}",
         paper="us-letter" if case.scales is not None and case.scales.system.name == "field" else "a4",
+        about=case.about.lines,
+        logo="" if case.about.logo is None else LOGO,
+        files=linked(files, FILES),
     )
 
 
-def _front(answer: Answer) -> Front:
+def _in_space(answer: Answer) -> ReportSection:
     at = " at lift-off" if answer.at_lift_off else ""
-    numbers = answer.key_numbers
-    effective = "effective force, " if answer.case.with_fluids else ""
-    return Front(
-        verdict=sentences(answer)[0],
-        statuses=statuses(answer),
-        numbers=tuple(_decisive(numbers[name], answer.case) for name in DECISIVE if name in numbers)[:MOST_NUMBERS],
-        picture=Picture(
-            "rod-3d",
-            "The rod in its cylinder, coloured by contact pressure",
-            f"The rod in its cylinder{at}, first mode.",
+    return ReportSection(
+        "The rod in its cylinder",
+        (
+            Picture(
+                "rod-3d",
+                "The rod in its cylinder, coloured by how hard it is pressed to the wall",
+                f"The rod in its cylinder{at}, first mode.",
+            ),
         ),
-        assumptions=f"Sign: {effective}tension positive, compression negative. End: forces are those at s = 1, the "
-        f"upper end of an inclined cylinder. Assumed: {'; '.join(assumptions(answer.case))}.",
-        steps=next_steps(answer),
     )
-
-
-def _decisive(key: KeyNumber, case: Case) -> Number:
-    if case.scales is None:
-        unit = PLAIN_UNITS[key.dimension]
-        return Number(key.label, f"{number(key.number)} {unit}", f"± {short(key.error)} {unit}", key.note)
-    error = error_text(case.scales.text(key.error, key.dimension, 1))
-    return Number(key.label, key.text(case, 5), error, key.note)
 
 
 def key_numbers(answer: Answer) -> ReportSection:
     """All key numbers, with errors."""
-    physical = answer.case.scales is not None
-    names = ["label", *(["physical"] if physical else []), "plain", "error", "note"]
-    head = ["Quantity", *(["Physical"] if physical else []), "Dimensionless (B = L = 1)", "±\u00a0error", "Remark"]
-    table = Grid(
-        tuple(head),
-        tuple(tuple(row[name] for name in names) for row in rows(answer.key_numbers.values(), answer.case)),
-        numeric=tuple(range(1, len(head) - 1)),
-    )
+    head = ("Quantity", "Value", "±\u00a0error", "Where, and what else")
+    table = _grid(head, rows(answer.key_numbers.values(), answer.case))
     warning = Words(
-        f"Not every number meets the tolerance {minus(f'{answer.case.rtol:g}')}. The error estimates say how well each "
+        f"Not every number meets the tolerance {plain(answer.case.rtol)}. The error estimates say how well each "
         "is known.",
         "warning",
     )
-    return ReportSection("Key figures", (table,) if answer.converged else (warning, table))
+    said = Words(f"{forces_of(answer.case).convention}. Errors are estimates of the numerical error.", "small")
+    return ReportSection("Key figures", (table, said) if answer.converged else (warning, table, said))
+
+
+def _for_research(answer: Answer) -> tuple[ReportSection, ...]:
+    """The same in units B = L = 1, of a case with dimensions."""
+    if answer.case.scales is None:
+        return ()
+    head = ("Quantity", "Value, B = L = 1", "±\u00a0error", "Remark")
+    table = _grid(head, plain_rows(answer.key_numbers.values()))
+    said = (
+        "The key figures as the theory has them: forces are those at the end s = 1, tension positive; B is the bending "
+        "stiffness, L the length of the rod."
+    )
+    return (ReportSection("For research: the same without dimensions", (Words(said, "small"), table)),)
+
+
+def _grid(head: tuple[str, ...], lines: list[dict[str, str]]) -> Grid:
+    cells = tuple(tuple(row[name] for name in ("label", "value", "error", "note")) for row in lines)
+    return Grid(head, cells, numeric=(1, 2))
 
 
 def _pictures(computed: Computed) -> ReportSection:
     at = " at lift-off" if computed.at_lift_off else ""
     kept = f" {KEPT}" if computed.untouched else ""
     wall = computed.shown.wall.meaning
-    ordinate = ORDINATES[telling(computed.branches)][1]
+    ordinate = ORDINATES[telling(computed.branches, computed.case.scales)][1]
+    dimensions = computed.case.scales is not None
+    pushed = "push on the wall per length" if dimensions else "contact pressure p; the wall pushes with −p per length"
     return ReportSection(
         "From buckling to lift-off",
         (
             Picture(
                 "bifurcation",
                 "Bifurcation diagram",
-                f"Bifurcation diagram: {ordinate} against the compression at s = 1. Thick: stable under dead loads "
-                f"for a rod kept on the wall. Pale: beyond lift-off, where the wall would have to pull.{kept}",
+                f"Bifurcation diagram: {ordinate} against the compression{forces_of(computed.case).at_end}. Thick: "
+                "stable under dead loads for a rod kept on the wall. Dashed: unstable. Pale: beyond lift-off, where "
+                f"the wall would have to pull. Beside it the part from buckling to lift-off, enlarged.{kept}",
             ),
             Picture(
                 "wall-loads",
-                "Contact pressure, and twisting moment in the cylinder, along the rod",
-                "First mode at several end forces. Above: contact pressure p; the wall pushes with −p per length, "
-                "and the rod lifts off where p reaches 0. Below: twisting moment T₂ that the rod's weight sets up "
-                "in the cylinder; its value at s = 0 is the torque that the cylinder's support must provide.",
+                "Push on the wall, and twisting moment in the cylinder, along the rod",
+                f"First mode at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: twisting "
+                "moment T₂ that the rod's weight sets up in the cylinder; its value at s = 0 is the torque that the "
+                "cylinder's support must provide.",
             ),
             Picture(
                 "cylinder",
@@ -159,22 +148,21 @@ def _pictures(computed: Computed) -> ReportSection:
 
 
 def _special_points(computed: Computed) -> ReportSection:
-    branches, scales = computed.branches, computed.case.scales
     kept = [Words(KEPT, "warning")] if computed.untouched else []
-    physical = scales is not None
-    names = ["mode", "kind", *(["physical"] if physical else []), "plain", "error", "index", "place"]
-    head = ["Mode", "What", *(["End force at s = 1"] if physical else []), "F in B/L²", "±\u00a0error"]
+    names = ["mode", "kind", "load", "error", "index", "place"]
+    said = forces_of(computed.case)
+    head = ("Mode", "What", "F at s = 1, B/L²" if said.scales is None else f"Compression{said.at_end}", "±\u00a0error")
     note = (
         "Stability index: number of independent ways in which the state is unstable under dead loads, for a rod "
         "kept on the wall; 0 is stable. With end shortening or end rotation controlled instead of the loads, the "
         "index is lower by at most one for each."
     )
-    lines = special(branches, scales)
+    lines = special(computed.branches, computed.case)
     missed = any(row["remark"] for row in lines)
     table = Grid(
-        (*head, "Stability index", "Place s/L", *(["Remark"] if missed else [])),
+        (*head, "Stability index", "Place", *(["Remark"] if missed else [])),
         tuple(tuple(str(row[name]) for name in [*names, *(["remark"] if missed else [])]) for row in lines),
-        numeric=(2, 3, 4) if physical else (2, 3),
+        numeric=(2, 3),
     )
     return ReportSection("Special points of every branch", (table, Words(note, "small"), *kept))
 
@@ -185,8 +173,8 @@ def _inputs_and_loads(computed: Computed) -> ReportSection:
     head += ["± from the inputs"] if uncertain else []
     lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(computed)]
     note = (
-        "Change of the load in percent for one percent more of an input, the others constant (elasticity), from "
-        "exact derivatives."
+        f"Change of the load{forces_of(computed.case).at_end} in percent for one percent more of an input, the others "
+        "constant (elasticity), from exact derivatives."
     )
     if uncertain:
         written = ", ".join(f"{u.key} = {u.written}" for u in uncertain)
@@ -199,7 +187,10 @@ def _inputs_and_loads(computed: Computed) -> ReportSection:
 def _inputs(case: Case) -> ReportSection:
     return ReportSection(
         "Inputs",
-        (Grid(("As given", ""), tuple(inputs(case))), Grid(("What follows", ""), tuple(derived(case)))),
+        (
+            Grid(("Key of the case file", "As given"), tuple(inputs(case))),
+            Grid(("What follows", "Value"), tuple(derived(case))),
+        ),
     )
 
 
@@ -214,14 +205,14 @@ def _validity(answer: Answer) -> ReportSection:
     """How far the loads shown are from what the theory assumes."""
     found = answer.assessment.validity
     rows = tuple((m.label, m.text, m.limit_text, m.where, m.status) for m in found.measures)
-    table = Grid(("What", "Largest", "Covered", "Where", ""), rows, numeric=(1, 2))
+    table = Grid(("What", "Largest", "Covered", "Where", "Kept"), rows, numeric=(1, 2))
     words = Words(found.sentence, "warning" if found.left else "plain")
     return ReportSection("What the theory assumes, and how far it holds here", (words, table))
 
 
 def _trust(answer: Answer) -> ReportSection:
     left = certificate(answer.worst_certificate)
-    tolerance = minus(f"{answer.case.rtol:g}")
+    tolerance = plain(answer.case.rtol)
     passed = "passed" if left["passed"] else "not passed"
     met = "is met by every number" if answer.converged else "is not met by every number"
     return ReportSection(

@@ -7,10 +7,12 @@ pictures. All of it is text that is ready to be read; a picture is named, its fi
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
 from rodwell.answers.words.advice import Status
+from rodwell.quantities.text import SEPARATOR
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,7 @@ class Grid:
     rows: tuple[tuple[str, ...], ...]
     numeric: tuple[int, ...] = ()
     marked: tuple[int, ...] = ()
+    caption: str = ""
 
 
 @dataclass(frozen=True)
@@ -64,17 +67,24 @@ class ReportSection:
 
 @dataclass(frozen=True)
 class Number:
-    """A number that decides, for the front: value and error with their unit, and a remark."""
+    """A number that decides, for the front: value with its unit, and a remark.
+
+    ``spread`` is the uncertainty that comes from the inputs, "± 1.2 kN", nothing where they are taken as exact;
+    numerical errors stand in the tables.
+    """
 
     label: str
     value: str
-    error: str
+    spread: str = ""
     note: str = ""
 
 
 @dataclass(frozen=True)
 class Front:
-    """The first sheet: verdict, statuses, numbers, one picture, assumptions, what to do next."""
+    """The first sheet: inputs in words beside a picture, verdict, statuses, numbers, what limits, what to do next.
+
+    ``inputs`` are pairs of what and how much, ``limits`` says what gives first and by how much.
+    """
 
     verdict: str
     statuses: tuple[Status, ...]
@@ -83,11 +93,25 @@ class Front:
     assumptions: str
     steps: tuple[str, ...]
     next_title: str = "What to do next"
+    inputs: tuple[tuple[str, str], ...] = ()
+    limits: str = ""
+
+
+@dataclass(frozen=True)
+class Linked:
+    """A file beside the report: its name, and what it holds."""
+
+    name: str
+    holds: str
 
 
 @dataclass(frozen=True)
 class Report:
-    """A whole report; ``paper`` is the sheet of the PDF, "a4" or "us-letter"."""
+    """A whole report; ``paper`` is the sheet of the PDF, "a4" or "us-letter".
+
+    ``about`` says for whom it is and by whom, as pairs; ``logo`` names the picture of it, "" for none; ``files`` are
+    those beside it.
+    """
 
     title: str
     subtitle: str
@@ -95,21 +119,60 @@ class Report:
     sections: tuple[ReportSection, ...]
     footer: str
     paper: str = "a4"
+    about: tuple[tuple[str, str], ...] = ()
+    logo: str = ""
+    files: tuple[Linked, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Everything as plain data, for templates: each block says of which kind it is."""
         out = asdict(self)
         out["front"]["picture"]["kind"] = Picture.kind
+        count = 0
         for section, plain in zip(self.sections, out["sections"], strict=True):
-            plain["blocks"] = [{"kind": block.kind, **asdict(block)} for block in section.blocks]
+            plain["blocks"] = [{"kind": block.kind, **_plain(block)} for block in section.blocks]
+            for block in plain["blocks"]:
+                if block["kind"] == Picture.kind:
+                    count += 1
+                    block["number"] = count
         return dict(unbroken(out))
+
+
+def _plain(block: Block) -> dict[str, Any]:
+    out = asdict(block)
+    if isinstance(block, Grid):
+        out["rows"] = aligned(block.rows, block.numeric)
+    return out
+
+
+_NUMBER = re.compile(rf"([−+]?[\d{SEPARATOR}]+)(\.\d+)?(.*)", re.DOTALL)
+FIGURE, POINT = "\u2007", "\u2008"
+"""Spaces as wide as a digit and as a decimal point."""
+
+
+def aligned(rows: Sequence[Sequence[str]], numeric: Sequence[int]) -> list[list[str]]:
+    """The rows of a table with the decimal points of a column below each other, where all its cells have one unit."""
+    out = [list(row) for row in rows]
+    for column in (i for i in numeric if all(i < len(row) for row in rows)):
+        parts = [_NUMBER.fullmatch(row[column]) for row in rows]
+        found = [part for part in parts if part is not None]
+        places = [len(part[2] or "") for part in found]
+        if not found or len({part[3] for part in found}) != 1 or len(set(places)) == 1 or "10" in found[0][3]:
+            continue
+        for row, part in zip(out, parts, strict=True):
+            if part is not None:
+                short = max(places) - len(part[2] or "")
+                pad = POINT + FIGURE * (short - 1) if not part[2] else FIGURE * short
+                row[column] = f"{part[1]}{part[2] or ''}{pad if short else ''}{part[3]}"
+    return out
 
 
 _KEPT_TOGETHER = re.compile(
     r"(?<=\bs) (?==)|(?<=\bs =) (?=\d)|(?<=\bB) (?==)|(?<=\bB =) (?=L)"
-    r"|(?<=\bL) (?==)|(?<=\bL =) (?=\d)|(?<=±) (?=error)"
+    r"|(?<=\bL) (?==)|(?<=\bL =) (?=\d)|(?<=±) (?=error|\d)"
+    r"|(?<=\d) (?=(?:[GMkmµnp]?(?:N|Pa|J|m)\b|lbf|ft|in\b|psi|%|B/L|× 10))"
+    r"|(?<=×) (?=10)"
 )
-"""Spaces at which no line may end: in s = 1, s/L = 0.5, B = L = 1 and ± error."""
+"""Spaces at which no line may end: in s = 1, s/L = 0.5, B = L = 1, ± error, and between a number and its unit."""
 
 
 def unbroken(item: Any) -> Any:

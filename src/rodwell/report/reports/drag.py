@@ -25,6 +25,7 @@ from rodwell.studies.drag.words import (
     sentences,
     sentences_of,
     torque,
+    unbalanced,
     yields,
 )
 
@@ -111,9 +112,9 @@ def _strength(found: Drag) -> Status:
 
 
 def _numbers(found: Drag) -> Status:
-    if found.balanced:
+    if not unbalanced(found):
         return Status("Numbers", GOOD, "balanced", "the work of the ends is that of gravity and friction to 1e-8")
-    return Status("Numbers", BAD, "not balanced", "work is missing in a run: do not use these numbers")
+    return Status("Numbers", BAD, "not balanced", "; ".join(unbalanced(found)))
 
 
 def _operations(found: Drag) -> ReportSection:

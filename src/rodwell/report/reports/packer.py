@@ -8,7 +8,7 @@ from rodwell._version import __version__
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, OPEN, Status
 from rodwell.quantities.units import System
 from rodwell.report.reports.content import Front, Grid, Number, Picture, Report, ReportSection, Words
-from rodwell.report.reports.texts import conversions, error_text, inputs
+from rodwell.report.reports.texts import conversions, inputs
 from rodwell.studies.packer.packer import PackerAnswer
 from rodwell.studies.packer.tables import SIGNS, rows, shown
 from rodwell.studies.packer.words import sentences
@@ -22,11 +22,7 @@ def packer_report(answer: PackerAnswer) -> Report:
     today = datetime.date.today().isoformat()
     found = rows(answer)
     text = sentences(answer)
-    numbers = tuple(
-        Number(row.label, shown(row, system)[0], _plus_minus(shown(row, system)[1]), row.note)
-        for row in found
-        if row.name in ON_FRONT
-    )
+    numbers = tuple(Number(row.label, shown(row, system)[0], note=row.note) for row in found if row.name in ON_FRONT)
     picture = Picture(
         "packer",
         "Changes of length one after the other, and the movement of the end",
@@ -84,7 +80,3 @@ def _statuses(answer: PackerAnswer) -> tuple[Status, ...]:
 def _system(answer: PackerAnswer) -> System:
     assert answer.case.scales is not None
     return answer.case.scales.system
-
-
-def _plus_minus(error: str) -> str:
-    return error if error == "exact" else error_text(error)

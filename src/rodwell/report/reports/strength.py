@@ -6,12 +6,12 @@ from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.reach import unreached
-from rodwell.answers.words.verdict import local_sentence
-from rodwell.answers.words.wording import quantity
-from rodwell.quantities.text import amount, minus, plain, supported
+from rodwell.answers.words.verdict import load_text, local_sentence, share_shown
+from rodwell.answers.words.wording import forces_of, place_text, quantity
+from rodwell.quantities.text import amount, minus, number_text, percent, plain
 from rodwell.quantities.units import SI, System
 from rodwell.quantities.value import Value
-from rodwell.report.reports.content import Block, Grid, Picture, ReportSection, Words
+from rodwell.report.reports.content import Block, Grid, Items, Picture, ReportSection, Words
 from rodwell.strength.limits import LIFTS_OFF, Limit
 from rodwell.strength.loaded import LoadedRod
 
@@ -36,7 +36,8 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
     borne = a.case.cylinder is not None or a.case.supports is not None
     columns = [
         ("Load as given", "given", True),
-        ("Effective, at s = 1", "force", True),
+        ("The other end bears", "other", a.case.scales is not None and a.case.problem.axial_weight != 0.0),
+        ("Effective, at s = 1", "force", a.case.scales is None),
         ("The rod", "what", True),
         ("Largest contact per length", "contact", True),
         ("Contact in all", "total", True),
@@ -53,8 +54,8 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
         numeric=tuple(i for i in range(len(shown_columns)) if i not in (0, 2)),
     )
     note = (
-        "Tension positive. The approach of the ends is that by buckling. Where the rod has left the wall, or mode 1 "
-        "has lost its stability, no numbers are given."
+        f"{'Effective forces. ' if a.case.with_fluids else ''}The approach of the ends is that by buckling. Where the "
+        "rod has left the wall, or mode 1 has lost its stability, no numbers are given."
     )
     missed = [Words(sentence, "warning") for sentence in unreached(a)]
     return (ReportSection("At the loads that act", (table, Words(note, "small"), *missed)),)
@@ -67,13 +68,14 @@ def _strong(a: Assessment) -> bool:
 def _window(a: Assessment) -> ReportSection:
     """Window, limits, and the figure along the rod."""
     local = local_sentence(a)
-    caption = "Effective axial force along the rod, tension positive"
-    caption += ", with the local limits of an endless rod at its lower end." if local else "."
+    caption = "Effective axial force along the rod, "
+    caption += "tension positive" if a.case.scales is None else "compression positive"
+    caption += ", with the compression at which an endless rod buckles and lifts off." if local else "."
     if a.section is not None:
         state = shown(along(a, 2)).state.name
         caption += (
-            f" Stress in the rod {state}: axial from the real force, bending at the outer surface (either sign), and "
-            "the largest von Mises stress of each section."
+            f" Stress in the rod {state}, tension positive: axial from the real force, bending at the outer surface "
+            "(either sign), and the largest von Mises stress of each section."
         )
     alternative = f"Force{' and stress' if a.section is not None else ''} along the rod"
     blocks: list[Block] = [Words(_window_text(a)), _limits(a)]
@@ -84,7 +86,7 @@ def _window(a: Assessment) -> ReportSection:
 def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
     if a.section is None:
         return ()
-    head = ["State", "Largest von Mises", "± error", "Where", "axial there", "bending there, ±", "torsion there"]
+    head = ["State", "Largest von Mises", "±\u00a0error", "Where", "axial there", "bending there, ±", "torsion there"]
     rows = tuple(_stress(a, state) for state in a.states)
     note = (
         "Lamé's stresses from the pressures, the real axial force in the wall, bending √(M₂² + M₃²) and torsion M₁ of "
@@ -104,17 +106,22 @@ def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
 
 
 def _formulas(a: Assessment) -> tuple[ReportSection, ...]:
+    """Formulas that apply to the rod beside the exact loads; below the table those that do not, and why."""
     if not a.formulas:
         return ()
-    head = ("Formula", "Load", "at", "Exact there", "Difference", "Verdict", "Beside", "Validity")
+    head = ("Formula", "Gives, as compression", "at", "Exact there", "Difference", "It is", "Held against")
+    rows = tuple(_formula(a, row) for row in a.formulas if row.valid)
     note = (
         "Compression positive, at the place where the formula's force is measured: top s = 1, middle, bottom s = 0. "
-        "Difference: formula/exact − 1. Unsafe: the formula's load is above the exact one; safe: below it, and the "
-        "formula is valid for the rod; low: below it, but the formula is not meant for such a rod. Helical formulas "
-        "stand beside lift-off, where a rod on the wall ends. rodwell audit compares every formula, coils included."
+        "Difference: formula/exact − 1. Unsafe: above the exact load. Safe but useless: below it by half or more. "
+        "Helical formulas stand beside lift-off, where a rod on the wall ends. rodwell audit compares every formula."
     )
-    table = Grid(head, tuple(_formula(a, row) for row in a.formulas), numeric=(1, 3, 4))
-    return (ReportSection("Formulas of practice beside the exact loads", (table, Words(note, "small"))),)
+    blocks: list[Block] = [Grid(head, rows, numeric=(1, 3, 4)), Words(note, "small")] if rows else []
+    left_out = [row for row in a.formulas if not row.valid]
+    if left_out:
+        blocks.append(Words("Not applicable to this rod, and so not shown:", "small"))
+        blocks.append(Items(tuple(f"{row.formula.name}: {'; '.join(row.reasons)}." for row in left_out)))
+    return (ReportSection("Formulas of practice beside the exact loads", tuple(blocks)),)
 
 
 def _system(a: Assessment) -> System:
@@ -128,7 +135,7 @@ def _text(a: Assessment, value: float, dimension: str, digits: int = 5) -> str:
     """A number in units B = L = 1 in those of the case."""
     if a.case.scales is not None:
         return a.case.scales.text(value, dimension, digits)
-    return minus(f"{value:.{digits}g} {_UNITS[dimension]}")
+    return f"{plain(value, digits)} {_UNITS[dimension]}"
 
 
 def _sized(a: Assessment, number: Value, dimension: str, digits: int = 4) -> str:
@@ -143,16 +150,14 @@ def _beside_error(a: Assessment, number: Value, dimension: str) -> str:
     """The same with the digits that its error supports, where that is shown."""
     if a.case.scales is not None:
         return a.case.scales.beside_error(number, dimension)
-    count = supported(number, 6)
-    return minus(f"{number.value:.{count}g} {_UNITS[dimension]}") if count else "0"
+    return f"{number_text(number, 6)} {_UNITS[dimension]}"
 
 
 def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     load, state = at.load, at.state
-    kind = "real" if load.real else "effective"
-    given = _system(a).text(load.given, "force", 6) if a.case.scales is not None else f"{load.given:.6g} B/L²"
     row = {
-        "given": f"{minus(given)} at the {'bottom, s = 0' if load.bottom else 'top, s = 1'} ({kind})",
+        "given": load_text(a.case, load),
+        "other": forces_of(a.case).other(Value(load.force)).strip(" ()"),
         "force": _text(a, load.force, "force"),
         "what": WORDS.get(at.what, f"not known: {at.why}"),
     }
@@ -167,7 +172,7 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
         "shortening": _sized(a, state.shortening, "length") if not state.straight else "0",
         "stress": "" if stress is None else quantity(_system(a), stress, "stress"),
         "safety": "" if stress is None or stress.safety is None else amount(stress.safety, 3),
-        "used": f"{100.0 * max(used):.3g} %" if used else "",
+        "used": f"{plain(100.0 * max(used), 3)} %" if used else "",
     }
 
 
@@ -178,45 +183,51 @@ def _window_text(a: Assessment) -> str:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
     end, width = window.end, window.width
     if end is None or width is None:
-        down_to = max(a.computed.until, a.branch.reach[0])  # it may end before it is where it was to go
-        return f"No lift-off was found down to {_text(a, down_to, 'force')} at s = 1."
+        far = max(a.computed.until, a.branch.reach[0])  # it may end before it is where it was to go
+        return f"No lift-off was found down to {forces_of(a.case).load(Value(far), other=True)}."
     if not end.buckled:
         return "There is none: the shape into which the rod buckles is unstable from the start (under dead loads)."
-    percent = "" if window.percent is None else f", {window.percent:.3g} % of the compression at s = 0 at buckling"
-    text = f"From buckling to {end.name} {_sized(a, width, 'force', 5)} of compression can be added{percent}"
+    share = share_shown(a)
+    part = "" if share is None else f", {percent(share)} of that{forces_of(a.case).at_end} at buckling"
+    text = f"From buckling to {end.name} {_sized(a, width, 'force')} of compression can be added{part}"
     text += "; the buckled shape lies on the wall and is stable all the way (under dead loads)"
     limit = a.limiting
     return text + ("." if limit is None else f". What limits first is {limit.name}.")
 
 
 def _limits(a: Assessment) -> Grid:
-    """Buckling, and what gives after it, or before it."""
-    weight, first = a.case.problem.hung_weight, Limit("buckling", a.window.buckling)
+    """Buckling, and what gives after it, or before it, at both ends where they differ."""
+    said, first = forces_of(a.case), Limit("buckling", a.window.buckling)
+    two = said.scales is None or said.weight != 0.0
     rows = []
     for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
         if limit.load is None:
-            rows.append((_upper(limit.name), "at any force", "", "", ""))
+            rows.append((_upper(limit.name), "at any force", *([""] if two else []), "", ""))
             continue
-        note = "" if limit.s is None else f"at s/L = {limit.s:.4g}"
+        note = "" if limit.s is None else place_text(a.case, Value(limit.s))
         if limit is not first and limit.kind != LIFTS_OFF and not limit.buckled:
             note += "; before the rod buckles, which it then does not do elastically"
         rows.append(
             (
                 "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
-                _beside_error(a, limit.load, "force"),
-                _beside_error(a, Value(limit.load.value - weight, limit.load.error), "force"),
-                _error(_text(a, limit.load.error, "force", 1)),
+                *(_beside_error(a, load, "force") for load in _both_ends(a, limit.load)[: 1 + two]),
+                _text(a, limit.load.error, "force", 1),
                 note.removeprefix("; "),
             )
         )
-    head = ("What", "End force at s = 1", "Effective force at s = 0", "± error", "Remark")
-    return Grid(head, tuple(rows), numeric=(1, 2, 3))
+    heads = ("End force at s = 1", "Effective force at s = 0")
+    if said.scales is not None:
+        there = "the top" if said.bottom else "the bottom"
+        heads = (f"Compression{said.at_end}", f"at {there}")
+    head = ("What", *heads[: 1 + two], "±\u00a0error", "Where")
+    return Grid(head, tuple(rows), numeric=tuple(range(1, 3 + two)))
 
 
-def _error(text: str) -> str:
-    """An error with its unit, small numbers without an exponent: "700 nN", not "7e+02 nN"."""
-    value, _, unit = text.partition(" ")
-    return minus(f"{plain(float(value.replace('−', '-')), 1)} {unit}")
+def _both_ends(a: Assessment, load: Value) -> tuple[Value, Value]:
+    """A load at the end shown and at the other one: compression, or without dimensions tension positive."""
+    said = forces_of(a.case)
+    here, there = said.compression(load), Value((0.0 if said.bottom else said.weight) - load.value, load.error)
+    return (here, there) if said.scales is not None else (here.times(-1.0), there.times(-1.0))
 
 
 def _upper(text: str) -> str:
@@ -230,8 +241,8 @@ def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
     row = (
         f"{state.name}, {'straight' if state.straight else 'buckled'}",
         system.beside_error(stress, "stress"),
-        _error(system.text(stress.error, "stress", 1)),
-        f"s/L = {stress.s:.4g}, {stress.fibre}",
+        system.text(stress.error, "stress", 1),
+        f"{place_text(a.case, Value(stress.s))}, {stress.fibre}",
         *(system.text(part, "stress") for part in (stress.axial, stress.bending, stress.torsion)),
     )
     return row if stress.safety is None else (*row, amount(stress.safety))
@@ -248,7 +259,6 @@ def _formula(a: Assessment, row: FormulaRow) -> tuple[str, ...]:
         row.formula.place or "",
         _text(a, main.exact, "force"),
         "–" if main.percent is None else minus(f"{main.percent:+.1f} %"),
-        row.verdict,
+        row.judgement,
         {"critical": "critical load", "lift_off": "lift-off"}[row.against],
-        "inside" if row.valid else "outside: " + "; ".join(row.reasons),
     )

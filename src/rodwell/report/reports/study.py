@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Iterable
 
 from rodwell._version import __version__
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, Status
+from rodwell.case.about import NOBODY, About
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
-from rodwell.report.reports.texts import error_text
+from rodwell.report.reports.files import linked
+from rodwell.report.reports.front import LOGO
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
@@ -24,9 +27,16 @@ from rodwell.studies.sweep.tables import (
     worst_points,
 )
 
+FILES = {
+    "points.csv": "every point with all digits and the error of each number",
+    "points.xlsx": "the same as a workbook",
+    "study.json": "the same as data",
+    "case.toml": "the study as it was read",
+}
 
-def study_report(study: Study) -> Report:
-    """Return the content of a study's report."""
+
+def study_report(study: Study, files: Iterable[str] = (), *, about: About = NOBODY) -> Report:
+    """Return the content of a study's report; ``files`` are the names of those beside it."""
     today = datetime.date.today().isoformat()
     return Report(
         title=study.title,
@@ -37,6 +47,9 @@ def study_report(study: Study) -> Report:
         footer=f"Computed by rodwell {__version__} from {study.source}. The theory is geometrically exact for a rod "
         "that stays on the wall. Not included: friction, joints, curvature of the hole, dynamics.",
         paper="us-letter" if study.physical and study.system.name == "field" else "a4",
+        about=about.lines,
+        logo="" if about.logo is None else LOGO,
+        files=linked(files, FILES),
     )
 
 
@@ -49,8 +62,7 @@ def _front(study: Study) -> Front:
         if worst is None or load is None:
             continue
         label = f"Least compression at s = 1 at which it {what}"
-        error = study.system.text(load.error, "force", 1) if study.physical else f"{load.error:.1g} B/L²"
-        numbers.append(Number(label, load_text(study, load.value), error_text(error), study.rod_inputs(worst)))
+        numbers.append(Number(label, load_text(study, load.value), note=study.rod_inputs(worst)))
     return Front(
         verdict=text[0],
         statuses=(_status(study), *_at_loads(study), *_theory(study)),
@@ -59,7 +71,7 @@ def _front(study: Study) -> Front:
             "curves",
             "Compression at buckling and lift-off, and contact force, over the varied input",
             "Above: end compression at which the straight rod buckles (solid), and at which the first mode leaves the "
-            "wall (dashed)"
+            "wall (dash-dotted); upright strokes: another mode comes first"
             + _drawn_too(study)
             + f". Below: largest contact force per length at {'the load' if study.load_varies else 'lift-off'}. "
             "A curve is interrupted where a point has no result; points are joined by straight lines.",
@@ -168,4 +180,4 @@ def _inputs(study: Study) -> ReportSection:
         for section, values in study.given.items()
         for key, value in (values.items() if hasattr(values, "items") else [])
     )
-    return ReportSection("Inputs", (Grid(("As given", ""), given),))
+    return ReportSection("Inputs", (Grid(("Key of the case file", "As given"), given),))

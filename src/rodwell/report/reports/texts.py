@@ -9,9 +9,10 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.words.shown_loads import shown_sensitivities
+from rodwell.answers.words.wording import forces_of, place_text
 from rodwell.case.case import Case
-from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus, supported
+from rodwell.quantities.text import error_digit, minus, number_text, plain
 from rodwell.quantities.value import Value
 
 PLAIN_UNITS = {
@@ -23,33 +24,64 @@ PLAIN_UNITS = {
 
 def number(known: Value) -> str:
     """A number with the digits that its error estimate supports, ten at most; the last one is in doubt."""
-    digits = supported(known, 10)
-    return minus(f"{known.value:.{digits}g}") if digits and known.value else "0"
+    return number_text(known)
 
 
 def short(error: float) -> str:
     """An error of one digit."""
-    return minus(f"{error:.0e}")
-
-
-def error_text(text: str) -> str:
-    """An error of one digit, given as text with its unit, without an exponent where none is needed: 10 nN."""
-    size, _, unit = text.replace("−", "-").partition(" ")
-    return minus(f"± {float(size):.3g} {unit}").rstrip()
+    return error_digit(error)
 
 
 def rows(numbers: Iterable[KeyNumber], case: Case) -> list[dict[str, str]]:
-    """The table of key numbers."""
+    """The table of key numbers, as the case's reader counts: compression at the end shown, places by their depth.
+
+    Without dimensions: end forces at s = 1, tension positive, in units B = L = 1.
+    """
+    if case.scales is None:
+        return plain_rows(numbers)
+    return [_row(key, case) for key in numbers if not (key.name.endswith("_bottom") and key.dimension == "force")]
+
+
+def plain_rows(numbers: Iterable[KeyNumber]) -> list[dict[str, str]]:
+    """The key numbers in units B = L = 1: end forces at s = 1, tension positive."""
     return [
         {
             "label": key.label,
-            "physical": key.text(case),
-            "plain": f"{number(key.number)} {PLAIN_UNITS[key.dimension]}".rstrip(),
-            "error": minus(f"{key.error:.0e}".replace("e-0", "e-")),
-            "note": key.note,
+            "value": f"{number(key.number)} {PLAIN_UNITS[key.dimension]}".rstrip(),
+            "error": f"{short(key.error)} {PLAIN_UNITS[key.dimension]}".rstrip(),
+            "note": "; ".join(filter(None, (_places(key), key.note))),
         }
         for key in numbers
     ]
+
+
+def _places(key: KeyNumber) -> str:
+    return f"at s/L = {', '.join(plain(s, 6) for s in key.s)}" if key.s else ""
+
+
+END_FORCE, REAL = ", end force at s = 1", ", at s = 1"
+"""How the labels of end forces end, and of real ones."""
+
+
+def _row(key: KeyNumber, case: Case) -> dict[str, str]:
+    """One key number of a case with dimensions."""
+    assert case.scales is not None
+    said, label, known, notes = forces_of(case), key.label, key.number, [key.note]
+    if label.endswith(END_FORCE):
+        label = f"{label.removesuffix(END_FORCE)}, compression{said.at_end}"
+        notes.append(said.other(known).strip(" ()"))
+        known = said.compression(known)
+    elif key.name.endswith("_real"):
+        label, known = f"{label.removesuffix(REAL)}, compression at the top", known.times(-1.0)
+    elif key.name == "window":
+        notes = [key.note.partition("; ")[2] or key.note]
+    notes += [place_text(case, Value(s)) for s in key.s]
+    return {
+        "label": label,
+        "value": case.scales.beside_error(known, key.dimension),
+        "error": case.scales.text(known.error, key.dimension, 1),
+        "note": "; ".join(filter(None, notes)),
+    }
 
 
 def inputs(case: Case) -> list[tuple[str, str]]:
@@ -68,11 +100,13 @@ def derived(case: Case) -> list[tuple[str, str]]:
     """The dimensionless problem and its scales."""
     p = case.problem
     out = [
-        ("weight γ = mg L³/B", f"{p.weight:.8g}"),
-        ("angle α from the vertical", f"{p.alpha:g}°"),
-        ("clearance Δ/L (between the axes)", f"{p.clearance:.6g}"),
-        ("Poisson's ratio ν", f"{p.poisson:g}") if p.torsion is None else ("torsional stiffness C/B", f"{p.torsion:g}"),
-        ("end twisting moment T₁", f"{p.twist:g} B/L"),
+        ("weight γ = mg L³/B", plain(p.weight, 8)),
+        ("angle α from the vertical", f"{plain(p.alpha, 8)}°"),
+        ("clearance Δ/L (between the axes)", plain(p.clearance, 6)),
+        ("Poisson's ratio ν", plain(p.poisson, 6))
+        if p.torsion is None
+        else ("torsional stiffness C/B", plain(p.torsion, 6)),
+        ("end twisting moment T₁", f"{plain(p.twist, 6)} B/L"),
     ]
     if case.scales is not None:
         scales = case.scales
@@ -95,7 +129,7 @@ def certificate(found: Certificate) -> dict[str, Any]:
     """The certificate for reading: the largest residual, its limit, and the residuals by group."""
 
     def two_digits(value: float) -> str:
-        return minus(f"{value:.1e}")
+        return plain(value, 2)
 
     groups: dict[str, float] = {}
     for name, value in found.residuals.items():
@@ -114,15 +148,15 @@ def certificate(found: Certificate) -> dict[str, Any]:
 def sensitivities(computed: Computed) -> list[dict[str, Any]]:
     """Elasticities of the loads, and their uncertainty from the inputs."""
     out = []
-    for load, spread in zip(computed.sensitivities, computed.spreads, strict=True):
+    for load, spread in shown_sensitivities(computed):
         e = load.elasticities() if load.force != 0.0 else {}
         names = ("clearance", "weight_per_length", "stiffness", "length", "alpha")
-        cells = [minus(f"{e[name].value:+.3f} %") if e else "" for name in names]
+        cells = [minus(f"{e[name].value:+.2f} %") if e else "" for name in names]
         size = ""
         if spread is not None:
             scales = computed.case.scales
-            plain = f"{spread.total:.2g} B/L²"
-            size = "±" + (plain if scales is None else scales.system.text(spread.total, "force", 3))
+            total = f"{plain(spread.total, 2)} B/L²" if scales is None else scales.system.text(spread.total, "force", 2)
+            size = f"± {total}"
         out.append({"name": load.name, "cells": cells, "spread": size})
     return out
 
@@ -151,23 +185,27 @@ KINDS = {
 """Kinds of special points in words."""
 
 
-def special(branches: Iterable[Branch], scales: Scales | None) -> list[dict[str, Any]]:
-    """Special points of every branch."""
-    out = []
+def special(branches: Iterable[Branch], case: Case) -> list[dict[str, Any]]:
+    """Special points of every branch: loads as the case's reader counts."""
+    out, scales, said = [], case.scales, forces_of(case)
     for branch in branches:
         assert branch.mode is not None
         for point in branch.special_points:
+            shown = said.compression(point.load)
             out.append(
                 {
-                    "mode": branch.mode.number,
+                    "mode": str(branch.mode.number),
                     "kind": KINDS[point.kind],
-                    "physical": "" if scales is None else scales.beside_error(point.load, "force"),
-                    "plain": number(point.load),
-                    "error": "" if point.kind == "end" else short(point.error),
+                    "load": f"{number(point.load)}" if scales is None else scales.beside_error(shown, "force"),
+                    "error": ""
+                    if point.kind == "end"
+                    else short(point.error)
+                    if scales is None
+                    else scales.text(point.error, "force", 1),
                     "index": f"{point.index_before} → {point.index_after}"
                     if point.index_before != point.index_after
                     else str(point.index_after),
-                    "place": ", ".join(f"{s:.6g}" for s in point.s),
+                    "place": "; ".join(place_text(case, Value(s)) for s in point.s),
                     "remark": "" if branch.meets_tolerance(point) else "misses the tolerance",
                 }
             )

@@ -14,8 +14,9 @@ from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain as text_of
 from rodwell.quantities.tolerance import RTOL
 
 
@@ -116,7 +117,10 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
-    refuse_sections(problem)
+    refuse_sections(
+        problem.sections,
+        "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
+    )
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)
@@ -125,24 +129,14 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
     return Audit(problem, scales, title, loads, notes, rows, others, applied)
 
 
-def refuse_sections(problem: Problem) -> None:
-    """Raise for a string of sections: formulas of practice are those of one pipe."""
-    if problem.sections:
-        raise InputError(
-            "sections",
-            f"{len(problem.sections)} of them",
-            "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
-        )
-
-
 def _others(rod: FormulaInputs, load: ExactLoad, problem: Problem) -> tuple[Other, ...]:
     return tuple(_other(f, rod, load, problem) for f in FORMULAS.values() if f.kind not in AGAINST)
 
 
 def _at(case: Case, load: AppliedLoad, rod: FormulaInputs, critical: ExactLoad) -> AtApplied:
     """The other formulas at a load that acts."""
-    given = f"{load.given:.6g} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
+    given = f"{text_of(load.given, 6)} B/L²" if case.scales is None else case.scales.system.text(load.given, "force", 6)
     number = "" if len(case.applied) == 1 else f" {1 + case.applied.index(load)}"
-    label = f"applied load{number}, {minus(given)} at the {'bottom' if load.bottom else 'top'}"
+    label = f"applied load{number}, {given} at the {'bottom' if load.bottom else 'top'}"
     exact = ExactLoad("applied", label, load.force, 0.0, case.problem.hung_weight)
     return AtApplied(load, exact, load.force >= critical.force, _others(rod, exact, case.problem))

@@ -169,8 +169,10 @@ def calibrate(
     Raises
     ------
     InputError
-        If there are fewer measurements than factors, or none of them depends on friction.
+        If there are fewer measurements than factors, none of them depends on friction, or the string is stiff.
     """
+    if well.settings.string == "stiff":
+        raise InputError("--calibrate", None, 'is made for the soft string only: leave well.string = "stiff" out')
     tell = progress or (lambda _what, _done: None)
     start = np.array([part.friction for part in well.hole])
     told = _told(well, measured, start)

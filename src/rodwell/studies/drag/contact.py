@@ -46,13 +46,14 @@ PIECE = (
     "axial",
     "turning",
     "helix_from",
+    "stiff",
 )
 """What a piece of string in a piece of hole is, from its lower end, all constant along it: its length; the angle of the
 arc from the upper station of the course to the lower end; κ; cos α and g·N at that station; g·b; buoyed weight w; B/r;
 ± μ times the axial part of the slip (positive: friction adds to the tension upwards); μ r_outer times its part around
-the string; β from which the string is helical."""
+the string; β from which the string is helical; what bending adds to the contact force of the straight-lying string."""
 
-LENGTH, ANGLE, CURVATURE, COSINE, SLOPE, ACROSS, WEIGHT, RATIO, AXIAL, TURNING, HELIX_FROM = range(11)
+LENGTH, ANGLE, CURVATURE, COSINE, SLOPE, ACROSS, WEIGHT, RATIO, AXIAL, TURNING, HELIX_FROM, STIFF = range(12)
 
 
 class Law(NamedTuple):
@@ -138,10 +139,10 @@ def state_of(piece, q, force):
 def contact(piece, law, lateral, force, state, sign):
     """Contact force per length in a given state; ``sign`` is that of F κ + w g·N where the hole stays in a plane."""
     if state == STRAIGHT and piece[ACROSS] == 0.0:
-        return sign * in_plane(piece, lateral, force)
+        return sign * in_plane(piece, lateral, force) + piece[STIFF]
     q = pressed(piece, lateral, force)
     if state == STRAIGHT:
-        return q
+        return q + piece[STIFF]
     if law.kind[0] == CORRELATION:
         return q if state == SINUSOIDAL else q + 0.25 * force * force / piece[RATIO]
     if state == SINUSOIDAL:

@@ -13,6 +13,7 @@ import numpy as np
 from rodwell.errors import InputError
 from rodwell.faces import Shown, drawn, plain
 from rodwell.quantities.value import Value
+from rodwell.studies.drag.bending import StiffRun, stiff_run
 from rodwell.studies.drag.history import History, run_with_history, states_differ
 from rodwell.studies.drag.laws import STRAIGHT_LAW, Contact, contact_named, correlation
 from rodwell.studies.drag.lock_up import Reach, reach, transfer
@@ -54,7 +55,7 @@ class OperationResult:
     bounds
         The same with the helix wherever it may be ("early") and with the sinusoidal state wherever it may be ("late").
     compared
-        The same by other laws: "straight" (without buckling), "correlation", "exact".
+        The same by other laws: "straight" (without buckling), "correlation", "exact"; for a stiff string "soft" too.
     reach
         How deep it can go, by rule ("early" and "late"); empty for what does not go down.
     transfer
@@ -67,6 +68,8 @@ class OperationResult:
         Push that is left in N, before that of string, block and injector ends: worse of the bounds; None if locked.
     force_errors
         Errors of the forces along the string in N, (m,), for the rows of ``run``.
+    settled
+        Whether a stiff string's axial force and bending have settled together; True for a soft one.
     """
 
     operation: Operation
@@ -80,6 +83,7 @@ class OperationResult:
     balance: Value | None
     margin: Value | None
     force_errors: np.ndarray
+    settled: bool = True
 
     @property
     def possible(self) -> bool:
@@ -133,12 +137,15 @@ def drag(well: Well, progress: Progress | None = None) -> Drag:
     Raises
     ------
     InputError
-        If the well has no operation.
+        If the well has no operation, or asks for a road map of a stiff string.
     """
     if not isinstance(well, Well):
         raise InputError("well", well, 'must be a rodwell Well: Well.read("well.toml") or Well.from_dict')
     if not well.operations:
         raise InputError("well.operation", None, "is missing: give [[well.operation]] with a kind, for example run-in")
+    if well.settings.string == "stiff" and well.settings.road_map is not None:
+        what = "is computed for the soft string only: leave it out, or [well] string"
+        raise InputError("well.road_map", None, what)
     tell = progress or (lambda _what, _done: None)
     cutter = Cutter(well)
     contact = contact_named(well.settings.contact)
@@ -146,7 +153,8 @@ def drag(well: Well, progress: Progress | None = None) -> Drag:
     results = []
     for i, operation in enumerate(well.operations):
         tell(operation.name, 0.7 * i / len(well.operations))
-        results.append(_computed(well, cutter, history, operation))
+        computed = _stiff if well.settings.string == "stiff" else _computed
+        results.append(computed(well, cutter, history, operation))
     return Drag(well, tuple(results), contact, road_map(well, lambda what, done: tell(what, 0.7 + 0.3 * done)))
 
 
@@ -167,17 +175,48 @@ def _computed(well: Well, cutter: Cutter, history: History, operation: Operation
         first = reach(cutter, operation, contact, "early", deepest)
         reaches = {"early": first, "late": first if contact.one_state else
                    reach(cutter, operation, contact, "late", deepest)}  # fmt: skip
-    known = [b.hook_load for b in (ends, *bounds.values())]
-    margin = None
-    if all(load is not None for load in known):
-        worst = min((load for load in known if load is not None), key=lambda load: load.value)
-        margin = Value(worst.value + well.push, worst.error)
+    margin = _margin(well, ends, bounds)
     return OperationResult(
         operation, one, ends, bounds, compared, reaches,
         transfer(cutter, operation, contact, rule) if down else None,
         strength_of(well, one), balance(one, well.survey) if one.arrived else None, margin,
         errors_along(one, rough),
     )  # fmt: skip
+
+
+def _stiff(well: Well, cutter: Cutter, history: History, operation: Operation) -> OperationResult:
+    """The same for a stiff string; how deep it can go is not searched."""
+    contact, rule = history.contact, well.settings.state_rule
+    several = states_differ(history, operation)
+    remembered = history.before(operation) if rule == "history" else ()
+    mine = stiff_run(cutter, operation, contact, rule, remembered)
+    ends = _stiff_ends(mine)
+    bounds = {
+        name: _stiff_ends(stiff_run(cutter, operation, contact, name)) if several else ends
+        for name in ("early", "late")
+    }
+    laws = {"straight": STRAIGHT_LAW, "correlation": correlation(), "soft": contact}
+    compared = {name: _by_rule(cutter, operation, law, "equal-energy") for name, law in laws.items()}
+    one = mine.run
+    return OperationResult(
+        operation, one, ends, bounds, compared | {contact.name: ends}, {}, None, strength_of(well, one, mine.curvature),
+        balance(one, well.survey) if one.arrived else None, _margin(well, ends, bounds),
+        np.full(len(one.rows), mine.hook_load.error), mine.settled,
+    )  # fmt: skip
+
+
+def _stiff_ends(found: StiffRun) -> Ends:
+    return Ends(found.hook_load, found.torque) if found.run.arrived else Ends(None, None)
+
+
+def _margin(well: Well, ends: Ends, bounds: dict[str, Ends]) -> Value | None:
+    """Push that is left, by the worse of the bounds; None if any of them locks up."""
+    known = [b.hook_load for b in (ends, *bounds.values())]
+    loads = [load for load in known if load is not None]
+    if len(loads) < len(known):
+        return None
+    worst = min(loads, key=lambda load: load.value)
+    return Value(worst.value + well.push, worst.error)
 
 
 def _by_rule(cutter: Cutter, operation: Operation, contact: Contact, rule: str) -> Ends:

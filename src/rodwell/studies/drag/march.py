@@ -107,7 +107,7 @@ def march(pieces, law, force, torque, tolerance, longest, most, rows):
     Parameters
     ----------
     pieces
-        (k, 11), from the bit up.
+        (k, 12), from the bit up.
     law
         Contact by local state.
     force, torque

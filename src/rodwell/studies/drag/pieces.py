@@ -72,7 +72,7 @@ class Pieces:
     Attributes
     ----------
     table
-        (k, 11): what kernels take, from the bit up.
+        (k, 12): what kernels take, from the bit up.
     bottom, top
         Measured depths in m of the two ends, (k,).
     section, part
@@ -108,6 +108,7 @@ class Cutter:
         helix_from: float,
         helix_until: float = np.inf,
         remembered: Sequence[Interval] = (),
+        longest: float = np.inf,
     ) -> Pieces:
         """Cut the string with its bit at ``depth`` in m.
 
@@ -119,6 +120,8 @@ class Cutter:
             β from which the string is helical.
         helix_until, remembered
             β down to which it stays helical where it was: between these distances above the bit, in m.
+        longest
+            Longest piece in m.
         """
         courses = self.courses
         edges = [depth - x for pair in remembered for x in pair]
@@ -127,6 +130,10 @@ class Cutter:
         keep = np.concatenate([np.diff(cuts) > SHORTEST_PIECE, [True]])
         keep[0] = True
         cuts = cuts[keep]
+        if longest < np.inf:
+            parts = np.ceil(np.diff(cuts) / longest).astype(int)
+            inner = [a + (b - a) * np.arange(n) / n for a, b, n in zip(cuts[:-1], cuts[1:], parts, strict=True)]
+            cuts = np.append(np.concatenate(inner), cuts[-1])
         top, bottom = cuts[-2::-1], cuts[:0:-1]
         middle = 0.5 * (top + bottom)
         course = np.clip(np.searchsorted(courses.top, middle, side="right") - 1, 0, len(courses.top) - 1)
@@ -145,6 +152,7 @@ class Cutter:
             "ratio": self.stiffness[section] / (0.5 * self.diameters[part] - radius),
             "axial": operation.direction * mu * slips[:, 0],
             "turning": mu * radius * slips[:, 1],
+            "stiff": np.zeros(len(middle)),
             "helix_from": np.where(_within(depth - middle, remembered), helix_until, helix_from),
         }
         return Pieces(np.stack([columns[name] for name in PIECE], axis=1), bottom, top, section, part)

@@ -76,6 +76,7 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "stretch": number(strength.stretch),
         "twist": number(strength.twist),
         "balance": number(one.balance),
+        "settled": one.settled,
         "along": {
             "measured_depth": listed(run.measured_depth),
             "axial_force": listed(run.forces),

@@ -11,7 +11,7 @@ import numpy as np
 
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 from rodwell.quantities.value import Value
-from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL, STRAIGHT
+from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL, STIFF, STRAIGHT
 from rodwell.studies.drag.laws import Contact
 from rodwell.studies.drag.march import ARRIVED, LOCKED, march, summed_contact
 from rodwell.studies.drag.pieces import Cutter, Interval, Pieces
@@ -171,6 +171,8 @@ def run(
     coarse: bool = False,
     crude: bool = False,
     record: bool = True,
+    bent: FloatArray | None = None,
+    longest_piece: float = math.inf,
 ) -> Run:
     """Integrate one operation from the bit up.
 
@@ -186,9 +188,13 @@ def run(
         Whether forces are wanted to 1e-8, to 1e-5: what tells the error of a finer one.
     record
         Whether forces along the string are wanted.
+    bent, longest_piece
+        What bending adds to the contact force of each piece in N/m, (k,), and the longest piece in m.
     """
     place = operation.bit_depth if depth is None else depth
-    pieces = cutter.pieces(operation, place, contact.helix_from(rule), contact.early, remembered)
+    pieces = cutter.pieces(operation, place, contact.helix_from(rule), contact.early, remembered, longest_piece)
+    if bent is not None:
+        pieces.table[:, STIFF] = bent
     start = operation.bit_force if bit_force is None else bit_force
     tolerance, longest = (COARSE, LONGEST_COARSE) if coarse else (FINE, LONGEST)
     tolerance = CRUDE if crude else tolerance
@@ -260,7 +266,8 @@ def balance(one: Run, survey: Survey) -> Value:
     size = abs(one.force) + abs(start) + float(np.sum(np.abs(weights)) + np.sum(np.abs(frictions)))
     turning = float(np.sum(table[:, 9] * summed))
     torque = one.torque - one.operation.bit_torque - turning
-    parts = [abs(left) / size if size else 0.0, abs(torque) / abs(turning) if turning else 0.0]
+    twisting = abs(one.torque) + abs(one.operation.bit_torque) + abs(turning)
+    parts = [abs(left) / size if size else 0.0, abs(torque) / twisting if twisting else 0.0]
     return Value(max(parts), 0.0)
 
 

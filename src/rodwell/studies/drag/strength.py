@@ -46,12 +46,14 @@ class Strength:
     helix_slope: float
 
 
-def strength_of(well: Well, one: Run) -> Strength:
-    """Return what the string bears."""
+def strength_of(well: Well, one: Run, bent: FloatArray | None = None) -> Strength:
+    """Return what the string bears; ``bent`` is the curvature of a stiff string in 1/m at the rows, (m,)."""
     rows = len(one.rows)
     section = one.pieces.section[one.piece]
     depth = tvd_at(well.survey, one.measured_depth)
     curvature = one.column(CURVATURE) + local_curvature(one)
+    if bent is not None:
+        curvature = np.where(one.states == STRAIGHT, bent, np.maximum(curvature, bent))
     true, bending, mises, used = (np.full(rows, np.nan) for _ in range(4))
     strain, turn = np.zeros(rows), np.zeros(rows)
     known = True

@@ -109,6 +109,10 @@ def sentences_of(well: Well, one: OperationResult) -> list[str]:
         said = f"{name}, bit at {depth(well, one.operation.bit_depth)}: hook load {force(well, ends.hook_load)}"
         said += f", torque at surface {torque(well, ends.torque)}" if one.operation.rotating else ""
         out.append(said + ".")
+    soft = one.compared.get("soft")
+    if soft is not None and soft.hook_load is not None and soft.torque is not None:
+        more = f", torque {torque(well, soft.torque)}" if one.operation.rotating else ""
+        out.append(f"{name}, by a soft string: hook load {force(well, soft.hook_load)}{more}.")
     out += _bounds(well, one, name)
     buckled = [f"{NAMES[s]} from {depth(well, high)} to {depth(well, low)}" for low, high, s in one.run.buckled]
     if buckled:
@@ -176,9 +180,18 @@ def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
     return out
 
 
+SOFT_STRING = "Soft string: it follows the hole and bends without resistance."
+STIFF_STRING = (
+    "Stiff string: where it is straight it lies in the hole's clearance with its bending stiffness, hinged in the "
+    "middle at surface, free at the bit; where it is buckled the local state counts. What it remembers of its loads is "
+    "that of the soft string; how deep it can go is not searched: take the soft string for that."
+)
+
+
 def unbalanced(found: Drag) -> list[str]:
-    """Operations whose work does not balance, in words."""
-    return [
+    """Operations whose work does not balance, or whose forces have not settled, in words."""
+    loose = [f"{one.operation.name}: force and bending have not settled" for one in found.operations if not one.settled]
+    return loose + [
         f"{one.operation.name}: work of {one.balance.value:.1e} of all is missing"
         for one in found.operations
         if one.balance is not None and not one.balance.value <= BALANCED
@@ -206,7 +219,8 @@ def assumptions(found: Drag) -> list[str]:
         out.append(rules[well.settings.state_rule])
     out += [
         "Forces effective, tension positive; the hook load is the force at surface without the weight of the block.",
-        "Soft string: it follows the hole, an arc between two stations; torque acts at half its outer diameter.",
-        "Not included: tool joints, bending stiffness in doglegs, temperature, friction of sheaves, forces of flow.",
+        "The hole is an arc between two stations; torque acts at half the outer diameter of the string.",
+        STIFF_STRING if well.settings.string == "stiff" else SOFT_STRING,
+        "Not included: tool joints, temperature, friction of sheaves, forces of flow.",
     ]
     return out

@@ -144,7 +144,7 @@ class Question:
     def identity(self) -> dict[str, Any]:
         """All that the numbers depend on, as plain data: two maps of one identity are one map."""
         axes = {axis.name: _text_of(axis) for axis in self.axes} | {one.name: one.text for one in self.distributions}
-        return {
+        data = {
             "quantity": self.rods.quantity,
             "of": {k: v for k, v in self.rods.given.items() if k != "title"},
             "over": axes,
@@ -154,6 +154,8 @@ class Question:
             "values": blake2b(json.dumps([axis.values for axis in self.axes]).encode(), digest_size=8).hexdigest(),
             "rodwell": __version__,
         }
+        plain: dict[str, Any] = json.loads(json.dumps(data, default=str))  # as a store gives it back
+        return plain
 
 
 def _text_of(axis: Axis) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -83,6 +83,6 @@ class Rods:
 
 
 def data_of(problem: Problem) -> dict[str, Any]:
-    """A problem as plain data, by name."""
-    names = ("weight", "alpha", "clearance", "twist", "poisson", "torsion", "turns", "on_top", "outside")
-    return {name: getattr(problem, name) for name in names} | {"ends": "-".join(problem.ends)}
+    """A problem as plain data, by name: every field of it, so that nothing that it holds is left out of a map."""
+    data = {field.name: getattr(problem, field.name) for field in fields(problem)}
+    return data | {"ends": "-".join(problem.ends), "sections": [list(section) for section in problem.sections]}

@@ -17,6 +17,7 @@ from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.errors import InputError
 from rodwell.faces import Shown, drawn, plain
+from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import RTOL
 from rodwell.strength.stress import Loading, Stresses, section_of, stresses
 from rodwell.studies.packer.lengths import Conditions, Tubing, weights
@@ -128,6 +129,7 @@ def packer(case: Case) -> PackerAnswer:
 def _answer(case: Case) -> PackerAnswer:
     """What :func:`packer` returns; errors in SI units."""
     given = _given(case)
+    refuse_sections(case.problem.sections, "tubing in a packer is one pipe from end to end: give it as [rod]")
     rod = case.rod
     assert rod is not None
     tubing = _tubing(case, given, rod)

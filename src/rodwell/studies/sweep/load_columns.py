@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, UNKNOWN
 from rodwell.quantities.table import Cell
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import error_digit, number_text, plain
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import CYLINDER, LIFTS_OFF, SUPPORT, UNSTABLE, YIELDS
 from rodwell.studies.sweep.loads import BUCKLES, LoadResult
@@ -96,9 +96,16 @@ def pair(number: Value | None, unit: float = 1.0) -> list[Cell]:
 
 def head(study: Study, force: str, short: bool = False) -> list[str]:
     """Columns for reading, one row for each point and load; ``short`` for the terminal."""
-    inputs = [(v.key.replace("_", " ") if short else v.key) + f" [{v.unit}]" * bool(v.unit) for v in study.varied]
-    end = "F" if short else "F at s = 1"
-    out = [*inputs, f"{end} [{force}]", STATE, f"to buckling [{force}]", "±", f"to lift-off [{force}]", "±"]
+    inputs = [v.label for v in study.varied]
+    out = [
+        *inputs,
+        f"{'−F' if short else 'compression, −F at s = 1'} [{force}]",
+        STATE,
+        f"to buckling [{force}]",
+        "±",
+        f"to lift-off [{force}]",
+        "±",
+    ]
     if _others(study):
         out += [f"gives first [{force}]", "±"]
     return [*out, "safety" if short else "safety factor", "±"] if _any(study, "safety") else out
@@ -111,7 +118,7 @@ def _others(study: Study) -> bool:
 
 
 LEGEND = (
-    "F: effective end force at s = 1, tension positive. Buckled: on the wall and stable; reshaped: buckled into "
+    "−F: effective compression at s = 1, positive. Buckled: on the wall and stable; reshaped: buckled into "
     "another shape. To buckling, to lift-off: compression to spare, negative where exceeded. Safety: factor against "
     "yield."
 )
@@ -128,25 +135,28 @@ def fails(state: LoadResult) -> bool:
 def cells(study: Study, point: StudyPoint, scale: float) -> list[list[str]]:
     """Rows of one point for reading, one for each load; ``scale`` is the unit of force in N (1 without dimensions)."""
     inputs = [
-        str(v.values[i]) if v.numbers is None else minus(f"{v.numbers[i]:.6g}")
+        str(v.values[i]) if v.numbers is None else plain(v.numbers[i], 6)
         for v, i in zip(study.varied, point.at, strict=True)
     ]
     unit = point.factor("force") / scale
     rows = []
     for state in point.loads:
-        out = [f"{state.load.force * unit:.5g}", WORDS[state.what]]
+        out = [plain(-state.load.force * unit, 5), WORDS[state.what]]
         for kind in (BUCKLES, LIFTS_OFF):
-            out += _texts(state.spare.get(kind), unit)
+            out += texts(state.spare.get(kind), unit)
         if _others(study):
             out += _first(state, unit)
         if _any(study, "safety"):
-            out += _texts(state.safety, 1.0)
-        rows.append([*inputs, *(minus(text) for text in out)])
+            out += texts(state.safety, 1.0)
+        rows.append([*inputs, *out])
     return rows
 
 
-def _texts(number: Value | None, unit: float) -> list[str]:
-    return ["–", "–"] if number is None else [f"{number.value * unit:.4g}", f"{number.error * unit:.0e}"]
+def texts(number: Value | None, unit: float) -> list[str]:
+    """A number with the digits that its error supports, five at most, and the error; dashes where there is none."""
+    if number is None:
+        return ["–", "–"]
+    return [number_text(number.times(unit), 5), error_digit(number.error * unit)]
 
 
 def _first(state: LoadResult, unit: float) -> list[str]:
@@ -157,7 +167,7 @@ def _first(state: LoadResult, unit: float) -> list[str]:
     if not others:
         return ["–", "–"]
     kind = min(others, key=lambda key: others[key].value)
-    value, error = _texts(others[kind], unit)
+    value, error = texts(others[kind], unit)
     return [f"{UNTIL[kind]}: {value}", error]
 
 
@@ -179,15 +189,19 @@ def load_sentences(study: Study) -> list[str]:
     safe = [(state.safety.value, point, state) for point, state in pairs if state.safety is not None]
     if safe:
         least, point, state = min(safe, key=lambda item: item[0])
-        out.append(f"Least safety factor of the rod against yield: {least:.3g}, for {_which(study, point, state)}.")
+        out.append(
+            f"Least safety factor of the rod against yield: {plain(least, 3)}, for {_which(study, point, state)}."
+        )
     return out
 
 
 def _which(study: Study, point: StudyPoint, state: LoadResult) -> str:
     """A point, and its load where there are several or where it does not vary."""
-    force = state.load.force * point.factor("force")
-    return study.inputs(point) + ("" if study.load_varies else f", F = {_force(study, force)} at s = 1")
+    push = -state.load.force * point.factor("force")
+    word = "compression" if push >= 0.0 else "tension"
+    said = f"{_force(study, abs(push))} of {word} at s = 1"
+    return study.inputs(point) + ("" if study.load_varies else f", under {said}")
 
 
 def _force(study: Study, value: float) -> str:
-    return study.system.text(value, "force", 4) if study.physical else minus(f"{value:.4g} B/L²")
+    return study.system.text(value, "force", 4) if study.physical else f"{plain(value)} B/L²"

@@ -49,7 +49,13 @@ def _point_dict(study: Study, point: StudyPoint) -> dict[str, Any]:
     out["validity"] = None if point.validity is None else point.validity.as_dict()
     out["applied"] = [load_dict(point, state) for state in point.loads]
     out["used_at_lift_off"] = {kind: _number(used) for kind, used in point.used.items()}
-    for name, dimension in (("critical", "force"), ("lift_off", "force"), ("contact", "force_per_length")):
+    for name, dimension in (
+        ("critical", "force"),
+        ("lift_off", "force"),
+        ("contact", "force_per_length"),
+        ("without_wall", "force"),
+        ("other_arm", "force"),
+    ):
         out[name] = _number(getattr(point, name), point.scales, dimension)
     return out
 

@@ -11,6 +11,7 @@ from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.analysis.straight.scale import load_scale
+from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
@@ -18,6 +19,7 @@ from rodwell.answers.result.reach import followed_on, no_lift_off
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
@@ -56,6 +58,10 @@ class StudyPoint:
         Why results are missing, by name: "case", "critical", "lift_off", "contact", "applied".
     validity
         Whether strain, slenderness, slope and shortening are what the theory assumes; None without a critical load.
+    without_wall
+        Load at which the straight rod would buckle without the wall's help: end force at s = 1, tension positive.
+    other_arm
+        Lift-off load of the other arm of a twisted rod, where the two differ: that one lifts off later.
     """
 
     number: int
@@ -70,6 +76,8 @@ class StudyPoint:
     loads: tuple[LoadResult, ...] = ()
     reasons: Mapping[str, str] | None = None
     validity: Validity | None = None
+    without_wall: Value | None = None
+    other_arm: Value | None = None
 
     @property
     def missed(self) -> tuple[str, ...]:
@@ -82,7 +90,7 @@ class StudyPoint:
             force = state.load.force
             vague = any(not one.within(rtol, size + abs(force - one.value)) for one in state.spare.values())
             if vague or (state.what == BUCKLED and state.why):
-                out.append(f"the load {state.load.given:.6g}")
+                out.append(f"the load {plain(state.load.given, 6)}")
         return tuple(out)
 
     @property
@@ -118,11 +126,14 @@ class SharedResults:
         First branch, to lift-off; None if it could not be followed.
     why
         What went wrong.
+    other
+        The other arm of a twisted rod, where the two differ.
     """
 
     critical: CriticalLoads | None
     branch: Branch | None = None
     why: str = ""
+    other: Branch | None = None
 
 
 def computed(case: Case) -> SharedResults:
@@ -132,7 +143,8 @@ def computed(case: Case) -> SharedResults:
     except NotConvergedError as error:
         return SharedResults(None, why=str(error))
     try:
-        return SharedResults(critical, to_lift_off(case.problem, critical[0], case.rtol)[0])
+        branch, other = to_lift_off(case.problem, critical[0], case.rtol)
+        return SharedResults(critical, branch, other=other)
     except (InputError, NotConvergedError) as error:
         return SharedResults(critical, why=str(error))
 
@@ -152,7 +164,9 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
     mode, first = shared.critical[0], Computed(case, shared.critical, (), 0.0).buckling
     reasons: dict[str, str] = {}
+    alone, other = loads_without_wall(case.problem).modes[0], None if shared.other is None else shared.other.lift_off
     out = replace(out, critical=first, half_waves=mode.wavenumber / math.pi)
+    out = replace(out, without_wall=Value(alone.force, alone.error), other_arm=None if other is None else other.load)
     try:
         if shared.branch is None:
             raise NotConvergedError(shared.why)

@@ -13,6 +13,7 @@ from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
+from rodwell.studies.sweep.labels import label
 from rodwell.studies.sweep.points import StudyPoint, computed, computed_point, followed_to_loads
 from rodwell.studies.sweep.varied import LISTS, Varied, check_declared, may_vary, varied_inputs
 
@@ -69,7 +70,7 @@ class Study:
 
     def inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point in words."""
-        return ", ".join(f"{v.name} = {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+        return ", ".join(f"{label(v.name)} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
 
     @property
     def load_varies(self) -> bool:
@@ -79,7 +80,7 @@ class Study:
     def rod_inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point that change its critical load and lift-off, in words; may be empty."""
         pairs = zip(self.varied, point.at, strict=True)
-        return ", ".join(f"{v.name} = {v.text(i)}" for v, i in pairs if v.name != APPLIED)
+        return ", ".join(f"{label(v.name)} {v.text(i)}" for v, i in pairs if v.name != APPLIED)
 
     @property
     def rods(self) -> tuple[StudyPoint, ...]:

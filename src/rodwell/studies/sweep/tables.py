@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rodwell.quantities.table import Cell, Table
-from rodwell.quantities.text import amount, minus, percent
+from rodwell.quantities.text import amount, number_text, percent, plain
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import APPLIED, Study
@@ -37,6 +37,8 @@ def study_table(study: Study) -> Table:
         columns += [f"{what}: compression at s = 1 [{force}]", f"± error [{force}]", f"{what}: at s = 0 [{force}]"]
     columns += ["half waves of the mode", "leaves the wall at s/L", f"largest contact force at lift-off [{per_length}]"]
     columns += [f"± error of it [{per_length}]"]
+    for what in _beside(study).values():
+        columns += [f"{what}: compression at s = 1 [{force}]", f"± error [{force}]"]
     for kind in _told(study):
         columns += [f"part of the {STRENGTHS[kind]} used at lift-off", "± error"]
     columns += load_columns.columns(study, force, per_length)
@@ -44,6 +46,18 @@ def study_table(study: Study) -> Table:
     rows = tuple(_row(study, point) for point in study.points)
     notes = (*NOTES, *(load_columns.NOTES if load_columns.most_loads(study) else ()))
     return Table("Points", tuple(columns), rows, worst_points(study), notes)
+
+
+BESIDE = {
+    "without_wall": "buckles without the wall's help",
+    "other_arm": "the other arm leaves the wall",
+}
+"""Further loads of a table as a file: the second where twist makes the arms of a mode differ."""
+
+
+def _beside(study: Study) -> dict[str, str]:
+    """Those that some point has."""
+    return {name: what for name, what in BESIDE.items() if any(getattr(p, name) is not None for p in study.points)}
 
 
 def worst_points(study: Study) -> frozenset[int]:
@@ -69,6 +83,8 @@ def _row(study: Study, point: StudyPoint) -> tuple[Cell, ...]:
         cells += [*(top or (None, None)), None if bottom is None else bottom.value]
     cells += [point.half_waves, ", ".join(f"{s:.6g}" for s in point.places) or None]
     cells += load_columns.pair(point.contact, point.factor("force_per_length"))
+    for name in _beside(study):
+        cells += load_columns.pair(point.compression(name))
     for kind in _told(study):
         cells += load_columns.pair(point.used.get(kind))
     return (*cells, *load_columns.row(study, point), remarks(study, point))
@@ -89,7 +105,7 @@ def remarks(study: Study, point: StudyPoint) -> str:
 
 def load_text(study: Study, value: float) -> str:
     """A force for reading."""
-    return study.system.text(value, "force", 5) if study.physical else minus(f"{value:.6g} B/L²")
+    return study.system.text(value, "force", 5) if study.physical else f"{plain(value, 6)} B/L²"
 
 
 def scales(study: Study) -> tuple[float, str, float, str]:
@@ -108,7 +124,7 @@ def head(study: Study, short: bool = False) -> list[str]:
     """Columns of the table of rods for reading; ``short`` for the terminal."""
     _, force, _, per_length = scales(study)
     shown = (v for v in study.varied if v.name != APPLIED)
-    inputs = [(v.key.replace("_", " ") if short else v.name) + f" [{v.unit}]" * bool(v.unit) for v in shown]
+    inputs = [v.label for v in shown]
     if short:
         return [*inputs, f"buckles [{force}]", "±", "at s = 0", "lifts off", "±", "s/L", f"contact [{per_length}]"]
     return [
@@ -121,17 +137,15 @@ def cells(study: Study, point: StudyPoint) -> list[str]:
     """One row of the table of rods for reading; a dash where there is no result."""
     scale, _, per, _ = scales(study)
     shown = [(v, i) for v, i in zip(study.varied, point.at, strict=True) if v.name != APPLIED]
-    out = [str(v.values[i]) if v.numbers is None else f"{v.numbers[i]:.6g}" for v, i in shown]
+    out = [str(v.values[i]) if v.numbers is None else plain(v.numbers[i], 6) for v, i in shown]
     for name in LOADS:
         top, bottom = point.compression(name), point.compression(name, bottom=True)
-        out += ["–", "–"] if top is None else [f"{top.value / scale:.5g}", f"{top.error / scale:.0e}"]
+        out += ["–", "–"] if top is None else load_columns.texts(top, 1.0 / scale)
         if name == "critical":
-            out.append("–" if bottom is None else f"{bottom.value / scale:.5g}")
-    out.append(", ".join(f"{s:.3g}" for s in point.places) or "–")
+            out.append("–" if bottom is None else number_text(bottom.times(1.0 / scale), 5))
+    out.append(", ".join(plain(s, 3) for s in point.places) or "–")
     unit = point.factor("force_per_length") / per
-    out.append("–" if point.contact is None else f"{point.contact.value * unit:.4g}")
-    names = len(shown)
-    return [*out[:names], *(minus(cell) for cell in out[names:])]
+    return [*out, "–" if point.contact is None else number_text(point.contact.times(unit), 4)]
 
 
 def _beyond_theory(study: Study) -> list[str]:

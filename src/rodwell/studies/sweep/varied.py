@@ -10,11 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
-from rodwell.case.string import check_beside
+from rodwell.case.sections import check_beside
 from rodwell.errors import InputError
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain
 from rodwell.quantities.written import number_and_rest, remedy
 from rodwell.studies.ranges import LONGEST_RANGE, RANGE, in_unit, tidy
+from rodwell.studies.sweep.labels import label, shown_unit
 
 MOST_POINTS = 400
 """Points that one study may have."""
@@ -70,7 +71,13 @@ class Varied:
         """Value number ``i`` for reading."""
         if self.numbers is None:
             return str(self.values[i])
-        return minus(f"{self.numbers[i]:.6g} {self.unit}".strip()).replace(" deg", "°")
+        unit = shown_unit(self.unit)
+        return f"{plain(self.numbers[i], 6)}{'' if unit in ('', '°') else ' '}{unit}"
+
+    @property
+    def label(self) -> str:
+        """What it is called, with its unit in brackets: "inclination from the vertical [°]"."""
+        return label(self.name) + (f" [{shown_unit(self.unit)}]" if self.unit else "")
 
 
 _THREE_DOTS = re.compile(r"\s*[+-]?(?:\d[^.…]*(?:\.\d[^.…]*)?)?(?:\.{3}|…).*")

@@ -9,7 +9,7 @@ import numpy as np
 from rodwell.analysis.loads.long_rod import HALF_WAVES, LIFT_OFF_HALF_WAVES
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
-from rodwell.quantities.text import percent
+from rodwell.quantities.text import percent, plain
 from rodwell.quantities.value import Value
 from rodwell.studies.well.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
 from rodwell.studies.well.verdict import Found, amount_of, found, place, units, verdict_lines
@@ -93,7 +93,7 @@ def sentences(screening: Screening) -> list[str]:
 def assumptions(screening: Screening) -> list[str]:
     """What the loads are, and what is not in them."""
     first, last = screening.string.ends
-    effects = ", ".join(f"{100 * v:.2g} % at {a:.3g}°" for a, v in screening.length_effect.items())
+    effects = ", ".join(f"{plain(100 * v, 2)} % at {plain(a, 3)}°" for a, v in screening.length_effect.items())
     out = [
         *screening.survey.notes,
         "Compression positive, at the station, which is the lower end of the local rod.",
@@ -107,9 +107,10 @@ def assumptions(screening: Screening) -> list[str]:
         out.append(
             f"Loads at {len(screening.survey)} stations from {screening.critical.solved} exact critical loads and "
             f"{screening.lift_off.solved} exact lift-off loads; largest difference seen between interpolated and exact "
-            f"ones: {100 * screening.critical.interpolated:.2g} % and {100 * screening.lift_off.interpolated:.2g} %; "
-            f"errors are given as {100 * CRITICAL_PRECISION.tolerance:g} % and "
-            f"{100 * LIFT_OFF_PRECISION.tolerance:g} % at least."
+            f"ones: {plain(100 * screening.critical.interpolated, 2)} % and "
+            f"{plain(100 * screening.lift_off.interpolated, 2)} %; "
+            f"errors are given as {plain(100 * CRITICAL_PRECISION.tolerance)} % and "
+            f"{plain(100 * LIFT_OFF_PRECISION.tolerance)} % at least."
         )
     if any(value > NOT_NEGLIGIBLE for value in screening.length_effect.values()):
         out.append(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.quantities.arrays import BoolArray
-from rodwell.quantities.text import amount, percent
+from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.units import in_unit_of
 from rodwell.quantities.value import Value
 from rodwell.studies.well.screening import Screening
@@ -178,7 +178,7 @@ def place(screening: Screening) -> Callable[[int], str]:
     """How a station is named."""
     depth, metre, _, _ = units(screening)
     survey = screening.survey
-    return lambda i: f"{survey.md[i] / metre:.6g} {depth}, {survey.inclination[i]:.3g}° from the vertical"
+    return lambda i: f"{plain(survey.md[i] / metre, 6)} {depth}, {plain(survey.inclination[i], 3)}° from the vertical"
 
 
 def amount_of(screening: Screening) -> Callable[..., str]:

@@ -4,19 +4,26 @@
 
 function rodwellViewer(element, data) {
   const stage = element.querySelector(".stage");
+  const slow = drawnByProcessor();
   let renderer;
   try {
-    renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    renderer = new THREE.WebGLRenderer({ antialias: !slow, alpha: true, preserveDrawingBuffer: true });
   } catch (problem) {
     return false; // the still picture stays
   }
-  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  const sharp = Math.min(window.devicePixelRatio || 1, slow ? 1 : 2);
+  let coarse = slow ? 0.5 : sharp; // pixels while it is turned: fewer where frames come late
+  renderer.setPixelRatio(sharp);
   stage.appendChild(renderer.domElement);
   element.classList.add("live");
 
   const scene = new THREE.Scene();
   const groups = { wall: new THREE.Group(), lines: new THREE.Group(), rest: new THREE.Group() };
-  Object.values(groups).forEach((group) => scene.add(group));
+  const all = new THREE.Group(); // what is enlarged across the axis, and is set back to true scale
+  Object.values(groups).forEach((group) => all.add(group));
+  scene.add(all);
+  const mark = readingMark();
+  all.add(mark);
   data.parts.forEach((part) => groups[groupOf(part)].add(mesh(part)));
   data.lines.forEach((line) => groups[line.group].add(curve(line)));
   light(scene);
@@ -28,6 +35,9 @@ function rodwellViewer(element, data) {
   controls.minDistance = 0.01;
   controls.maxDistance = 12;
   const labels = data.labels.map((label) => tag(stage, label));
+  const reading = element.querySelector(".reading"), scale = element.querySelector(".scale");
+  const places = data.along.points.map((point) => new THREE.Vector3(...point));
+  let place = -1; // which place is read
 
   function home() {
     controls.target.set(0, 0, 0);
@@ -41,7 +51,7 @@ function rodwellViewer(element, data) {
   function draw() {
     renderer.render(scene, camera);
     labels.forEach(({ box, at }) => {
-      const p = at.clone().project(camera);
+      const p = all.localToWorld(at.clone()).project(camera);
       box.style.left = `${(p.x * 0.5 + 0.5) * stage.clientWidth}px`;
       box.style.top = `${(-p.y * 0.5 + 0.5) * stage.clientHeight}px`;
     });
@@ -59,7 +69,66 @@ function rodwellViewer(element, data) {
     controls.update();
     draw();
   };
-  controls.addEventListener("change", draw);
+  // one frame for each that the screen shows, with fewer pixels while it is turned
+  let waiting = false, last = 0;
+  controls.addEventListener("change", () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      const began = performance.now();
+      draw();
+      if (turning && began - last < 1000 && performance.now() - began > 60 && coarse > 0.25) pixels((coarse *= 0.7));
+      last = began;
+    });
+  });
+  let turning = false;
+  const pixels = (ratio) => { renderer.setPixelRatio(ratio); renderer.setSize(stage.clientWidth, stage.clientHeight, false); };
+  controls.addEventListener("start", () => { turning = true; if (coarse < sharp) pixels(coarse); });
+  controls.addEventListener("end", () => { turning = false; if (coarse < sharp) pixels(sharp); draw(); });
+  function turn(across, up) {
+    const from = camera.position.clone().sub(controls.target), far = from.length();
+    const around = Math.atan2(from.x, from.z) + across;
+    const down = Math.min(Math.max(Math.acos(from.y / far) + up, 0.05), Math.PI - 0.05);
+    from.set(Math.sin(down) * Math.sin(around), Math.cos(down), Math.sin(down) * Math.cos(around));
+    camera.position.copy(from.multiplyScalar(far).add(controls.target));
+    controls.update();
+    draw();
+  }
+  function read(number) {
+    place = Math.min(Math.max(number, 0), places.length - 1);
+    reading.textContent = data.along.says[place];
+    mark.position.copy(places[place]);
+    mark.visible = true;
+    draw();
+  }
+  function nearest(event) {
+    const box = renderer.domElement.getBoundingClientRect();
+    let best = -1, least = 60 * 60; // pixels, squared: farther from the rod nothing is read
+    places.forEach((at, i) => {
+      const p = all.localToWorld(at.clone()).project(camera);
+      const dx = (p.x * 0.5 + 0.5) * box.width - (event.clientX - box.left);
+      const dy = (-p.y * 0.5 + 0.5) * box.height - (event.clientY - box.top);
+      if (dx * dx + dy * dy < least) { least = dx * dx + dy * dy; best = i; }
+    });
+    return best;
+  }
+  renderer.domElement.addEventListener("pointermove", (event) => {
+    if (event.buttons) return;
+    const found = nearest(event);
+    if (found >= 0 && found !== place) read(found);
+  });
+  const keys = {
+    ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0), ArrowUp: () => turn(0, -0.1), ArrowDown: () => turn(0, 0.1),
+    "+": () => zoom(0.8), "=": () => zoom(0.8), "-": () => zoom(1.25), Home: () => home(),
+    ",": () => read(place - 1), ".": () => read(place + 1), PageUp: () => read(place + 20), PageDown: () => read(place - 20),
+  };
+  stage.addEventListener("keydown", (event) => {
+    const action = keys[event.key];
+    if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+    action();
+    event.preventDefault();
+  });
   new ResizeObserver(fit).observe(stage);
   if (data.embedded) wheelAfterClick(controls, renderer.domElement); // a page that scrolls must go on scrolling
 
@@ -70,6 +139,13 @@ function rodwellViewer(element, data) {
     const box = element.querySelector(`[data-show=${name}]`);
     box.onchange = () => { groups[name].visible = box.checked; draw(); };
   }
+  const trueScale = element.querySelector("[data-show=true-scale]");
+  if (trueScale) trueScale.onchange = () => {
+    const across = trueScale.checked ? 1 / data.enlarged : 1;
+    all.scale.set(1, across, across);
+    scale.textContent = trueScale.checked ? "true scale" : data.says;
+    draw();
+  };
   fit();
   home();
   return true;
@@ -77,6 +153,27 @@ function rodwellViewer(element, data) {
   function groupOf(part) {
     return part.name === "cylinder" ? "wall" : part.name.startsWith("material") ? "lines" : "rest";
   }
+}
+
+// Whether the browser draws with the processor (no graphics card): then fewer pixels, no smoothing of edges.
+function drawnByProcessor() {
+  const gl = document.createElement("canvas").getContext("webgl");
+  const known = gl && gl.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(known) && /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(known.UNMASKED_RENDERER_WEBGL));
+}
+
+// A dot at the place that is read.
+function readingMark() {
+  const size = 0.012, corners = [size, 0, 0, -size, 0, 0, 0, size, 0, 0, -size, 0, 0, 0, size, 0, 0, -size];
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+  geometry.setIndex([0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5]);
+  geometry.computeVertexNormals();
+  const material = new THREE.MeshStandardMaterial({ emissive: 0xeb7500, color: 0xeb7500, depthTest: false });
+  const dot = new THREE.Mesh(geometry, material);
+  dot.renderOrder = 2;
+  dot.visible = false;
+  return dot;
 }
 
 function wheelAfterClick(controls, canvas) {

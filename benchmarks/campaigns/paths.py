@@ -1,0 +1,155 @@
+"""Load paths of random problems to twice the lift-off load: no exception, no penetration, no contact that pulls.
+
+    python benchmarks/campaigns/paths.py [--count 100] [--workers 2]
+
+Problem number i comes from the seed (SEED, i) alone, so the campaign can be stopped and taken up again: what is done
+stands in ``paths.jsonl``, a line for each problem, and the summary in ``paths.json``. A problem has a weight of 1 to
+300, an inclination of 20 to 90 degrees, a clearance of 1e-3 to 0.05, any ends but loose ones, and twist in half of
+them. A *fault* is
+
+- an exception other than those that say what is wrong with the input or could not be computed;
+- a state along the path that reaches more than 1e-8 Δ into the wall, or contact that pulls by more than 1e-7 of the
+  load;
+- balance along the rod, or a point force by two routes, missed by more than 1e-7 of the end force, in the states
+  looked at;
+- a change of the stability index without an event.
+
+A path that cannot be followed to its end is no fault, if it says why; how many there are stands in the summary.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import platform
+import time
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")
+
+import numpy as np
+
+import rodwell
+from rodwell.analysis.off_wall.conditions import conditions
+from rodwell.analysis.off_wall.state import contact_state
+
+SEED = 20
+HERE = Path(__file__).parent
+LINES, SUMMARY = HERE / "paths.jsonl", HERE / "paths.json"
+KINDS = ("clamped", "pinned", "guided", "free", "ball")
+PULL, BALANCE, DEEP = 1e-7, 1e-7, 1e-8
+LOOKED_AT = 6
+"""States of each run whose certificate is evaluated."""
+
+
+def problem_of(number: int) -> rodwell.Problem:
+    """The problem of a number."""
+    rng = np.random.default_rng((SEED, number))
+    ends = tuple(KINDS[i] for i in rng.integers(0, len(KINDS), 2))
+    weight, clearance = 10.0 ** rng.uniform(0.0, np.log10(300.0)), 10.0 ** rng.uniform(-3.0, np.log10(0.05))
+    alpha = float(rng.choice([90.0, rng.uniform(20.0, 90.0)]))
+    twist = 0.0 if "free" in ends or rng.random() < 0.5 else float(rng.normal() * 2.0)
+    return rodwell.Problem(float(weight), alpha, clearance=float(clearance), twist=twist, ends=ends)
+
+
+def trial(number: int) -> dict[str, Any]:
+    """What came of one problem."""
+    problem, began = problem_of(number), time.perf_counter()
+    out: dict[str, Any] = {"number": number, "problem": repr(problem), "faults": []}
+    try:
+        out |= _followed(problem)
+    except rodwell.RodwellError as error:
+        out["refused"] = str(error)
+    except Exception as error:
+        out["faults"].append(f"{type(error).__name__}: {error}")
+    out["seconds"] = round(time.perf_counter() - began, 1)
+    return out
+
+
+def _followed(problem: rodwell.Problem) -> dict[str, Any]:
+    critical = rodwell.critical_loads(problem, 1)[0].force
+    first = rodwell.load_path(problem, until=critical - 0.6 * abs(critical), seeds=1)
+    lift = first.lift_off
+    until = 2.0 * lift.force.value if lift is not None and lift.force.value < 0.0 else critical - 1.2 * abs(critical)
+    path = rodwell.load_path(problem, until=until, seeds=1)
+    faults: list[str] = []
+    for run in path.legs[0].runs:
+        marked = [event.force.value for event in path.events]
+        for before, state in pairwise(run):
+            low, high = sorted((before.load, state.load))
+            slack = 1e-3 * abs(state.load)
+            if before.solved.index != state.solved.index and not any(low - slack <= f <= high + slack for f in marked):
+                faults.append(f"index changes between {before.load:.8g} and {state.load:.8g} without an event")
+        for state in run[:: max(1, len(run) // LOOKED_AT)]:
+            faults += _faults(state)
+    kinds = [event.kind for event in path.events]
+    return {
+        "faults": faults,
+        "kinds": kinds,
+        "reached": path.reached,
+        "why": path.ended_because,
+        "missed": list(path.missed),
+    }
+
+
+def _faults(state: Any) -> list[str]:
+    where = f"F = {state.load:.10g}, {state.pattern.text()}"
+    found = []
+    for one in conditions(state):
+        if one.kind != "touches" and one.value < -PULL * max(abs(state.load), 1.0):
+            found.append(f"{one.kind} {one.value:.2e} at {where}")
+    try:
+        certificate = contact_state(state).certificate
+    except rodwell.NotConvergedError as error:
+        return [*found, f"{error} at {where}"]
+    if certificate.penetration > DEEP:
+        found.append(f"penetration {certificate.penetration:.2e} at {where}")
+    if certificate.worst > BALANCE:
+        found.append(f"balance {certificate.worst:.2e} at {where}")
+    return found
+
+
+def main() -> None:
+    """Go on with the campaign, and write its summary."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--workers", type=int, default=2)
+    given = parser.parse_args()
+    done = [json.loads(line) for line in LINES.read_text().splitlines()] if LINES.exists() else []
+    left = sorted(set(range(given.count)) - {one["number"] for one in done})
+    with ProcessPoolExecutor(given.workers) as pool, LINES.open("a", encoding="utf-8") as file:
+        for one in pool.map(trial, left):
+            file.write(json.dumps(one, ensure_ascii=False) + "\n")
+            file.flush()
+            done.append(one)
+    SUMMARY.write_text(json.dumps(summary(done), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def summary(done: list[dict[str, Any]]) -> dict[str, Any]:
+    """What came of all."""
+    reasons = Counter(one["why"].split(" at ")[0].split(", F =")[0] for one in done if one.get("why"))
+    return {
+        "seed": SEED,
+        "problems": len(done),
+        "date": datetime.date.today().isoformat(),
+        "machine": platform.machine(),
+        "version": rodwell.__version__,
+        "followed to the end": sum(bool(one.get("reached")) for one in done),
+        "not followed to the end": dict(reasons),
+        "refused": sum("refused" in one for one in done),
+        "with faults": sum(bool(one["faults"]) for one in done),
+        "faults": [{"number": one["number"], "faults": one["faults"]} for one in done if one["faults"]],
+        "snaps": sum(one.get("kinds", []).count("snap") for one in done),
+        "seconds, median": float(np.median([one["seconds"] for one in done])) if done else 0.0,
+    }
+
+
+if __name__ == "__main__":
+    main()

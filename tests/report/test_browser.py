@@ -1,0 +1,168 @@
+"""Pages in a real browser: at three widths, light and dark, printed, without WebGL, without JavaScript, and with axe.
+
+Needs Chromium on the machine. Where none is found the tests are skipped; with ``RODWELL_NEEDS_BROWSER`` set, as the
+gate does, they fail instead.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pypdf import PdfReader
+
+import rodwell
+from rodwell.report.folders.case import write_results
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+SOFTWARE = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+WIDTHS = (1440, 820, 390)
+
+if CHROMIUM is None and not os.environ.get("RODWELL_NEEDS_BROWSER"):
+    pytest.skip("no Chromium found: apt-get install chromium", allow_module_level=True)
+sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install 'rodwell[test]'")
+
+CASE = {
+    "title": "Drill pipe, 30° from the vertical",
+    "units": "field",
+    "rod": {"pipe": "5 in 19.5 lb/ft drill pipe", "length": "100 ft", "grade": "S-135"},
+    "hole": {"diameter": "8.5 in", "angle_from_vertical": "30 deg"},
+    "mud": {"density": "10 lb/gal"},
+    "load": {"applied": "-36000 lbf", "at": "bottom"},
+    "analysis": {"modes": 2, "rtol": 1e-6},
+    "report": {"client": "Example Oil", "project": "Well A-12", "author": "A. Engineer", "revision": "B"},
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("pages") / "case"
+    write_results(rodwell.answer(rodwell.Case.from_dict(CASE)), out)
+    return out
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with sync_api.sync_playwright() as play:
+        yield lambda *args: play.chromium.launch(executable_path=CHROMIUM, args=list(args))
+
+
+@pytest.fixture(scope="module")
+def browser(chromium: Any) -> Iterator[Any]:
+    browser = chromium(*SOFTWARE)
+    yield browser
+    browser.close()
+
+
+@pytest.fixture
+def page(browser: Any) -> Iterator[Any]:
+    page = browser.new_page(viewport={"width": WIDTHS[0], "height": 900})
+    yield page
+    page.close()
+
+
+def opened(page: Any, file: Path) -> Any:
+    """The page with its script run and its pictures loaded; errors of scripts fail the test."""
+    faults: list[str] = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto(file.as_uri())
+    page.wait_for_load_state("load")
+    assert faults == []
+    return page
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_pages_fit_every_width_and_have_no_serious_fault(browser: Any, folder: Path, scheme: str) -> None:
+    from axe_playwright_python.sync_playwright import Axe
+
+    axe = Axe()
+    for width in WIDTHS:
+        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        opened(page, folder / "report.html")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        dark = page.evaluate("getComputedStyle(document.documentElement).backgroundColor")
+        assert (dark == "rgb(18, 24, 30)") == (scheme == "dark")
+        found = axe.run(page).response["violations"]
+        assert [(v["id"], v["nodes"][0]["html"][:90]) for v in found if v["impact"] in ("serious", "critical")] == []
+        # letters of a figure: 9.5 points of a drawing 7.2 inches wide are not smaller than 8 pixels
+        drawn = page.evaluate("[...document.querySelectorAll('.drawn img')].map(i => i.getBoundingClientRect().width)")
+        assert min(drawn) >= 7.2 * 72.0 * 8.0 / 9.5 * (0.75 if width > 820 else 1.0)
+        page.close()
+
+
+def test_landmarks_contents_and_links(page: Any, folder: Path) -> None:
+    opened(page, folder / "report.html")
+    for landmark in ("header", "nav", "main", "footer"):
+        assert page.locator(landmark).count() == 1
+    targets = page.evaluate("[...document.querySelectorAll('nav a')].map(a => a.getAttribute('href'))")
+    assert all(page.locator(target).count() == 1 for target in targets if target.startswith("#"))
+    titles = page.evaluate("[...document.querySelectorAll('main > section:not(.front) > h2')].map(h => h.textContent)")
+    assert [t for t in page.locator("nav li").all_text_contents() if t != "Verdict"] == titles
+    files = page.evaluate("[...document.querySelectorAll('.files a')].map(a => a.getAttribute('href'))")
+    assert set(files) == {file.name for file in folder.iterdir()} - {"report.html"}
+    text = page.inner_text("header")
+    assert all(word in text for word in CASE["report"].values())
+
+
+def test_figures_are_dark_where_the_page_is(browser: Any, folder: Path) -> None:
+    """The background of the sketch, as the browser paints it."""
+    from PIL import Image
+
+    for scheme, light in (("light", True), ("dark", False)):
+        page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme=scheme)
+        opened(page, folder / "report.html")
+        corner = Image.open(io.BytesIO(page.locator(".case img").screenshot())).convert("L").getpixel((3, 3))
+        assert (corner > 200) == light
+        page.close()
+
+
+def test_the_front_prints_on_one_sheet(page: Any, folder: Path) -> None:
+    opened(page, folder / "report.html")
+    sheets = PdfReader(io.BytesIO(page.pdf(format="Letter", prefer_css_page_size=False))).pages
+    first, second, *_, last = (" ".join(sheet.extract_text().split()) for sheet in sheets)
+    assert "numerically converged" in first
+    assert "Compression positive" in first
+    assert "What the numbers mean" in second[:40]  # after the number of the sheet
+    assert "Computed by rodwell" in last
+    assert len(last) > 200  # no sheet for three lines
+    heads = page.evaluate("[...document.querySelectorAll('main > section:not(.front) > h2')].map(h => h.textContent)")
+    for sheet in sheets:
+        lines = [line for line in sheet.extract_text().splitlines() if line.strip()]
+        assert lines[-1].strip() not in heads  # no heading at the foot of a sheet
+
+
+def test_the_rod_is_turned_read_and_set_to_true_scale(page: Any, folder: Path) -> None:
+    opened(page, folder / "report.html")
+    stage = page.locator(".rod-viewer .stage")
+    stage.scroll_into_view_if_needed()
+    assert "× " in page.inner_text(".rod-viewer .scale")
+    before = stage.screenshot()
+    stage.focus()
+    page.keyboard.press("ArrowRight")
+    turned = stage.screenshot()
+    assert turned != before
+    page.keyboard.press(".")
+    assert "push" in page.inner_text(".rod-viewer .reading")
+    page.keyboard.press("Home")
+    page.get_by_label("true scale").check()
+    assert page.inner_text(".rod-viewer .scale") == "true scale"
+    box = stage.bounding_box()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    assert "lbf/ft" in page.inner_text(".rod-viewer .reading")  # under the pointer, on the rod
+
+
+@pytest.mark.parametrize("name", ["report.html", "rod-3d.html"])
+def test_a_still_picture_without_webgl_and_without_javascript(chromium: Any, folder: Path, name: str) -> None:
+    for args, script in ((("--no-sandbox", "--disable-gpu", "--disable-3d-apis"), True), (("--no-sandbox",), False)):
+        browser = chromium(*args)
+        page = browser.new_context(java_script_enabled=script).new_page()
+        page.goto((folder / name).as_uri())
+        picture = page.locator(".rod-viewer img.still")
+        assert picture.is_visible()
+        assert picture.bounding_box()["height"] > 100.0
+        browser.close()
