@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import pytest
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.curves.curve import CurvePoint
+from rodwell.analysis.loads.by_inclination import Loads, loads_at
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall
 from rodwell.answers.comparison.exact_loads import ExactLoad
 from rodwell.answers.data.tables import MISSES, answer_tables
@@ -18,7 +20,9 @@ from rodwell.answers.result.missed import missed
 from rodwell.case.case import Case
 from rodwell.cli.main import main
 from rodwell.report.reports.case import case_report
+from rodwell.studies.well import screening
 
+ROOT = Path(__file__).parents[2]
 ROD = ["--weight", "15", "--alpha", "90", "--rtol", "1e-4"]
 CASE = "[dimensionless]\nweight = 15\nalpha = 90\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
 ROD_AND_TOLERANCE = {"dimensionless": {"weight": 15, "alpha": 90}, "analysis": {"modes": 1, "rtol": 1e-4}}
@@ -62,6 +66,8 @@ BRANCHES = {
     "diagram-json": ["diagram", *ROD, "--until", "-130", "--modes", "1", "--json"],
     "run": ["run", "case.toml"],
     "run-quiet": ["run", "case.toml", "--quiet"],
+    "sensitivity": ["sensitivity", *ROD],
+    "sensitivity-json": ["sensitivity", *ROD, "--json"],
     "twist": ["twist", "--weight", "30", "--alpha", "90", "--rtol", "1e-4"],
     "study": ["run", "study.toml", "--json"],
 }
@@ -137,3 +143,22 @@ def test_without_a_miss_there_is_no_remark() -> None:
     assert result.converged
     assert not missed(result)
     assert "remark" not in answer_tables(result)[1].columns
+
+
+@pytest.mark.parametrize("json", [[], ["--json"]])
+def test_a_station_whose_load_misses_its_tolerance(
+    json: list[str], files: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (files / "well.csv").write_text("MD [m],Inclination [deg]\n0,60\n100,61\n", encoding="utf-8")
+    line = ["screen", "well.csv", "--case", str(ROOT / "examples" / "well-string.toml"), *json]
+    assert run(monkeypatch, capsys, *line)[0] == 0
+
+    def rough(*arguments: Any) -> Loads:
+        loads = loads_at(*arguments)
+        return replace(loads, errors=0.02 * loads.values)
+
+    monkeypatch.setattr(screening, "loads_at", rough)
+    code, out, err = run(monkeypatch, capsys, *line)
+    assert code == 3
+    assert err == "rodwell: tolerance missed: critical load at station 1 ± 2 %, and 1 more (rtol 0.001)\n"
+    assert ("stations_missing_the_tolerance" in out) == bool(json)

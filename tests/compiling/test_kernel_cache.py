@@ -319,7 +319,7 @@ def test_an_edit_of_an_inner_kernel_is_compiled_into_what_calls_it(tmp_path):
     assert (run(), run()) == ("[3.0, 4.0] 0", "[3.0, 4.0] 1")
     inner = tmp_path / "rodwell" / "numerics" / "splines" / "banded.py"
     before = inner.read_text(encoding="utf-8")
-    after = before.replace("out[j] += band[j, 0] * x[j]", "out[j] += 4.0 * band[j, 0] * x[j]")
+    after = before.replace("out[j] + band[j, 0] * xj", "out[j] + 4.0 * band[j, 0] * xj")
     assert after != before
     inner.write_text(after, encoding="utf-8")
     assert (run(), run()) == ("[1.5, 2.0] 0", "[1.5, 2.0] 1")

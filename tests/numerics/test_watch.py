@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 from rodwell import Problem, diagram, follow
 from rodwell.numerics.continuation import walk
-from rodwell.numerics.continuation.softest import SoftestEigenvalues, _dips, hidden_change
+from rodwell.numerics.continuation.softest import SoftestEigenvalues, _dip, hidden_change
 
 PLACE = np.array([-1.0, 0.0, 1.0])
 
@@ -18,13 +18,20 @@ PLACE = np.array([-1.0, 0.0, 1.0])
 @pytest.mark.parametrize("values", [[1.0, 0.2, 1.0], [-1.0, -0.1, -3.0], [0.5, 0.1, 0.5]])
 def test_a_deep_minimum_may_be_a_dip(values: list[float]) -> None:
     """At unequal distances the parabola through the last three goes below half of the middle value, or below zero."""
-    assert _dips(np.array([-1.0, 0.0, 0.2]), np.array(values))
+    assert _dip(np.array([-1.0, 0.0, 0.2]), np.array(values)) is not None
+
+
+def test_a_dip_is_where_the_parabola_has_its_minimum() -> None:
+    watch = SoftestEigenvalues(values=[((x - 0.03) ** 2 - 1e-4, 1.0) for x in (-0.2, 0.0, 0.3)], places=[0.0, 0.2, 0.5])
+    assert watch.dips() == pytest.approx([0.03 / 0.3])
+    watch = SoftestEigenvalues(values=[((x + 0.05) ** 2 - 1e-4, 1.0) for x in (-0.2, 0.0, 0.3)], places=[0.0, 0.2, 0.5])
+    assert watch.dips() == pytest.approx([-0.05 / 0.2])
 
 
 @pytest.mark.parametrize("values", [[1.0, 0.95, 1.0], [3.0, 2.0, 1.0], [1.0, -0.1, 1.0], [1.0, 2.0, 1.0]])
 def test_what_is_no_dip(values: list[float]) -> None:
     """Shallow, falling, of two signs (a change that counting sees), or a maximum."""
-    assert not _dips(PLACE, np.array(values))
+    assert _dip(PLACE, np.array(values)) is None
 
 
 def dense(band: np.ndarray) -> np.ndarray:

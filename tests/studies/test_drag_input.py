@@ -13,6 +13,8 @@ from drag_wells import PIPE, well_a_survey
 
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
+from rodwell.report.folders.drag import write_drag
+from rodwell.studies.drag.drag import drag
 from rodwell.studies.drag.well_case import Well
 
 SLIDE = {"kind": "slide", "bit_force": "-50 kN"}
@@ -77,8 +79,6 @@ def test_bad_input_is_explained(changes: dict[str, Any], field: str, says: str) 
 
 
 def test_a_well_without_operations_says_so() -> None:
-    from rodwell.studies.drag.drag import drag
-
     with pytest.raises(InputError, match=r"well.operation: is missing"):
         drag(read(well={}))
 
@@ -102,7 +102,10 @@ def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
     assert set(data["operations"][0]["along"]) >= {"measured_depth", "axial_force", "contact_force", "torque", "error"}
     written = {file.name for file in (tmp_path / "out").iterdir()}
     assert {"drag.json", "operations.csv", "drag.xlsx", "well.toml"} <= written
-    shown = CliRunner().invoke(cli, ["drag", str(example), "--out", str(tmp_path / "o2"), "--units", "field"])
+    one = example.read_text(encoding="utf-8").partition('[[well.operation]]\nkind = "run-in"')[0]
+    short = tmp_path / "short.toml"
+    short.write_text(one.replace("horizontal.csv", str(example.with_suffix(".csv"))), encoding="utf-8")
+    shown = CliRunner().invoke(cli, ["drag", str(short), "--out", str(tmp_path / "o2"), "--units", "field"])
     assert shown.exit_code == 0
     assert "lbf" in shown.output
 
@@ -120,3 +123,12 @@ def test_friction_from_measurements_on_the_command_line(tmp_path: Path) -> None:
     data = json.loads((tmp_path / "out" / "drag.json").read_text(encoding="utf-8"))
     assert data["calibration"]["friction"][1]["value"] == pytest.approx(0.27, abs=0.01)
     assert "Friction from measurements" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_the_report_says_for_whom_it_is(tmp_path: Path) -> None:
+    found = drag(read(report={"client": "Ystad Wells", "author": "N. N."}, string__1={**PIPE}))
+    write_drag(found, tmp_path / "out")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Ystad Wells" in page
+    with pytest.raises(InputError, match="must be a picture"):
+        read(report={"logo": "logo.gif"})

@@ -181,6 +181,7 @@ def test_a_string_that_locks_up_says_so_and_keeps_what_was_computed() -> None:
     assert data["operations"][0]["hook_load"] is None
     assert "locks up" in data["summary"][0]
     assert 0.0 < data["operations"][0]["locks_at"] < 6000.0
+    assert data["operations"][0]["largest_von_mises"] is None  # it has no bound
     assert len(data["operations"][0]["along"]["measured_depth"]) > 100
     assert data["operations"][0]["lock_up_depth"]["value"] < 6000.0
 

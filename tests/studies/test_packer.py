@@ -250,7 +250,7 @@ def test_the_command_writes_everything(tmp_path: Path) -> None:
     assert data["buckling"]["value"] == pytest.approx(-46.0 * 0.0254, rel=1e-3)
     assert data["packer_force"]["value"] == 0.0
     assert data["converged"]
-    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     assert "which ends 8630 ft above it" in page
     printed = CliRunner().invoke(
         cli, ["packer", str(EXAMPLE), "--out", str(tmp_path / "out"), "--json", "--units", "si"]
@@ -292,6 +292,19 @@ def test_an_inclined_hole_gives_both_histories() -> None:
 def test_wrong_input(said: str, changes: dict[str, Any]) -> None:
     with pytest.raises(InputError, match=said):
         rodwell.packer(_case(**changes))
+
+
+def test_a_string_of_sections_is_refused() -> None:
+    pipe = {"outer_diameter": "2.875 in", "inner_diameter": "2.441 in", "material": "steel"}
+    case = rodwell.Case.from_dict(
+        {
+            "string": [{**pipe, "length": "1000 ft"}, {**pipe, "length": "500 ft", "inner_diameter": "2 in"}],
+            "hole": {"diameter": "6.094 in", "angle_from_vertical": "20 deg"},
+            "packer": {"bore": "3.25 in", "motion": "all"},
+        }
+    )
+    with pytest.raises(InputError, match=r"string: is not taken beside \[packer\]"):
+        rodwell.packer(case)
 
 
 def test_a_case_without_packer_says_what_to_write() -> None:

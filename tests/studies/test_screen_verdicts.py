@@ -67,10 +67,10 @@ def screening(**changes: Any) -> rodwell.Screening:
     survey = Survey.of([0.0, 100.0, 200.0, 300.0], [60.0, 60.0, 60.0, 60.0])
     case = Case.from_dict(DATA)
     force = None if changes.get("force") is None else np.asarray(changes["force"]) * 1e3
-    critical = Loads(exact, errors, reasons, 4, 0.0)
+    critical = Loads(exact, errors, reasons, 4, 0.0, 1e-3)
     string = rodwell.screen(case, survey).string
     return rodwell.Screening(
-        case, survey, string, critical, Loads(lift, errors, {}, 4, 0.0), formulas, force, {60.0: 0.0}
+        case, survey, string, critical, Loads(lift, errors, {}, 4, 0.0, 1e-2), formulas, force, {60.0: 0.0}
     )
 
 

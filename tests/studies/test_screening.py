@@ -278,3 +278,18 @@ def test_plain_data_hold_no_nan(well: rodwell.Screening) -> None:
     json.dumps(data, allow_nan=False)
     assert len(data["critical_compression"]) == len(data["critical_error"]) == 90
     assert data["summary"][0].startswith("By the straight-hole loads the string does not buckle")
+
+
+@pytest.mark.parametrize(("count", "missed"), [(60, 0), (20_000, 1)])
+def test_where_a_load_jumps_few_are_solved_for_and_many_say_by_how_much_they_may_be_off(
+    count: int, missed: int
+) -> None:
+    def solve(alpha: float) -> LocalLoad:
+        return LocalLoad(Value(100.0 + alpha if alpha < 50.0 else 160.0 + alpha, 1e-6))
+
+    alphas = np.linspace(3.0, 90.0, count)
+    loads = loads_at(list(alphas), solve, Precision(1e-2, 7))
+    exact = np.array([solve(alpha).compression.value for alpha in alphas])  # type: ignore[union-attr]
+    assert bool(loads.missed.size) == bool(missed)
+    assert np.all(np.abs(loads.values - exact) <= 1.01 * loads.errors)
+    assert np.all(np.abs(alphas[loads.missed] - 50.0) < 1.0)

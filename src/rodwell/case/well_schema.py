@@ -19,7 +19,16 @@ from rodwell.case.kinds import (
     Several,
     Units,
 )
-from rodwell.case.schema import REQUIRED, CatalogueFiles, Mud, PressureAtEnd, SectionInput, StringInput, _key
+from rodwell.case.schema import (
+    REQUIRED,
+    CatalogueFiles,
+    Mud,
+    PressureAtEnd,
+    ReportInput,
+    SectionInput,
+    StringInput,
+    _key,
+)
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")
 CONTACTS = ("exact", "correlation", "straight")
@@ -115,3 +124,4 @@ class WellFile(SectionInput):
     pressure: PressureAtEnd | None = None
     well: WellInput = Field(default_factory=WellInput)
     catalogue: CatalogueFiles | None = None
+    report: ReportInput | None = None

@@ -133,9 +133,11 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
 
     problem = make_problem(given)
     loads = sensitivities(problem, mode, rtol=rtol)
+    missed = [load.name for load in loads if not load.converged]
     if as_json:
         convention = "end force F at s = 1 in B/L^2, tension positive; alpha in degrees; " + ends_text(problem)
         print_json({"loads": [load.as_dict() for load in loads], "convention": convention})
+        check_missed(missed, rtol)
         return
     for load in loads:
         click.echo(
@@ -151,6 +153,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
                 click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {with_error(slope)}")
         if load.note:
             click.echo(f"  {load.note}")
+    check_missed(missed, rtol)
 
 
 _PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁"}

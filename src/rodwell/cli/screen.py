@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.options import OutPath, print_json, print_written, progress_bar
+from rodwell.cli.options import OutPath, check_missed, print_json, print_written, progress_bar
 from rodwell.errors import InputError
 from rodwell.quantities.text import plain
 
@@ -70,6 +70,8 @@ def screen(
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
+    from rodwell.studies.well.plain import screening_dict  # noqa: PLC0415
+    from rodwell.studies.well.screening import CRITICAL_PRECISION, LIFT_OFF_PRECISION  # noqa: PLC0415
 
     read = Case.read(case)
     how = {
@@ -87,9 +89,13 @@ def screen(
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
     if units is not None:
         wells = {name: replace(each, depth_unit={"si": "m", "field": "ft"}[units]) for name, each in wells.items()}
-    data = {name: _screened(read, each, forces, folders[name], as_json, details) for name, each in wells.items()}
+    done = {name: _screened(read, each, forces, folders[name], as_json, details) for name, each in wells.items()}
     if as_json:
+        data = {name: screening_dict(each) for name, each in done.items()}
         print_json({"wells": data} if all_wells else next(iter(data.values())))
+    for kind, precision in (("critical load", CRITICAL_PRECISION), ("lift-off load", LIFT_OFF_PRECISION)):
+        missed = [f"{name}: {what}" if name else what for name, each in done.items() for what in each.missed[kind]]
+        check_missed(missed, precision.tolerance)
 
 
 def _columns(given: tuple[str, ...]) -> dict[str, str | int]:
@@ -125,21 +131,19 @@ def _folder_name(well: str, number: int) -> str:
 
 def _screened(
     case: Case, well: Survey, forces: dict[str, float | None], folder: Path, as_json: bool, details: bool
-) -> dict[str, Any]:  # fmt: skip
-    """Screen one well, write its folder, and print or return what was found."""
+) -> Screening:  # fmt: skip
+    """Screen one well, write its folder, and print what was found unless it is wanted as JSON."""
     from rodwell.report.folders.well import write_screening  # noqa: PLC0415
-    from rodwell.studies.well.plain import screening_dict  # noqa: PLC0415
     from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(case, well, **forces, signs_meant=True, progress=tell)
         tell("figure and data", 1.0)
         write_screening(result, folder)
-    if as_json:
-        return screening_dict(result)
-    _print(result, details)
-    print_written(folder, "report.html")
-    return {}
+    if not as_json:
+        _print(result, details)
+        print_written(folder, "report.html")
+    return result
 
 
 def _force(option: str, text: str | None) -> float | None:

@@ -77,7 +77,10 @@ def plot_operation(found: Drag, one: OperationResult) -> Figure:
         forces.axvline(0.0, color=GREY, lw=0.8)
         forces.set_xlabel(f"force, tension positive  [{force}]")
         forces.set_ylabel(f"measured depth  [{depth}]")
-        _range(forces, np.concatenate([run.forces, one.strength.true_force]) / n, _lowest(one) / n)
+        lowest = _lowest(one)
+        if run.arrived:
+            lowest = min(lowest, float(np.nanmin(np.append(one.strength.true_force, 0.0))))
+        _range(forces, np.concatenate([run.forces, one.strength.true_force]) / n, lowest / n)
         shown = run.forces >= _lowest(one)
         contact.plot(run.contacts / q, md, color=MODES[2], lw=1.5)
         contact.set_xlabel(f"contact force  [{per}]")

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.off_wall.state import STRAIGHT
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, SNAP, UNLOADING, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
@@ -80,10 +81,9 @@ def _snaps(ax: Any, result: LoadPath) -> None:
             "", xy=(1e3 * end, load), xytext=(1e3 * start, load),
             arrowprops={"arrowstyle": "-|>", "color": WARN, "lw": 1.3, "shrinkA": 3, "shrinkB": 0},
         )  # fmt: skip
-        name = event.to.kind + (
-            f", {abs(event.to.turns)} turn{'s' if abs(event.to.turns) > 1 else ''}" if event.to.turns else ""
-        )
+        turns = f", {abs(event.to.turns)} turn{'s' if abs(event.to.turns) > 1 else ''}" if event.to.turns else ""
+        name = "falls back" if event.to.kind == STRAIGHT else f"snaps: {event.to.kind}{turns}"
         ax.annotate(
-            f"snaps: {name}", xy=(1e3 * 0.5 * (start + end), load), xytext=(0, 4), textcoords="offset points",
+            name, xy=(1e3 * 0.5 * (start + end), load), xytext=(0, 4), textcoords="offset points",
             ha="center", fontsize=8.5, color=WARN,
         )  # fmt: skip

@@ -34,6 +34,9 @@ LIMITS = {
 RADIANS = tuple(math.radians(degrees) for degrees in (15, 30, 45, 60, 75, 80, 85, 89, 90))
 """Inclinations that are asked back, since they are round in degrees if they are meant in radians."""
 
+STEEP = 1.01 * max(RADIANS)
+"""No angle above is one of them: curves make thousands of problems."""
+
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     """End conditions in words: their names, or what ``words`` says of each; and how many sections a string has."""
@@ -135,7 +138,7 @@ class Problem:
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
         self._check_ends()
-        if any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
+        if self.alpha < STEEP and any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
             degrees = math.degrees(self.alpha)
             warnings.warn(
                 f"alpha = {self.alpha:.6g} is taken in degrees, nearly vertical; for {self.alpha:.6g} rad give "

@@ -125,7 +125,20 @@ def family(
         and problem.ends == ("clamped", "clamped")
         and parameter != "alpha"
         and not problem.sections,
+        cells=_cells(problem, parameter),
     )
+
+
+def _cells(problem: Problem, parameter: str) -> tuple[int, ...]:
+    """Signs of reflections y(p + x) → ± y(p − x) about any place p, where both ends are such places.
+
+    Of a horizontal rod: a pinned end asks y(−x) = −y(x), a guided one y(−x) = y(x), which the twisting moment forbids.
+    """
+    if problem.axial_weight != 0.0 or parameter == "alpha" or problem.turns != 0 or problem.sections:
+        return ()
+    signs = (-1,) if problem.twist != 0.0 or parameter == "twist" else (-1, 1)
+    ends = {"pinned": -1, "guided": 1}
+    return signs if all(ends.get(end) in signs for end in problem.ends) else ()
 
 
 def given_along(problem: Problem) -> Given | None:

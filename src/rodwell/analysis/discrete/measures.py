@@ -109,13 +109,15 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
     count = places.size
-    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(count + len(PROBES)), np.empty(count + len(PROBES))
-    shortening, torque, bending, torque_size, push, lever, sharpest, widest, steepest = totals(
-        mesh, c, parameters, shear
+    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(count), np.empty(count)
+    at_probes, unused = np.empty(len(PROBES)), np.empty(len(PROBES))
+    shortening, torque, bending, torque_size, sharpest, widest, steepest = totals(
+        mesh, knots, landmarks, c, parameters, shear
     )
-    tables = tabulated(knots, len(mesh.local) - 1, mesh.starts, mesh.points, places), probes
-    balanced(mesh, knots, landmarks, c, parameters, push, lever, shear, tables, values, left)
-    highest = np.max(values[:count])
+    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
+    balanced(mesh, knots, c, parameters, shear, tables, values, left)
+    balanced(mesh, knots, c, parameters, shear, probes, at_probes, unused)
+    highest = np.max(values)
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
         combine(mesh.local, landmarks, i, c, marks[i], u[i])
@@ -142,14 +144,14 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
             scales[k] = 1.0
     numbers[AS_FIELD], scales[AS_FIELD] = np.max(sizes), scales[Measured.P_MAX]
     for k in range(len(PROBES)):
-        numbers[PROBED + k], scales[PROBED + k] = values[count + k], np.inf
-    noise[Measured.P_MAX] = np.max(left[:count])
+        numbers[PROBED + k], scales[PROBED + k] = at_probes[k], np.inf
+    noise[Measured.P_MAX] = np.max(left)
     for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
         noise[which] = SOFT * scales[which]
     return out
 
 
-_quick_numbers, _quick_maxima, _quick_pressures = direct(_numbers), direct(maxima), direct(balanced_pressures)
+_quick_numbers, _quick_maxima = direct(_numbers), direct(maxima)
 
 _probed: WeakKeyDictionary[SplineSpace, Any] = WeakKeyDictionary()
 """What is tabulated at the :data:`PROBES`, for each space: the states of a branch are all measured on a few."""
@@ -187,7 +189,7 @@ def measure(family: Family, state: State) -> FloatArray:
     found = _maxima(family, state.c, p)
     probes = _probed.get(space)
     if probes is None:
-        probes = _probed[space] = tabulated(space.knots, space.degree, space.starts, space.points, np.array(PROBES))
+        probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
     numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
     return np.asarray(numbers)
 
@@ -220,5 +222,5 @@ def pressure_maxima(
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     places, _, lowest = _maxima(family, state.c, p)
-    values = _quick_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
-    return places, np.asarray(values), float(lowest)
+    values = balanced_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
+    return places, values, float(lowest)

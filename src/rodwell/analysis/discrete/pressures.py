@@ -19,11 +19,13 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import formula, kernel
+from rodwell.compiling.kernels import direct, formula, kernel
 from rodwell.numerics.splines.assembly import SHARED, at_points
-from rodwell.numerics.splines.basis import basis_derivatives, element_of, find_span
+from rodwell.numerics.splines.basis import AT_ONCE, MOST_ORDERS, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
+from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
+from rodwell.quantities.arrays import FloatArray
 
 COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
 """Round-off in derivatives of a spline, relative to the sum of the sizes of their terms: some units in the last
@@ -69,29 +71,6 @@ def _adding(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
 _add = on_lanes(lambda model: lambda rows, parameters: _adding(model, rows, parameters))
 
 
-@formula
-def totals(mesh, c, parameters, shear):
-    """Integrals over the rod and largest values; write to ``shear`` (elements + 1,) ∫ ∂e/∂y ds up to mesh points.
-
-    Returns
-    -------
-    ∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, ½∫ω₂², ∫Δ wₗ |sin ξ₂|, ∫∂e/∂y′, ∫(1 − s) ∂e/∂y, max |ω₂|, |ξ₂|, |sin η|
-    """
-    known = SHARED + 3 + mesh.given.shape[1]
-    rows = np.zeros((known + TOTALS, len(mesh.per_element)))
-    found = rows[known:]
-    uniforms = (parameters,)
-    shear[0] = 0.0
-    for element in range(mesh.starts.size):
-        at_points(mesh, c, element, rows)
-        _add(mesh.model, mesh.per_element, rows, uniforms, found)
-        shear[element + 1] = -found[1].sum() / parameters[CLEARANCE]
-    return (
-        found[0].sum(), found[1].sum(), found[2].sum(), found[3].sum(), found[4].sum(), found[5].sum(),
-        found[6].max(), found[7].max(), found[8].max(),
-    )  # fmt: skip
-
-
 def _pressed(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
     """Contact pressure, negative in contact, from s, y, y′, y″, V and what is given."""
     s, y, y1, y2, shear = (rows[i] for i in range(5))
@@ -124,7 +103,10 @@ def free_ends(mesh):
 
 @formula
 def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
-    """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there."""
+    """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there.
+
+    ``push`` is ∫∂e/∂y′, ``lever`` ∫(1 − s) ∂e/∂y.
+    """
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
     count, local = shear.size, len(mesh.local)
     whole = shear[count - 1]
@@ -154,11 +136,37 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
 
 
 @kernel
-def tabulated(knots, degree, starts, points, places):
+def totals(mesh, knots, ends, c, parameters, shear):
+    """Integrals over the rod and largest values; write to ``shear`` (elements + 1,) V at mesh points.
+
+    ``ends`` has the basis functions and two derivatives at both ends, first and last.
+
+    Returns
+    -------
+    ∫(1 − cos η), T₂(0) = −∫ Δ wₗ sin ξ₂, ½∫ω₂², ∫Δ wₗ |sin ξ₂|, max |ω₂|, |ξ₂|, |sin η|
+    """
+    known = SHARED + 3 + mesh.given.shape[1]
+    rows = np.zeros((known + TOTALS, len(mesh.per_element)))
+    found = rows[known:]
+    uniforms = (parameters,)
+    shear[0] = 0.0
+    for element in range(mesh.starts.size):
+        at_points(mesh, c, element, rows)
+        _add(mesh.model, mesh.per_element, rows, uniforms, found)
+        shear[element + 1] = -found[1].sum() / parameters[CLEARANCE]
+    _balance(mesh, knots, ends, c, parameters, found[4].sum(), found[5].sum(), shear)
+    return (
+        found[0].sum(), found[1].sum(), found[2].sum(), found[3].sum(),
+        found[6].max(), found[7].max(), found[8].max(),
+    )  # fmt: skip
+
+
+@kernel
+def tabulated(local_tag, knots, starts, points, places):
     """Everything at ``places`` (k,) that does not depend on a state.
 
     ``starts`` are the first functions, ``points`` the Gauss points of all elements: those of a place's element are
-    moved to where only the part of it before the place is integrated over.
+    moved to where only the part of it before the place is integrated over. ``local_tag`` is a tuple of p + 1 zeros.
 
     Returns
     -------
@@ -169,21 +177,28 @@ def tabulated(knots, degree, starts, points, places):
     basis
         Basis functions and two derivatives at the places, (k, 3, p+1).
     inner
-        Basis functions at the moved Gauss points, (k, points of an element, 1, p+1).
+        Basis functions at the moved Gauss points, (k, points of an element, p+1).
     """
+    degree = len(local_tag) - 1
     per_element = points.size // starts.size
     elements, shares = np.empty(places.size, np.int64), np.empty(places.size)
-    basis = np.empty((places.size, 3, degree + 1))
-    inner = np.empty((places.size, per_element, 1, degree + 1))
+    basis, inner = np.empty((places.size, 3, degree + 1)), np.empty((places.size, per_element, degree + 1))
+    x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, degree + 1, AT_ONCE))
     for k in range(places.size):
         span = find_span(knots, degree, places[k])
-        basis_derivatives(knots, span, degree, places[k], basis[k])
-        low, width = knots[span], knots[span + 1] - knots[span]
-        elements[k], shares[k] = element_of(starts, span - degree), (places[k] - low) / width
-        if 0.0 < shares[k] < 1.0:
-            for i in range(per_element):
-                point = low + (points[elements[k] * per_element + i] - low) * shares[k]
-                basis_derivatives(knots, span, degree, point, inner[k, i])
+        low, element = knots[span], element_of(starts, span - degree)
+        elements[k], shares[k] = element, (places[k] - low) / (knots[span + 1] - low)
+        for first in range(0, per_element + 1, AT_ONCE):  # the place itself, and then the points
+            for i in range(AT_ONCE):
+                point = points[element * per_element + min(max(first + i - 1, 0), per_element - 1)]
+                x[0, i] = places[k] if first + i == 0 else low + (point - low) * shares[k]
+            side_by_side(local_tag, knots, span, x, out)
+            for i in range(min(AT_ONCE, per_element + 1 - first)):
+                for a in range(degree + 1):
+                    if first + i > 0:
+                        inner[k, first + i - 1, a] = out[0, a, i]
+                    for order in range(3 if first + i == 0 else 0):
+                        basis[k, order, a] = out[order, a, 0]
     return places, elements, shares, basis, inner
 
 
@@ -197,7 +212,7 @@ def _shear_at(mesh, knots, c, parameters, shear, element, share, inner):
     for i in range(count if share > 0.0 else 0):
         y = parameters[RAMP] * (low + (mesh.points[element * count + i] - low) * share)
         for a in range(degree + 1):
-            y += inner[i, 0, a] * c[mesh.starts[element] + a]
+            y += inner[i, a] * c[mesh.starts[element] + a]
         rate = parameters[LATERAL_WEIGHT] * np.sin(y / parameters[CLEARANCE])
         if mesh.given.shape[1] > 0:
             rate *= mesh.given[element * count, WEIGHT]
@@ -218,51 +233,49 @@ def derivative(basis, order, c, first):
     return value, size
 
 
-@formula
-def balanced(mesh, knots, ends, c, parameters, push, lever, shear, tables, values, noise):
-    """Write to ``values`` the contact pressure at the places of some tables, and to ``noise`` what round-off leaves.
+@kernel
+def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
+    """Write to ``values`` (k,) the contact pressure at the places of tables, to ``noise`` (k,) what round-off leaves.
 
-    ``shear`` are the integrals of ∂e/∂y up to mesh points that :func:`totals` writes, ``push`` and ``lever`` the
-    integrals that it returns; V takes the place of the former. ``ends`` has the basis functions at both ends, first and
-    last; ``tables`` is a tuple of what :func:`tabulated` returns.
+    ``shear`` (elements + 1,) is V at mesh points, ``tables`` what :func:`tabulated` returns.
     """
     known, out = np.empty((5 + mesh.given.shape[1], len(CHANGED))), np.empty((1, len(CHANGED)))
-    uniforms, done = (parameters,), 0
-    _balance(mesh, knots, ends, c, parameters, push, lever, shear)
+    places, elements, shares, basis, inner = tables
     loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
-    for places, elements, shares, basis, inner in tables:
-        for i in range(places.size):
-            s, first = places[i], mesh.starts[elements[i]]
-            force = _shear_at(mesh, knots, c, parameters, shear, elements[i], shares[i], inner[i])
-            y = 0.0
-            for a in range(len(mesh.local)):
-                y += basis[i, 0, a] * c[first + a]
-            slope, size_1 = derivative(basis[i], 1, c, first)
-            bend, size_2 = derivative(basis[i], 2, c, first)
-            if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
-                bend = size_2 = 0.0
-            elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
-                slope = size_1 = 0.0
-            for k in range(5):
-                known[0, k], known[1, k], known[2, k], known[3, k], known[4, k] = s, y, slope, bend, force
-                for j in range(mesh.given.shape[1]):
-                    known[5 + j, k] = mesh.given[elements[i] * len(mesh.per_element), j]
-            known[2, 1] -= CHANGE * size_1
-            known[2, 2] += CHANGE * size_1
-            known[3, 3] -= CHANGE * size_2
-            known[3, 4] += CHANGE * size_2
-            _pressure(mesh.model, CHANGED, known, uniforms, out)
-            values[done] = out[0, 0]
-            spread = abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3])
-            noise[done] = COEFFICIENT_NOISE / (2.0 * CHANGE) * spread
-            done += 1
+    for i in range(places.size):
+        s, first = places[i], mesh.starts[elements[i]]
+        force = _shear_at(mesh, knots, c, parameters, shear, elements[i], shares[i], inner[i])
+        y = 0.0
+        for a in range(len(mesh.local)):
+            y += basis[i, 0, a] * c[first + a]
+        slope, size_1 = derivative(basis[i], 1, c, first)
+        bend, size_2 = derivative(basis[i], 2, c, first)
+        if (s == 0.0 and turns_0) or (s == 1.0 and turns_1):
+            bend = size_2 = 0.0
+        elif (s == 0.0 and loose_0) or (s == 1.0 and loose_1):  # guided: y′ is held, y is not
+            slope = size_1 = 0.0
+        for k in range(5):
+            known[0, k], known[1, k], known[2, k], known[3, k], known[4, k] = s, y, slope, bend, force
+            for j in range(mesh.given.shape[1]):
+                known[5 + j, k] = mesh.given[elements[i] * len(mesh.per_element), j]
+        known[2, 1] -= CHANGE * size_1
+        known[2, 2] += CHANGE * size_1
+        known[3, 3] -= CHANGE * size_2
+        known[3, 4] += CHANGE * size_2
+        _pressure(mesh.model, CHANGED, known, (parameters,), out)
+        values[i] = out[0, 0]
+        noise[i] = COEFFICIENT_NOISE / (2.0 * CHANGE) * (abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3]))
 
 
-@kernel
-def balanced_pressures(mesh, knots, ends, c, parameters, places):
+_quick_totals, _quick_balanced = direct(totals), direct(balanced)
+
+
+def balanced_pressures(
+    mesh: Discretisation, knots: FloatArray, ends: FloatArray, c: FloatArray, parameters: FloatArray, places: FloatArray
+) -> FloatArray:
     """Contact pressure (k,) at ``places`` (k,); ``ends`` has the basis functions at both ends, first and last."""
     shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
-    found = totals(mesh, c, parameters, shear)
-    tables = (tabulated(knots, len(mesh.local) - 1, mesh.starts, mesh.points, places),)
-    balanced(mesh, knots, ends, c, parameters, found[4], found[5], shear, tables, values, noise)
+    _quick_totals(mesh, knots, ends, c, parameters, shear)
+    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
+    _quick_balanced(mesh, knots, c, parameters, shear, tables, values, noise)
     return values

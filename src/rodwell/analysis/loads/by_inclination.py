@@ -11,13 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodwell.analysis.loads.long_rod import LocalLoad
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 from rodwell.quantities.value import Value
 
 Solve = Callable[[float], LocalLoad]
 
 SAFETY = 4.0
 """An interval is fine enough if the difference at its middle is this much below the tolerance."""
+
+SPARE = 1e-2
+"""By what part of the tolerance an error may be above it: an interpolated load has that of its neighbours besides."""
 
 FIRST_NODES = 9
 """Inclinations of the first table; with up to twice as many different ones, each is solved for."""
@@ -29,6 +32,7 @@ class Loads:
 
     Where there is no value both are NaN, and ``reasons`` says why, by number. ``interpolated`` is the largest relative
     difference between interpolated and exact loads at the middles of the intervals; 0 if nothing was interpolated.
+    ``tolerance`` is the relative error that was asked for.
     """
 
     values: FloatArray
@@ -36,6 +40,14 @@ class Loads:
     reasons: dict[int, str]
     solved: int
     interpolated: float
+    tolerance: float
+
+    @property
+    def missed(self) -> IntArray:
+        """Numbers of the loads that miss the tolerance: mostly, because loads jump near their inclination."""
+        with np.errstate(invalid="ignore"):
+            beyond = self.errors > (1.0 + SPARE) * self.tolerance * np.abs(self.values)
+        return np.flatnonzero(beyond)
 
 
 @dataclass(frozen=True)
@@ -53,7 +65,8 @@ def loads_at(
 
     The table is refined until the middle of every interval agrees with an exact load to a quarter of the tolerance, and
     the middles become nodes themselves; the error reported is the tolerance. Where a load jumps (the place that lifts
-    off changes), halving ends; the error there is the size of the jump.
+    off changes), halving ends; a few inclinations there are solved for, and if there are more, their error is the size
+    of the jump.
     """
     tell = progress or (lambda _done: None)
     distinct = sorted(set(alphas))
@@ -66,7 +79,13 @@ def loads_at(
     else:
         table = _LoadsOverAngle(inclined[0], inclined[-1], solve, precision, tell)
         known = table.at(inclined)
-        solved, worst = len(table.nodes), table.worst
+        jumps = table.jumps()
+        at_jumps = [alpha for alpha in inclined if any(low < place(alpha) < high for low, high in jumps)]
+        if len(at_jumps) <= 2 * FIRST_NODES:
+            known |= {alpha: solve(alpha) for alpha in at_jumps}
+        else:
+            at_jumps = []
+        solved, worst = len(table.nodes) + len(at_jumps), table.worst
         if distinct[0] == 0.0:
             known[0.0] = solve(0.0)
             solved += 1
@@ -74,7 +93,7 @@ def loads_at(
     compressions = [load.compression or Value(math.nan, math.nan) for load in loads]
     values, errors = np.array([load.value for load in compressions]), np.array([load.error for load in compressions])
     reasons = {i: load.reason for i, load in enumerate(loads) if load.compression is None}
-    return Loads(values, errors, reasons, solved, worst)
+    return Loads(values, errors, reasons, solved, worst, precision.tolerance)
 
 
 def place(alpha: float) -> float:
@@ -158,6 +177,10 @@ class _LoadsOverAngle:
             else:
                 still += [(low, middle), (middle, high)]
         return still
+
+    def jumps(self) -> list[tuple[float, float]]:
+        """The intervals of the table in which halving did not help."""
+        return [(part.low, part.high) for part in self._done if part.gap > self._precision.tolerance]
 
     def at(self, alphas: Sequence[float]) -> dict[float, LocalLoad]:
         """Loads at inclinations, by inclination, with the difference seen in their intervals as part of the errors.

@@ -12,7 +12,7 @@ dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -60,6 +60,8 @@ class Sensitivity:
         Of a string, for each section from s = 0: ∂f by its ratios "stiffness" and "weight", and, of critical loads, by
         the place "upper_end" of the step above it (all but the last), with error estimates. Torsional stiffness does
         not enter: T₁ is a dead load.
+    converged
+        Whether the load, and the state that the derivatives are taken at, meet the tolerance asked for.
     """
 
     name: str
@@ -68,6 +70,7 @@ class Sensitivity:
     derivatives: Derivatives
     note: str = ""
     sections: tuple[Derivatives, ...] = ()
+    converged: bool = True
 
     def elasticities(self) -> Derivatives:
         """Change of the load F in percent for one percent more of each physical input, with error estimates.
@@ -105,6 +108,7 @@ class Sensitivity:
             "derivatives": pairs(self.derivatives),
             "elasticities": pairs(self.elasticities()) if self.force != 0.0 else None,
             "note": self.note,
+            "converged": self.converged,
             **({"sections": [pairs(one) for one in self.sections]} if self.sections else {}),
         }
 
@@ -134,11 +138,12 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     if mode == 1 and problem.twist != 0.0 and problem.lateral_weight == 0.0:
         met = critical_loads(problem, 1, rtol=rtol).first_met
         assert isinstance(met, SpatialMode)
-        out.append(of_first_met(met))
+        known = met.error <= rtol * (abs(met.force) + twisted_load_scale(problem))
+        out.append(replace(of_first_met(met), converged=known))
     if problem.pressed:
-        lift = follow(problem, buckling, rtol=rtol).lift_off
-        if lift is not None:
-            out.append(of_lift_off(lift))
+        branch = follow(problem, buckling, rtol=rtol)
+        if (lift := branch.lift_off) is not None:
+            out.append(replace(of_lift_off(lift), converged=branch.meets_tolerance(lift)))
     return tuple(out)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
-from rodwell.analysis.straight.scale import LOAD_NOISE, load_scale
+from rodwell.analysis.straight.scale import load_noise, load_scale
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
@@ -170,7 +170,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         start = np.array([up(v) for v in vectors])
         better, shapes = _solve(problem, finer, count, (values, start))
         size = np.abs(better[:count]) + load_scale(problem)
-        error = np.abs(better[:count] - values[:count]) + LOAD_NOISE * size
+        error = np.abs(better[:count] - values[:count]) + load_noise(problem) * size
         if np.all(error <= rtol * size):
             break
         if 2 * finer.elements > MOST_ELEMENTS:

@@ -17,7 +17,7 @@ from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import pair_ends
 from rodwell.analysis.discrete.meshes import free_space
 from rodwell.analysis.straight.pencil import Pencil
-from rodwell.analysis.straight.scale import LOAD_NOISE, twisted_load_scale
+from rodwell.analysis.straight.scale import load_noise, twisted_load_scale
 from rodwell.analysis.straight.slopes import lever_at, weight_rates
 from rodwell.analysis.straight.touching import first_inwards
 from rodwell.errors import InputError, NotConvergedError, checked_whole
@@ -176,7 +176,7 @@ class LoadsWithoutWall:
             )
         size = abs(first.force) + twisted_load_scale(self.problem)
         found = first_inwards(_pencil(self.problem), first.space, first.multiplicity == DOUBLE, self.rtol * size)
-        error = found.error + (first.error if found.moves_inward else LOAD_NOISE * size)
+        error = found.error + (first.error if found.moves_inward else load_noise(self.problem) * size)
         force = first.force if found.moves_inward else -found.value
         mode = self.problem, force, error, SINGLE, found.space, found.coefficients
         return WallTouch(*mode, found.moves_inward, found.contacts)
@@ -226,7 +226,7 @@ def _loads(problem: Problem, count: int, rtol: float) -> LoadsWithoutWall:
         better, shapes = pencil.lowest(finer, wanted, (values, start))
         forces = -better[:wanted]
         size = np.abs(forces) + twisted_load_scale(problem)
-        error = np.abs(better[:wanted] - values[:wanted]) + LOAD_NOISE * size
+        error = np.abs(better[:wanted] - values[:wanted]) + load_noise(problem) * size
         if np.all(error <= rtol * size):
             break
         if 2 * finer.elements > MOST_ELEMENTS:

@@ -61,8 +61,12 @@ def index_crossings(
 ALONE = 0.1
 """Width of a bracket, as a part of the segment, in which a single change of the index is taken to stand alone."""
 
-CLOSE = 3e-3
-"""Width of a bracket in which Newton's method may be kept off a direction: the error left goes with its 4th power."""
+CLOSE = 2e-2
+"""Width of a bracket, as a part of the segment, in which Newton's method may be kept off a direction."""
+
+BESIDE = (0.06, 0.12, 0.18)
+"""How far beyond such a bracket, either way, states tell how much of that direction there is inside."""
+
 
 FOLD_OFFSET = 1e-3
 """How far from a turning point, as a part of the segment, the index is compared."""
@@ -123,7 +127,8 @@ def _located(coarse: Segment, fine: Segment, turns: Sequence[float], bracket: _B
     """The zero of the eigenvalue in a bracket, on both meshes."""
     low, high, before, after = bracket.low, bracket.high, bracket.before, bracket.after
     fold = any(low - FOLD_OFFSET <= turn <= high + FOLD_OFFSET for turn in turns) and high - low < 3.0 * FOLD_OFFSET
-    if not fold and not fine.family.may_branch(fine(low), fine(high)):
+    vector = None if bracket.softest is None else bracket.softest.vector
+    if not fold and not fine.family.may_branch(fine(low), fine(high), vector):
         if doubted or _drowned(fine, low, high):
             return Crossing(None, low, before, after, fold=False)
         raise LeftTheBranchError("the stability index changes where nothing may branch: the step has left the branch")
@@ -135,13 +140,18 @@ def _located(coarse: Segment, fine: Segment, turns: Sequence[float], bracket: _B
         low, high = _shrunk(fine, low, high, before)
         softest = softest if low == bracket.low else _Eigenvalue(fine, low)
     parts = fine.narrowed(low, high).quick, coarse.narrowed(low, high).quick
-    if steady:  # Newton's method is kept off the direction in which the Hessian becomes singular
-        parts = replace(parts[0], frozen=softest.vector), replace(parts[1], frozen=_Eigenvalue(parts[1], 0.0).vector)
+    if steady:
+        beside = _Eigenvalue(parts[1], 0.0)
+        parts = _steadied(fine, parts[0], low, high, softest), _steadied(coarse, parts[1], low, high, beside)
     eigenvalue = softest.on(parts[0])
     ends = eigenvalue(0.0), eigenvalue(1.0)
     t = bracketed_root(eigenvalue, 0.0, 1.0, *ends, noise=eigenvalue.noise)
     try:
         rough = _Eigenvalue(parts[1], t)
+        if steady:  # once more, off just the direction in which the Hessian is singular there
+            eigenvalue, rough = eigenvalue.off_itself(), rough.off_itself()
+            parts = eigenvalue.segment, rough.segment
+            t = near_root(eigenvalue, t, after < before, farthest=1.0, noise=eigenvalue.noise)
         other = near_root(rough, t, after < before, farthest=ALONE / (high - low), noise=eigenvalue.noise)
     except LocationError:
         return Crossing(None, low, before, after, fold=False)
@@ -152,6 +162,10 @@ def _located(coarse: Segment, fine: Segment, turns: Sequence[float], bracket: _B
     )
     left = NOISY * max(eigenvalue.noise, *map(abs, rest))
     doubt = parts[0].doubt(place.fine, t, left / abs(ends[1] - ends[0]))
+    if steady:  # what the farthest states change tells how far the others may be off
+        nearer = replace(parts[0], through=parts[0].through[:2] + parts[0].through[3:5])
+        again = near_root(eigenvalue.on(nearer), t, after < before, noise=eigenvalue.noise)
+        doubt += CAUTION * abs(nearer(again).lam - place.fine.lam)
     return Crossing(place, place.t, before, after, fold, doubt)
 
 
@@ -178,6 +192,19 @@ def _shrunk(segment: Segment, low: float, high: float, before: int) -> tuple[flo
     return low, high
 
 
+CAUTION = 8.0
+"""How many times what two states more change is counted: round-off in the others does not show in that."""
+
+
+def _steadied(whole: Segment, part: Segment, low: float, high: float, softest: _Eigenvalue) -> Segment:
+    """A part of a segment with Newton's method kept off the direction in which the Hessian becomes singular.
+
+    What there is of it comes from states on both sides, where the Hessian is far from singular.
+    """
+    states = [whole(t) for t in (*(low - beside for beside in BESIDE), *(high + beside for beside in BESIDE))]
+    return replace(part, frozen=softest.vector, through=tuple(states))
+
+
 class _Eigenvalue:
     """The eigenvalue nearest to zero as a function of the place, followed by its vector from ``near``.
 
@@ -195,6 +222,10 @@ class _Eigenvalue:
         other = copy(self)
         other.segment, other.vector = segment, self.vector.copy()
         return other
+
+    def off_itself(self) -> _Eigenvalue:
+        """Return the same with Newton's method kept off its vector."""
+        return self.on(replace(self.segment, frozen=self.vector.copy()))
 
     def __call__(self, t: float) -> float:
         return self.segment.family.nearest_curvature(self.segment(t), self.vector, 3)[0]

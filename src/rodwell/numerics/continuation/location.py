@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+
+import numpy as np
 
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -30,12 +33,16 @@ class LeftTheBranchError(LocationError):
 
 @dataclass(frozen=True)
 class Segment:
-    """The stretch of a branch between two states of one family, in t from 0 to 1 along the first's tangent."""
+    """The stretch of a branch between two states of one family, in t from 0 to 1 along the first's tangent.
+
+    States are sought from the cubic through both, or from the polynomial ``through`` others that lie around them.
+    """
 
     family: Family
     first: State
     last: State
     frozen: FloatArray | None = None
+    through: tuple[State, ...] = ()
 
     def __call__(self, t: float) -> State:
         """Return the equilibrium at ``t``: Newton from the cubic Hermite interpolant.
@@ -83,10 +90,22 @@ class Segment:
         return (1.0 + 2.0 * t) * (1.0 - t) ** 2, t * t * (3.0 - 2.0 * t), *slopes
 
     def _interpolant(self, t: float) -> tuple[FloatArray, float]:
-        """Coefficients and λ of the cubic Hermite interpolant."""
+        """Coefficients and λ of the interpolant: Hermite's cubic, or through more states."""
         a, b = self.first, self.last
+        if self.through:
+            shares = [
+                math.prod((t - there) / (here - there) for j, there in enumerate(self._places) if j != i)
+                for i, here in enumerate(self._places)
+            ]
+            known = list(zip(shares, self.through, strict=True))
+            return np.asarray(sum(share * x.c for share, x in known)), sum(share * x.lam for share, x in known)
         h0, h1, s0, s1 = self._shares(t)
         return h0 * a.c + h1 * b.c + s0 * a.tangent + s1 * b.tangent, self._lam(t)
+
+    @cached_property
+    def _places(self) -> list[float]:
+        """Where the states lie that the interpolant goes through."""
+        return [self.first.along(state) / self._length for state in self.through]
 
     def _lam(self, t: float) -> float:
         a, b = self.first, self.last

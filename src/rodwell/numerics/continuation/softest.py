@@ -52,12 +52,16 @@ class SoftestEigenvalues:
         """Take the last points back."""
         del self.values[-count:], self.places[-count:]
 
-    def may_dip(self) -> bool:
-        """Whether an eigenvalue may have passed zero and come back around the last point but one."""
+    def dips(self) -> list[float]:
+        """Where an eigenvalue may have passed zero and come back around the last point but one.
+
+        In parts of the step after that point, or, with the other sign, of the step before it.
+        """
         if len(self.values) < 3:
-            return False
+            return []
         before, here, after = self.places[-3:]
-        return any(_dips((before - here, 0.0, after - here), values) for values in zip(*self.values[-3:], strict=True))
+        found = (_dip((before - here, 0.0, after - here), values) for values in zip(*self.values[-3:], strict=True))
+        return [place / (after - here if place > 0.0 else here - before) for place in found if place is not None]
 
     def _softest(self, family: Family, state: State, factors: FloatArray | None) -> tuple[float, float]:
         space = family.space
@@ -108,28 +112,31 @@ def softest(mesh, factors, symmetric, iterations, vectors):
 _softest_of = direct(softest)
 
 
-def _dips(place: Sequence[float], values: Sequence[float]) -> bool:
-    """Whether the parabola through three values of one sign, the middle one nearest to zero, comes much nearer."""
+def _dip(place: Sequence[float], values: Sequence[float]) -> float | None:
+    """Where the parabola through three values of one sign, the middle one nearest to zero, comes much nearer."""
     if not (min(values) > 0.0 or max(values) < 0.0):
-        return False
+        return None
     first, middle, last = (abs(value) for value in values)
     if middle > min(first, last):
-        return False
+        return None
     before, after = (middle - first) / (place[1] - place[0]), (last - middle) / (place[2] - place[1])
     bend = (after - before) / (place[2] - place[0])
     slope = before + bend * (place[1] - place[0])
-    return bend > 0.0 and middle - slope * slope / (4.0 * bend) < DEEP * middle
+    return -slope / (2.0 * bend) if bend > 0.0 and middle - slope * slope / (4.0 * bend) < DEEP * middle else None
 
 
-def hidden_change(meshes_along: list[TwoMeshes], points: list[MeshedState]) -> bool:
-    """Whether the index changes and changes back between the last three points of a branch."""
-    for k in (-3, -2):
+def hidden_change(meshes_along: list[TwoMeshes], points: list[MeshedState], dips: Sequence[float]) -> bool:
+    """Whether the index changes and changes back between the last three points of a branch.
+
+    ``dips`` are places, as :meth:`SoftestEigenvalues.dips` gives them, at which to look besides.
+    """
+    for k, own in ((-3, [1.0 + dip for dip in dips if dip < 0.0]), (-2, [dip for dip in dips if dip > 0.0])):
         meshes, last = meshes_along[k + 1], points[k + 1]
         first = points[k] if meshes_along[k] is meshes else meshes.adopt(meshes_along[k], points[k])[1]
         if first is None or first.fine.index != last.fine.index:
             continue
         segment = Segment(meshes.coarse.with_exact_tangent(), first.coarse, last.coarse)
-        for t in BETWEEN:
+        for t in (*own, *BETWEEN):
             try:
                 if segment(t).index != last.fine.index:
                     return True

@@ -31,6 +31,10 @@ EARLY = (1e-4, 1e-3, 1e-2)
 """Distances from the start of a branch that leaves another, in the metric of the family, at which it is looked at
 first, in the order of trial: what happens before, if anything, changes λ by less than is known of it."""
 
+PARTS_OF_SHORT = (0.1, 0.3)
+"""Parts of a first step at which it is looked at where it is shorter than these: a fold may follow at once, next to a
+double load under twist, before λ has changed by more than 1e-4."""
+
 EVEN_RISE = (0.5, 3.0)
 """Bounds of λ′ times the distance from such a start over the rise of λ, which is 1 or 2 without round-off."""
 
@@ -121,7 +125,7 @@ class _Stretch:
     def changes_past_the_start(self) -> list[Placed]:
         """The same where a branch leaves another, from a place on, close by, at which it is by itself."""
         length = self.before.fine.along(self.after.fine)
-        for early in (distance / length for distance in EARLY if distance < 0.5 * length):
+        for early in [distance / length for distance in EARLY if distance < 0.5 * length] or PARTS_OF_SHORT:
             try:
                 coarse, fine = (segment(early) for segment in self.segments)
             except LocationError:

@@ -138,7 +138,8 @@ class _Walk:
                 continue
             self.doubted = False
             self.left = self.left and length < DOUBTED_STEP * stepping.first
-            if length > stepping.smallest and self.softest.may_dip() and hidden_change(trace.meshes, trace.points):
+            dips = self.softest.dips() if length > stepping.smallest else []
+            if dips and hidden_change(trace.meshes, trace.points, dips):
                 length = 0.25 * min(length, trace.step_back(2))
                 self.predictor.restart(trace.points[-1].coarse)
                 self.softest.forget(2)

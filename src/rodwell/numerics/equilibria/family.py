@@ -20,6 +20,7 @@ import numpy as np
 from rodwell.compiling.kernels import direct
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.equilibria import newton
+from rodwell.numerics.equilibria.cells import branches_between, breaks
 from rodwell.numerics.equilibria.newton import Tolerances
 from rodwell.numerics.equilibria.outcome import OUTCOMES, Outcome
 from rodwell.numerics.equilibria.state import State, _part
@@ -52,7 +53,9 @@ class Family:
     latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them. ``given`` are the
     coefficients that vary along s, as the model names them. ``reflections`` (sign, turned) are those, u(s) → ± u(s) or
     ± u(1 − s), that make states of states all along the path; ``first_integral`` says that the density does not depend
-    on s, is quadratic in u″ at rest, and both ends are clamped at rest. Without one of these nothing branches.
+    on s, is quadratic in u″ at rest, and both ends are clamped at rest; ``cells`` are signs of the reflections about
+    any place (:mod:`rodwell.numerics.equilibria.cells`), of which the ends are two. Without one of these nothing
+    branches.
     """
 
     model: Any
@@ -69,6 +72,7 @@ class Family:
     given: Given | None = None
     reflections: tuple[tuple[int, bool], ...] = ALL_REFLECTIONS
     first_integral: bool = False
+    cells: tuple[int, ...] = ()
 
     def advice(self, outcome: Outcome) -> str:
         """What came of a solve, in words; where it left the range of the model, in the model's."""
@@ -254,17 +258,21 @@ class Family:
         outcome, new, _, factors = self._correct(c, lam, state.row, state.row_lam, target, None, tolerance)
         return outcome, new, np.inf if new is None else self.distance(new.c - c, new.lam - lam), factors
 
-    def may_branch(self, before: State, after: State) -> bool:
+    def may_branch(self, before: State, after: State, vector: FloatArray | None = None) -> bool:
         """Whether other states may branch off between two states of a branch: the equations must allow it.
 
-        A reflection leaves the states as they are, and what branches off breaks it. Or there is a first integral, whose
-        values at two clamped ends are −½u″²: states have u″(0) = u″(1), or u″(0) = −u″(1), and those of one kind meet
-        those of the other where both vanish (u′ is the null vector there).
+        A reflection leaves the states as they are, and what branches off, along the null ``vector`` (n,) if that is
+        known, breaks it. Or there is a first integral, whose values at two clamped ends are −½u″²: states have
+        u″(0) = u″(1), or u″(0) = −u″(1), and those of one kind meet those of the other where both vanish (u′ is the
+        null vector there).
         """
-        if self.parity != 0 or not before.c.any():
+        if not before.c.any():
             return True
-        parity = before.symmetry if before.space.symmetric else 0
-        if parity != 0 and (parity, True) in self.reflections:
+        parity = self.parity or (before.symmetry if before.space.symmetric else 0)
+        kept = self.parity != 0 or (parity, True) in self.reflections
+        if parity != 0 and kept and (vector is None or breaks(vector, parity)):
+            return True
+        if branches_between(before, after, self.cells, vector):
             return True
         if not self.first_integral:
             return False

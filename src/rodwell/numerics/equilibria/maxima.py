@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.splines.basis import basis_derivatives, element_of, find_span
+from rodwell.numerics.splines.basis import AT_ONCE, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.products import dots
 
@@ -21,11 +21,8 @@ SETTLED = 1e-4
 """Part of the stencil's width below which a Newton step is the last one: the next would be about its square, and the
 parabola gives the value at its end to round-off."""
 
-SIDE_BY_SIDE = (0,) * 8
-"""As long as there are samples that are computed at once."""
-
-STENCIL, ORDERS = (0,) * 5, (0,) * 4
-"""As long as the stencil of differences, and as many orders of derivatives as are known, with the field."""
+SIDE_BY_SIDE, ORDERS = (0,) * AT_ONCE, (0,) * 4
+"""As long as there are samples that are computed at once, and as there are derivatives with the field."""
 
 
 def _observing(model: Any) -> Callable[..., Sequence[Any]]:
@@ -61,25 +58,31 @@ def _sample(mesh, grid, table, c, parameters, sample):
 
 
 @formula
-def _around(mesh, knots, c, parameters, place, delta, basis, known, f):
-    """Write to ``f`` (1, 5) what is observed around a place, ``delta`` apart.
+def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
+    """Write to ``f`` (1, 8) what is observed around a place, ``delta`` apart, in the first five.
 
     A little beyond the ends the polynomial pieces are continued.
     """
-    degree = len(mesh.local) - 1
+    local = len(mesh.local)
+    for k in range(AT_ONCE):
+        known[0, k] = place + (min(k, 4) - 2) * delta
+    last = -1
     for k in range(5):
-        s = place + (k - 2) * delta
-        span = find_span(knots, degree, s)
-        basis_derivatives(knots, span, degree, s, basis)
-        known[0, k] = s
+        span = find_span(knots, local - 1, known[0, k])
+        if span != last:  # mostly, all five lie on one
+            side_by_side(mesh.local, knots, span, known[:1], basis)
+            last = span
         for d in range(4):
             total = 0.0
-            for a in range(len(mesh.local)):
-                total += basis[d, a] * c[span - degree + a]
+            for a in range(local):
+                total += basis[d, a, k] * c[span - local + 1 + a]
             known[1 + d, k] = total
         for j in range(mesh.given.shape[1]):
-            known[5 + j, k] = mesh.given[element_of(mesh.starts, span - degree) * len(mesh.per_element), j]
-    _observed(mesh.model, STENCIL, known, (parameters,), f)
+            known[5 + j, k] = mesh.given[element_of(mesh.starts, span - local + 1) * len(mesh.per_element), j]
+    for k in range(5, AT_ONCE):  # not looked at: the last again
+        for row in range(1, known.shape[0]):
+            known[row, k] = known[row, 4]
+    _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), f)
 
 
 @kernel
@@ -113,8 +116,8 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
-    basis, f = np.empty((4, len(mesh.local))), np.empty((1, 5))
-    known = np.empty((5 + mesh.given.shape[1], 5))
+    known, f = np.empty((5 + mesh.given.shape[1], AT_ONCE)), np.empty((1, AT_ONCE))
+    basis = np.empty((4, len(mesh.local), AT_ONCE))
     for j in range(m):
         if (
             sample[j] < threshold
@@ -128,8 +131,12 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
         delta = 0.05 * (high - low)
         if 0 < j < m - 1:
             place = _vertex(grid[j - 1 : j + 2], sample[j - 1 : j + 2])
-        for _ in range(MOST_STEPS):
-            _around(mesh, knots, c, parameters, place, delta, basis, known, f)
+        for step_number in range(MOST_STEPS + 1):
+            settled = step_number == MOST_STEPS  # enough of it: the value there
+            _around(mesh, knots, c, parameters, place, 0.0 if settled else delta, known, basis, f)
+            refined = f[0, 2]
+            if settled:
+                break
             slope = (8.0 * (f[0, 3] - f[0, 1]) - (f[0, 4] - f[0, 0])) / (12.0 * delta)
             bend = (16.0 * (f[0, 3] + f[0, 1]) - 30.0 * f[0, 2] - (f[0, 4] + f[0, 0])) / (12.0 * delta * delta)
             uphill = high if slope > 0.0 else low
@@ -137,11 +144,8 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
             step = min(max(target, low), high) - place
             place += step
             if abs(step) <= SETTLED * delta:
-                refined = f[0, 2] + step * (slope + 0.5 * step * bend)
+                refined += step * (slope + 0.5 * step * bend)
                 break
-        else:
-            _around(mesh, knots, c, parameters, place, 0.0, basis, known, f)
-            refined = f[0, 2]
         if refined < value:  # a maximum at an end, or one too flat to refine
             place, refined = grid[j], value
         places[count], values[count] = place, refined

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.compiling.kernels import formula, kernel
+from rodwell.compiling.kernels import kernel
 from rodwell.numerics.splines.assembly import assemble
 from rodwell.numerics.splines.banded import factorise, multiply, solve, solve_both
 from rodwell.numerics.splines.held import gather, restrict, spread
@@ -81,21 +81,21 @@ def solve_within(mesh, factors, x, frozen, covector):
     """Solve H x = b in place for the unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
     solve(factors, x)
-    _keep_within(mesh, x, frozen, covector)  # ... and out of the solution
+    keep_within(mesh, x, frozen, covector)  # ... and out of the solution
 
 
-@formula
-def _solve_both_within(mesh, factors, x, y, frozen, covector):
+@kernel
+def solve_both_within(mesh, factors, x, y, frozen, covector):
     """Solve for two right-hand sides as :func:`solve_within` does."""
     deflate(x, covector, frozen)
     deflate(y, covector, frozen)
     solve_both(factors, x, y)
-    _keep_within(mesh, x, frozen, covector)
-    _keep_within(mesh, y, frozen, covector)
+    keep_within(mesh, x, frozen, covector)
+    keep_within(mesh, y, frozen, covector)
 
 
-@formula
-def _keep_within(mesh, x, frozen, covector):
+@kernel
+def keep_within(mesh, x, frozen, covector):
     """Let what is held follow, and keep ``x`` (n,) within the symmetry and off the frozen direction, in place."""
     spread(x, mesh.held, mesh.follows)
     symmetrise(x, mesh.parity)
@@ -189,7 +189,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         for i in range(n):
             b[i], w[i] = mixed[i], row[i]
         gather(w, mesh.held, mesh.follows)
-        _solve_both_within(mesh, band, b, w, frozen, covector)
+        solve_both_within(mesh, band, b, w, frozen, covector)
         first_dlam, lever = gap, row_lam
         for i in range(n):
             first_dlam += w[i] * gradient[i]

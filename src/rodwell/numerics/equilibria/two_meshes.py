@@ -230,8 +230,9 @@ def _along(family: Family, path: FloatArray, ends: Ends, parity: int) -> Family:
     """The same family along another path in the parameters, with ends and a parity to keep."""
     if (ends, parity) != (family.ends, family.parity):
         return replace(family, path=path, ends=ends, parity=parity)
-    other = copy(family)  # with the record of its mesh: each point of a curve takes dozens of families
-    other.__dict__["path"] = path
+    # with the record of its mesh, and not by ``replace``: each point of a curve takes dozens of families
+    other: Family = object.__new__(Family)
+    other.__dict__.update(family.__dict__, path=path)
     other.__dict__.pop("_with_extra_steps", None)
     return other
 

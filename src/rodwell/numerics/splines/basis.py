@@ -9,9 +9,18 @@ L. Piegl and W. Tiller, *The NURBS Book* (1997).
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
+from rodwell.numerics.splines.lanes import on_lanes
+
+MOST_ORDERS, AT_ONCE = 4, 8
+"""Values and derivatives that are known, and places at which they are computed side by side."""
+
+LANES = (0,) * AT_ONCE
+"""As long as these, for the compiler."""
 
 SPACING = 4.0 * np.finfo(np.float64).eps
 """Round-off in the difference of two knots, which are numbers from 0 to 1."""
@@ -41,31 +50,55 @@ def blossom(knots, span, degree, places, out):
         _step(knots, span, k, places[k - 1], out)
 
 
-@kernel
-def basis_derivatives(knots, span, degree, s, out):
-    """Write to ``out`` (orders, degree+1) the derivatives 0 … orders−1 at ``s`` of the basis functions.
+def functions(x: Any, knots: Any, degree: int, orders: int) -> list[list[Any]]:
+    """Derivatives 0 … orders−1 at ``x`` of the basis functions of an element: rows of degree + 1 each.
 
-    Row d first gets the values of degree p − d, on the way of the recurrence up to degree p; it is then
-    raised d times by ``N'_{i,q} = q N_{i,q−1}/(t_{i+q}−t_i) − q N_{i+1,q−1}/(t_{i+q+1}−t_{i+1})``.
+    ``knots`` (2 degree + 2,) are those from t[e] to t[e+2p+1], of element e. Row d first gets the values of degree
+    p − d, on the way of the recurrence up to degree p; it is then raised d times by
+    ``N'_{i,q} = q N_{i,q−1}/(t_{i+q}−t_i) − q N_{i+1,q−1}/(t_{i+q+1}−t_{i+1})``. Beyond the degree there are zeros.
     """
-    orders = out.shape[0]
-    row = out[orders - 1]
-    row[0] = 1.0
-    for k in range(1, degree - orders + 2):
-        _step(knots, span, k, s, row)
-    for order in range(orders - 2, -1, -1):
-        k = degree - order
-        for j in range(k):
-            out[order, j] = out[order + 1, j]
-        _step(knots, span, k, s, out[order])
-    for order in range(1, orders):
+    rows: list[list[Any]] = []
+    row: list[Any] = [1.0]
+    for k in range(1, degree + 1):
+        if k > degree - orders + 1:
+            rows.append(row)
+        row = _next(x, knots, degree, k, row)
+    rows = [row, *reversed(rows)]
+    for order in range(1, len(rows)):
         for q in range(degree - order + 1, degree + 1):
-            first = span - q
-            out[order, q] = 0.0
-            for j in range(q - 1, -1, -1):
-                slope = q * out[order, j] / (knots[first + 1 + j + q] - knots[first + 1 + j])
-                out[order, j + 1] += slope
-                out[order, j] = -slope
+            slopes = [
+                float(q) * value / (knots[degree - q + 1 + j + q] - knots[degree - q + 1 + j])
+                for j, value in enumerate(rows[order])
+            ]
+            inside = [slopes[j - 1] + (-slopes[j]) for j in range(1, q)]
+            rows[order] = [-slopes[0], *inside, slopes[-1]]
+    return rows + [[0.0] * (degree + 1)] * (orders - len(rows))
+
+
+def _next(x: Any, knots: Any, degree: int, k: int, row: list[Any]) -> list[Any]:
+    """Values of degree k from those of degree k − 1."""
+    left = [knots[degree - k + 1 + j] for j in range(k)]
+    shares = [(x - left[j]) / (knots[degree + 1 + j] - left[j]) for j in range(k)]
+    parts = [(row[j] * (1.0 - shares[j]), shares[j] * row[j]) for j in range(k)]
+    return [parts[0][0], *(parts[j][0] + parts[j - 1][1] for j in range(1, k)), parts[-1][1]]
+
+
+def _side_by_side(local_tag: Any) -> Any:
+    degree = local_tag.count - 1
+    return lambda rows, knots: [x for row in functions(rows[0], knots, degree, MOST_ORDERS) for x in row]
+
+
+_apply = on_lanes(_side_by_side, flags=())
+
+
+@kernel
+def side_by_side(local_tag, knots, span, places, out):
+    """Write to ``out`` (4, p+1, 8) values and three derivatives at ``places`` (1, 8) of the functions on a knot span.
+
+    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows.
+    """
+    window = knots[span - len(local_tag) + 1 : span + len(local_tag) + 1]
+    _apply(local_tag, LANES, places, (window,), out)
 
 
 @kernel(fastmath={"contract", "reassoc", "nsz"})
@@ -121,48 +154,54 @@ def element_of(starts, first):
 
 
 @kernel
-def _copy(table, known, first, count):
-    """Copy the basis functions at ``count`` places; an assignment of slices would take seconds to compile."""
-    for q in range(count):
-        for order in range(table.shape[1]):
-            for a in range(table.shape[2]):
-                table[first + q, order, a] = table[known + q, order, a]
-
-
-@kernel
-def tabulate(knots, degree, starts, places, per_element, orders):
+def tabulate(local_tag, knots, starts, places, per_element, orders):
     """Basis functions at ``places``, ``per_element`` of them in each element in turn: (m, orders, degree+1).
 
-    ``starts`` (elements,) are the first functions of the elements. One place more than that counts as the right end of
-    the last element. The places must divide all elements alike: where knots are evenly spaced, the table of one element
-    is copied to the next.
+    ``starts`` (elements,) are the first functions of the elements. Further places count as the right end of the last
+    element. The places must divide all elements alike: where knots are evenly spaced, the table of one element is
+    copied to the next.
     """
+    degree = len(local_tag) - 1
     table = np.empty((places.size, orders, degree + 1))
+    x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, degree + 1, AT_ONCE))
     known, spacing = -1, 0.0  # first place of the last element that was tabulated among evenly spaced knots
-    elements = starts.size
-    for element in range(elements):
-        span, first = degree + starts[element], element * per_element
-        even = _evenly_spaced(knots, span, degree)
-        width = knots[span + 1] - knots[span]
-        if even and known >= 0 and abs(width - spacing) <= SPACING:
-            _copy(table, known, first, per_element)
+    for first in range(0, places.size, per_element):
+        span = degree + starts[min(first // per_element, starts.size - 1)]
+        last = min(first + per_element, places.size)
+        even, width = _evenly_spaced(knots, span, degree), knots[span + 1] - knots[span]
+        whole = last - first == per_element
+        if whole and even and known >= 0 and abs(width - spacing) <= SPACING:
+            for q in range(per_element):
+                for order in range(orders):  # an assignment of slices would take seconds to compile
+                    for a in range(degree + 1):
+                        table[first + q, order, a] = table[known + q, order, a]
             continue
-        for q in range(first, first + per_element):
-            basis_derivatives(knots, span, degree, places[q], table[q])
-        if even:
+        for begin in range(first, last, AT_ONCE):
+            for q in range(AT_ONCE):
+                x[0, q] = places[min(begin + q, last - 1)]
+            side_by_side(local_tag, knots, span, x, out)
+            for q in range(min(AT_ONCE, last - begin)):
+                for order in range(orders):
+                    for a in range(degree + 1):
+                        table[begin + q, order, a] = out[order, a, q]
+        if whole and even:
             known, spacing = first, width
-    for q in range(elements * per_element, places.size):
-        basis_derivatives(knots, knots.size - degree - 2, degree, places[q], table[q])
     return table
 
 
 @kernel
-def tabulate_anywhere(knots, degree, places, orders):
+def tabulate_anywhere(local_tag, knots, places, orders):
     """Basis functions at ``places`` (m,): (m, orders, degree+1), and the knot spans in which they lie, (m,)."""
-    table, spans = np.empty((places.size, orders, degree + 1)), np.empty(places.size, np.int64)
+    local = len(local_tag)
+    table, spans = np.empty((places.size, orders, local)), np.empty(places.size, np.int64)
+    x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, local, AT_ONCE))
     for q in range(places.size):
-        spans[q] = find_span(knots, degree, places[q])
-        basis_derivatives(knots, spans[q], degree, places[q], table[q])
+        x[:] = places[q]
+        spans[q] = find_span(knots, local - 1, places[q])
+        side_by_side(local_tag, knots, spans[q], x, out)
+        for order in range(orders):
+            for a in range(local):
+                table[q, order, a] = out[order, a, 0]
     return table, spans
 
 

@@ -64,10 +64,16 @@ def store(builder: Any, value: Any, pointer: Any) -> None:
 
 
 class Lanes:
-    """A number at each of several places (or, of type double, the same at all) in code that is being written."""
+    """A number at each of several places (or, of type double, the same at all) in code that is being written.
 
-    def __init__(self, builder: Any, value: Any) -> None:
-        self.builder, self.value = builder, value
+    ``flags`` say what the compiler may do with sums and products: :data:`CONTRACT`, or nothing.
+    """
+
+    def __init__(self, builder: Any, value: Any, flags: tuple[str, ...] = CONTRACT) -> None:
+        self.builder, self.value, self.flags = builder, value, flags
+
+    def _new(self, value: Any) -> Lanes:
+        return Lanes(self.builder, value, self.flags)
 
     def _like(self, other: Any) -> Any:
         """The value of ``other``, Lanes or number, of the type of this one or wider."""
@@ -78,11 +84,11 @@ class Lanes:
     def _paired(self, other: Any) -> tuple[Any, Any]:
         """The values of both, of one type."""
         value = self._like(other)
-        return Lanes(self.builder, value)._like(self), value
+        return self._new(value)._like(self), value
 
     def _with(self, instruction: str, other: Any, *, swapped: bool = False) -> Any:
         a, b = reversed(self._paired(other)) if swapped else self._paired(other)
-        return Lanes(self.builder, getattr(self.builder, instruction)(a, b, flags=CONTRACT))
+        return self._new(getattr(self.builder, instruction)(a, b, flags=self.flags))
 
     def __add__(self, other: Any) -> Any:
         """Write the sum; zeros that are known are left out."""
@@ -112,7 +118,7 @@ class Lanes:
 
     def __neg__(self) -> Lanes:
         """Write the number with the other sign."""
-        return Lanes(self.builder, self.builder.fneg(self.value))
+        return self._new(self.builder.fneg(self.value))
 
     def __pow__(self, exponent: int) -> Any:
         """Write a whole power of 1 or more, by squaring; there is no other."""
@@ -137,7 +143,7 @@ class Lanes:
         signature = ir.FunctionType(kind, [kind] * (1 + len(others)))
         module = self.builder.module
         function = cgutils.get_or_insert_function(module, signature, f"llvm.{name}.{suffix}")  # type: ignore[no-untyped-call]
-        return Lanes(self.builder, self.builder.call(function, [self.value, *others]))
+        return self._new(self.builder.call(function, [self.value, *others]))
 
 
 def _is_zero(x: Any) -> bool:
@@ -147,7 +153,7 @@ def _is_zero(x: Any) -> bool:
 def _maximum(a: Any, b: Any) -> Lanes:
     one, other = (a, b) if isinstance(a, Lanes) else (b, a)
     x, y = one._paired(other)
-    return Lanes(one.builder, x).call("maxnum", y)
+    return one._new(x).call("maxnum", y)
 
 
 def _series(x: Any, coefficients: Sequence[float]) -> Any:
@@ -186,7 +192,7 @@ def _turned(x: Lanes, ahead: int) -> Lanes:
 
     quarters = builder.add(quarters, constant(ahead))
     size = builder.select(bit(1), cosine.value, sine.value)
-    return Lanes(builder, builder.select(bit(2), builder.fneg(size), size))
+    return x._new(builder.select(bit(2), builder.fneg(size), size))
 
 
 FUNCTIONS: dict[np.ufunc, Callable[..., Any]] = {
@@ -207,22 +213,23 @@ FUNCTIONS: dict[np.ufunc, Callable[..., Any]] = {
 class _Row:
     """Arguments of a formula, read from memory where it first asks for them: ``arguments[i]``."""
 
-    def __init__(self, builder: Any, base: Any, count: int = 0) -> None:
-        self.builder, self.base, self.count = builder, base, count
+    def __init__(self, builder: Any, base: Any, flags: tuple[str, ...], count: int = 0) -> None:
+        self.builder, self.base, self.flags, self.count = builder, base, flags, count
         self.known: dict[int, Lanes] = {}
 
     def __getitem__(self, i: int) -> Lanes:
         if i not in self.known:
             pointer = self.builder.gep(self.base, [index(i * self.count if self.count else i)])
             value = load(self.builder, pointer, vector(self.count)) if self.count else self.builder.load(pointer)
-            self.known[i] = Lanes(self.builder, value)
+            self.known[i] = Lanes(self.builder, value, self.flags)
         return self.known[i]
 
 
-def on_lanes(formula_of: Callable[[Any], Callable[..., Sequence[Any]]]) -> Any:
+def on_lanes(formula_of: Callable[[Any], Callable[..., Sequence[Any]]], flags: tuple[str, ...] = CONTRACT) -> Any:
     """Return a function for compiled code that applies a formula to places that stand side by side.
 
-    ``formula_of`` gives the formula for the class of a model, a named tuple. What is returned is called as
+    ``formula_of`` gives the formula for the class of a model, a named tuple; for another tuple, for its type. With
+    ``flags`` empty each operation is rounded by itself. What is returned is called as
     ``apply(model, tag, rows, uniforms, out)``: ``tag`` is a tuple as long as there are places, m, ``rows`` (k, m) are
     the formula's first argument, the arrays of the tuple ``uniforms``, the same at all places, the others, and the
     i-th number that it returns is written to ``out[i]``. Arrays are contiguous; ``out`` may be a part of ``rows``.
@@ -230,7 +237,7 @@ def on_lanes(formula_of: Callable[[Any], Callable[..., Sequence[Any]]]) -> Any:
 
     @intrinsic
     def apply(typingctx, model, tag, rows, uniforms, out):  # type: ignore[no-untyped-def]
-        formula, count = formula_of(model.instance_class), tag.count
+        formula, count = formula_of(getattr(model, "instance_class", model)), tag.count
 
         def write(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
             def data(kind: Any, array: Any) -> Any:
@@ -238,8 +245,8 @@ def on_lanes(formula_of: Callable[[Any], Callable[..., Sequence[Any]]]) -> Any:
 
             base = data(signature.args[4], arguments[4])
             arrays = cgutils.unpack_tuple(builder, arguments[3])  # type: ignore[no-untyped-call]
-            same = [_Row(builder, data(kind, array)) for kind, array in zip(uniforms.types, arrays, strict=True)]
-            results = formula(_Row(builder, data(signature.args[2], arguments[2]), count), *same)
+            same = [_Row(builder, data(kind, array), flags) for kind, array in zip(uniforms.types, arrays, strict=True)]
+            results = formula(_Row(builder, data(signature.args[2], arguments[2]), flags, count), *same)
             empty = Lanes(builder, ir.Constant(vector(count), [0.0] * count))
             for i, result in enumerate(results):
                 store(builder, empty._like(result), builder.gep(base, [index(i * count)]))

@@ -92,14 +92,14 @@ class SplineSpace:
     @cached_property
     def table(self) -> FloatArray:
         """Basis functions and two derivatives at the quadrature points, shape (m, 3, degree + 1)."""
-        return np.asarray(basis.tabulate(self.knots, self.degree, self.starts, self.points, self.per_element, 3))
+        return np.asarray(basis.tabulate(self.tags[0], self.knots, self.starts, self.points, self.per_element, 3))
 
     @cached_property
     def samples(self) -> tuple[FloatArray, FloatArray]:
         """Places (k,), a few in each element and both ends, and basis table (k, 4, degree + 1) there."""
         share = np.arange(SAMPLES_PER_ELEMENT) / SAMPLES_PER_ELEMENT
         grid = np.append((self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * share).ravel(), 1.0)
-        return grid, np.asarray(basis.tabulate(self.knots, self.degree, self.starts, grid, SAMPLES_PER_ELEMENT, 4))
+        return grid, np.asarray(basis.tabulate(self.tags[0], self.knots, self.starts, grid, SAMPLES_PER_ELEMENT, 4))
 
     @cached_property
     def pieces(self) -> tuple[tuple[slice, slice, FloatArray, FloatArray, FloatArray], ...]:
@@ -127,7 +127,7 @@ class SplineSpace:
     @cached_property
     def landmarks(self) -> tuple[FloatArray, NDArray[np.int64]]:
         """Basis table (3, 3, degree + 1) at both ends and in the middle, and the elements in which they lie (3,)."""
-        table, spans = basis.tabulate_anywhere(self.knots, self.degree, np.array([0.0, 0.5, 1.0]), 3)
+        table, spans = basis.tabulate_anywhere(self.tags[0], self.knots, np.array([0.0, 0.5, 1.0]), 3)
         return np.asarray(table), np.asarray(spans) - self.degree
 
     @cached_property
@@ -157,7 +157,7 @@ class SplineSpace:
         return energy, slope
 
     def evaluate(self, coefficients: FloatArray, places: FloatArray, orders: int) -> FloatArray:
-        """Derivatives 0 … orders−1 at ``places`` (m,): shape (orders, m)."""
+        """Derivatives 0 … orders−1, of at most order 3, at ``places`` (m,): shape (orders, m)."""
         table, first = self.tabulated(np.ascontiguousarray(places, dtype=float), orders)
         return np.asarray(basis.combine_all(self.tags[0], table, first, coefficients))
 
@@ -167,10 +167,12 @@ class SplineSpace:
         The states of a branch are all evaluated at the same places, and functions of the basis take ten times as long
         as the sums over them.
         """
+        if not 1 <= orders <= basis.MOST_ORDERS:
+            raise ValueError(f"orders = {orders}: only values and {basis.MOST_ORDERS - 1} derivatives are known")
         key = orders, points.tobytes()
         found = self._tables.pop(key, None) if points.size >= FEW else None
         if found is None:
-            table, spans = basis.tabulate_anywhere(self.knots, self.degree, points, orders)
+            table, spans = basis.tabulate_anywhere(self.tags[0], self.knots, points, orders)
             found = np.asarray(table), np.asarray(spans) - self.degree
         if points.size < FEW:
             return found

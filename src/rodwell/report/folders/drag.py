@@ -8,6 +8,7 @@ from rodwell.plots.drag import plot_calibration, plot_forces, plot_operation, pl
 from rodwell.report.folders.pictures import save_figure
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.drag import drag_report, picture_of
+from rodwell.report.reports.front import LOGO
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
@@ -45,6 +46,8 @@ def write_drag(
         for name, figure in figures.items():
             save_figure(figure, folder / name)
             pictures[name] = ("svg", (folder / f"{name}.svg").read_bytes())
+        if found.well.about.logo is not None:
+            pictures[LOGO] = found.well.about.logo
         write_report(drag_report(found, calibration), pictures, folder, with_pdf=with_pdf)
         for name, table in tables.items():
             write_csv(table, folder / f"{name}.csv")

@@ -11,6 +11,7 @@ from rodwell.quantities.table import Cell
 from rodwell.quantities.text import minus
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
+from rodwell.report.reports.front import LOGO
 from rodwell.report.reports.texts import short
 from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
@@ -54,6 +55,8 @@ def drag_report(found: Drag, calibration: Calibration | None = None) -> Report:
         footer=f"Computed by rodwell {__version__} from {well.source} and {well.survey.source}. "
         f"{assumptions(found)[-1]}",
         paper="us-letter" if well.system.name == "field" else "a4",
+        about=well.about.lines,
+        logo="" if well.about.logo is None else LOGO,
     )
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.case import well_schema as schema
+from rodwell.case.about import NOBODY, About, about_of
 from rodwell.case.catalogue import package_catalogue, read_catalogue
 from rodwell.case.checks.signs import unsigned
 from rodwell.case.file import CaseText, read_case
@@ -93,6 +94,8 @@ class Well:
         In m/s².
     system
         Units of the results.
+    about
+        For whom the report is, and by whom.
     """
 
     title: str
@@ -105,6 +108,7 @@ class Well:
     system: System = SI
     source: str = "well"
     text: str = ""
+    about: About = NOBODY
 
     @property
     def end(self) -> float:
@@ -182,7 +186,11 @@ def _assemble(given: schema.WellFile, survey: Survey | None, source: str, text: 
     for section in string:
         _check_fit(section, hole, end)
     title = given.title or (Path(source).stem if text else "Well")
-    return Well(title, path, string, hole, operations, given.well, gravity, System(given.units or "si"), source, text)
+    said = None if given.report is None else given.report.model_dump(exclude_none=True)
+    system = System(given.units or "si")
+    return Well(
+        title, path, string, hole, operations, given.well, gravity, system, source, text, about_of(said, folder)
+    )
 
 
 def from_surface(survey: Survey) -> Survey:

@@ -156,6 +156,9 @@ def _given(case: Case) -> schema.PackerInput:
         )
     if any("±" in str(value) or "+/-" in str(value) or "+-" in str(value) for value in written.values()):
         raise InputError("packer", None, "takes no uncertainties (±): give the values themselves, and vary them")
+    if case.string is not None:
+        what = "is not taken beside [packer]: the tubing has one section; give [rod] with its pipe or diameters"
+        raise InputError("string", None, what)
     return schema.PackerInput.model_validate(written)
 
 

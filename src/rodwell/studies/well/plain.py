@@ -51,6 +51,9 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
         "stations_within_the_error": _numbers(judged.close),
         "stations_above_he_kyllingstad": _numbers(judged.curved),
         "stations_not_judged": _numbers(judged.unjudged),
+        "stations_missing_the_tolerance": sorted(
+            {int(i) + 1 for i in (*screening.critical.missed, *screening.lift_off.missed)}
+        ),
         "weakest_station": screening.weakest + 1,
         "worst_station": None if screening.worst is None else screening.worst + 1,
         "length_effect": [{"inclination": a, "relative": v} for a, v in screening.length_effect.items()],

@@ -25,7 +25,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.studies.well.survey import Survey
 
 CRITICAL_PRECISION = Precision(1e-3, 6)
-LIFT_OFF_PRECISION = Precision(1e-2, 4)
+LIFT_OFF_PRECISION = Precision(1e-2, 7)
 """Relative errors to which loads are interpolated where there are many inclinations; lift-off jumps where the place
 that lifts off changes."""
 
@@ -113,6 +113,18 @@ class Screening:
         used = self.utilisation
         known = None if used is None else np.nan_to_num(used, nan=0.0)
         return None if known is None or not np.max(known) > 0.0 else int(np.argmax(known))
+
+    @property
+    def missed(self) -> dict[str, list[str]]:
+        """Loads that miss the tolerance to which they were to be interpolated, with their errors, by kind."""
+        kinds = {"critical load": self.critical, "lift-off load": self.lift_off}
+        return {
+            kind: [
+                f"{kind} at station {i + 1} ± {100.0 * loads.errors[i] / abs(loads.values[i]):.2g} %"
+                for i in loads.missed
+            ]
+            for kind, loads in kinds.items()
+        }
 
     def remarks(self, i: int) -> str:
         """What must be known of a station."""

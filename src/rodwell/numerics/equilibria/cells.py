@@ -1,0 +1,56 @@
+"""States that are made of equal cells: a symmetry that the rod as a whole does not show.
+
+Where the density does not depend on s, and each end is a place about which a reflection u(p + x) → ± u(p − x) makes
+solutions of solutions, as the end conditions demand it of the state, every state goes on beyond its ends as a periodic
+one. It may be symmetric about a place inside as well: the rod is then a row of cells, each the mirror image of the
+next. What branches off may break that, so the equations allow branch points that no reflection of the whole rod
+explains. See J. D. Crawford, M. Golubitsky, M. G. M. Gomes, E. Knobloch, I. Stewart, in *Singularity Theory and its
+Applications* II, Springer LNM 1463 (1991) 63–79.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rodwell.numerics.equilibria.state import EQUAL_COEFFICIENTS, SYMMETRIC, State
+from rodwell.quantities.arrays import FloatArray
+
+CELLS = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31)
+"""Numbers of cells that are looked for: what has twelve has three."""
+
+BROKEN = 0.5
+"""Part of a null vector by which it may differ from its image and count as symmetric: that of a symmetric state is
+wholly one or the other."""
+
+PLACES = 12
+"""Places in a cell at which a state is compared with its image."""
+
+
+def branches_between(before: State, after: State, signs: Sequence[int], vector: FloatArray | None) -> bool:
+    """Whether two states have cells by one reflection with one of the ``signs``, and ``vector`` (n,) has not.
+
+    Without a vector the states alone decide.
+    """
+    return any(
+        _is_reflected(before, before.c, count, sign, SYMMETRIC)
+        and _is_reflected(after, after.c, count, sign, SYMMETRIC)
+        and (vector is None or not _is_reflected(before, vector, count, sign, BROKEN))
+        for count in (CELLS if signs else ())
+        for sign in signs
+    )
+
+
+def breaks(vector: FloatArray, parity: int) -> bool:
+    """Whether a vector (n,) has the other parity about the middle."""
+    lost = 0.5 * (vector - parity * vector[::-1])
+    return bool(np.max(np.abs(lost)) > BROKEN * np.max(np.abs(vector)))
+
+
+def _is_reflected(state: State, c: FloatArray, count: int, sign: int, tolerance: float) -> bool:
+    """Whether a function with coefficients ``c`` (n,) is ± its image about the end of the first of ``count`` cells."""
+    x = np.linspace(0.0, 1.0 / count, PLACES)
+    after, before = (state.space.evaluate(c, 1.0 / count + way * x, 1)[0] for way in (1.0, -1.0))
+    size = tolerance * float(np.max(np.abs(c))) + EQUAL_COEFFICIENTS
+    return bool(np.max(np.abs(after - sign * before)) <= size)
