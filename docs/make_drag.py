@@ -13,9 +13,9 @@ from scipy.integrate import quad
 
 import rodwell
 from rodwell.analysis.endless.local import LIMITS, local_state
-from rodwell.case import hole_sections, well_schema
 from rodwell.case.keys import key_of_field
 from rodwell.case.schema import StringInput
+from rodwell.case.well import hole_sections, well_schema
 from rodwell.studies.drag.calibration import calibrate, read_measured
 from rodwell.studies.drag.laws import CHEN
 from rodwell.studies.drag.road_map import road_map

@@ -10,8 +10,8 @@ from make_howto import DPI, table
 
 import rodwell
 from rodwell.formulas.pushing import tubing_shortening
-from rodwell.plots.packer import plot_packer
 from rodwell.plots.style import RC
+from rodwell.plots.wells.packer import plot_packer
 from rodwell.studies.packer.lengths import Conditions, Tubing, effective_compression, total
 from rodwell.studies.packer.motion import Moved, Stops, moved
 

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 import rodwell
-from rodwell.case.well_schema import KINDS_OF_OPERATION
+from rodwell.case.well.schema import KINDS_OF_OPERATION
 from rodwell.studies.drag.drag import Drag, drag
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.well_case import Well

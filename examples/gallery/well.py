@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import rodwell
-from rodwell.plots.survey import plot_screening
+from rodwell.plots.wells.survey import plot_screening
 
 
 def main():

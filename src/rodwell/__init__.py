@@ -87,7 +87,7 @@ _HOME = {
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
     "turns_of_least_energy": "rodwell.analysis.branch.turns",
-    "verify": "rodwell.analysis.branch.verify",
+    "verify": "rodwell.analysis.branch.verifying.verify",
 }
 
 __all__ = ["__version__", *sorted(_HOME)]  # noqa: PLE0604 - names served by __getattr__
@@ -101,7 +101,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
     from rodwell.analysis.branch.special import SpecialPoint
     from rodwell.analysis.branch.turns import turns_of_least_energy
-    from rodwell.analysis.branch.verify import verify
+    from rodwell.analysis.branch.verifying.verify import verify
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve
     from rodwell.analysis.curves.special import special_curve

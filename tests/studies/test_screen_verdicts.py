@@ -17,7 +17,7 @@ from rodwell import Case, InputError, Survey
 from rodwell.analysis.loads.by_inclination import Loads
 from rodwell.cli.main import cli
 from rodwell.cli.screen import _stations
-from rodwell.plots.survey import plot_screening
+from rodwell.plots.wells.survey import plot_screening
 from rodwell.studies.sweep.varied import varied_inputs
 from rodwell.studies.well import verdict
 from rodwell.studies.well.plain import screening_dict

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 from rodwell import Problem, critical_loads, follow, load_path, loads_without_wall
-from rodwell.analysis.branch.verify import verify
+from rodwell.analysis.branch.verifying.verify import verify
 from rodwell.analysis.curves.critical import critical_curves
 from rodwell.analysis.loads.sensitivity import sensitivities
 from rodwell.analysis.proof.certify import certify

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import rodwell
 from rodwell import InputError, NotConvergedError, Problem
-from rodwell.analysis.branch import verify as module
+from rodwell.analysis.branch.verifying import verify as module
 from rodwell.cli.main import cli
 
 

@@ -12,7 +12,7 @@ from rodwell.cli.options import force_at, json_option, print_json, progress_bar
 from rodwell.quantities.text import plain, signed
 
 if TYPE_CHECKING:
-    from rodwell.analysis.branch.verify import Verification
+    from rodwell.analysis.branch.verifying.verify import Verification
 
 
 @click.command(short_help="Solve a case once more with SciPy's solve_bvp, and compare.")
@@ -36,7 +36,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
     is 1 if the two do not agree. `rodwell keys` explains the keys of a case file.
     """
-    from rodwell.analysis.branch.verify import verify as solve_again  # noqa: PLC0415
+    from rodwell.analysis.branch.verifying.verify import verify as solve_again  # noqa: PLC0415
     from rodwell.answers.result.check import branch_to_verify  # noqa: PLC0415
     from rodwell.answers.result.reach import passes, why_out_of_reach  # noqa: PLC0415
     from rodwell.case.case import Case  # noqa: PLC0415

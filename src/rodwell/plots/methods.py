@@ -22,16 +22,16 @@ from rodwell.answers.result.answer import Answer
 from rodwell.errors import InputError
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
-from rodwell.plots.drag import plot_drag
 from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
 from rodwell.plots.maps.figure import plot_map
-from rodwell.plots.packer import plot_packer
 from rodwell.plots.path import plot_path
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE
+from rodwell.plots.wells.drag import plot_drag
+from rodwell.plots.wells.packer import plot_packer
 from rodwell.quantities.scales import Scales
 from rodwell.studies.drag.drag import Drag
 from rodwell.studies.maps.result import Map

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rodwell.plots.drag import plot_calibration, plot_forces, plot_operation, plot_road_map
+from rodwell.plots.wells.drag import plot_calibration, plot_forces, plot_operation, plot_road_map
 from rodwell.report.folders.pictures import save_figure
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.drag import drag_report, picture_of

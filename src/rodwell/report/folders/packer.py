@@ -6,8 +6,8 @@ from pathlib import Path
 
 import matplotlib as mpl
 
-from rodwell.plots.packer import plot_packer
 from rodwell.plots.style import RC
+from rodwell.plots.wells.packer import plot_packer
 from rodwell.report.folders.pictures import save_figure
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.packer import packer_report

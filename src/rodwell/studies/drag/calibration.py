@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from rodwell.case.file import decoded, first_bytes
-from rodwell.case.well_schema import KINDS_OF_OPERATION
+from rodwell.case.well.schema import KINDS_OF_OPERATION
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.units import to_si

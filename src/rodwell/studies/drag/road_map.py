@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rodwell.case.hole_sections import checked_friction
+from rodwell.case.well.hole_sections import checked_friction
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.studies.drag.laws import contact_named

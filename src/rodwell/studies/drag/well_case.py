@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.case import well_schema as schema
 from rodwell.case.about import NOBODY, About, about_of
 from rodwell.case.catalogue import package_catalogue, read_catalogue
 from rodwell.case.checks.signs import unsigned
 from rodwell.case.file import CaseText, read_case
-from rodwell.case.hole_sections import HoleSection, hole_sections
-from rodwell.case.well_file import in_file, named, read_well
-from rodwell.case.well_string import StringSection, string_sections
+from rodwell.case.well import schema
+from rodwell.case.well.file import in_file, named, read_well
+from rodwell.case.well.hole_sections import HoleSection, hole_sections
+from rodwell.case.well.string_sections import StringSection, string_sections
 from rodwell.errors import InputError
 from rodwell.quantities.units import SI, SYSTEMS, System
 from rodwell.studies.well.survey import Survey
@@ -36,7 +36,7 @@ class Operation:
     Attributes
     ----------
     name, kind
-        What it is called; one of :data:`rodwell.case.well_schema.KINDS_OF_OPERATION`.
+        What it is called; one of :data:`rodwell.case.well.schema.KINDS_OF_OPERATION`.
     bit_depth
         Measured depth of the bit in m.
     bit_force, bit_torque

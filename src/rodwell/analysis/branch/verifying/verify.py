@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.other_program import Dense, Guess, highest_pressure, most_sections, solve_again
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.tracing import Progress
+from rodwell.analysis.branch.verifying.other_program import Dense, Guess, highest_pressure, most_sections, solve_again
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.physics.on_wall.equations import NAMES

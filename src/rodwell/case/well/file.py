@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from rodwell.case.case import CaseError
 from rodwell.case.checks.explain import MOST_PROBLEMS, SIMILAR, plain
 from rodwell.case.file import printable_data
-from rodwell.case.well_schema import WellFile
+from rodwell.case.well.schema import WellFile
 from rodwell.errors import InputError
 
 _LISTED = {"string": "[[string]]", "hole.section": "[[hole.section]]", "well.operation": "[[well.operation]]"}

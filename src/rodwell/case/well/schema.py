@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from rodwell.case.hole_sections import ALLOWED_FRICTION, HolePart
 from rodwell.case.kinds import (
     Acceleration,
     Force,
@@ -29,6 +28,7 @@ from rodwell.case.schema import (
     StringInput,
     _key,
 )
+from rodwell.case.well.hole_sections import ALLOWED_FRICTION, HolePart
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")
 CONTACTS = ("exact", "correlation", "straight")

@@ -1,0 +1,1 @@
+"""States and loads of a branch once more, by another program."""

@@ -1,0 +1,1 @@
+"""What a file of a whole well may hold, and how it is read."""

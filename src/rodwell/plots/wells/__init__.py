@@ -1,0 +1,1 @@
+"""Figures of whole wells, and of tubing in them."""
