@@ -230,6 +230,17 @@ def test_no_serious_fault_at_any_width(opened: Opened, scheme: str) -> None:
         assert bad == []
 
 
+def test_the_load_plays_and_stops(opened: Opened) -> None:
+    page = opened()
+    before = updates(page)
+    page.locator("h1").click()
+    page.keyboard.press("p")
+    moved(page, before + 2)
+    page.keyboard.press("p")
+    assert page.locator("#play").get_attribute("aria-pressed") == "false"
+    assert values(page)["load"] > 118.4
+
+
 def test_nothing_is_drawn_while_nothing_moves(opened: Opened) -> None:
     page = opened()
     time.sleep(1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import math
 import multiprocessing
@@ -71,6 +72,8 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
             cause = error.__cause__ or error
             what = f"{type(cause).__name__}: {cause}"
             send({"kind": "failed", "of": request.get("kind"), "message": f"not computed: {what}", "last": True})
+        if request.get("kind") == "diagram":
+            gc.collect()  # branches and their states refer to each other: left to itself, Python keeps hundreds of them
 
 
 def _end_with_parent() -> None:

@@ -5,6 +5,8 @@ import { Curves } from "./curves.js";
 import { Diagram } from "./diagram.js";
 import { keys } from "./keys.js";
 import { Link } from "./link.js";
+import { Player } from "./play.js";
+import { clear } from "./stale.js";
 import { copy, save, saveBlob, showDetails, showNumbers, snapshot } from "./panel.js";
 
 const $ = (id) => document.getElementById(id);
@@ -119,21 +121,13 @@ function show() {
 }
 let pending = "";
 
-// Nothing may be read that belongs to other inputs: numbers go, pictures turn pale.
+// Pictures turn pale, numbers go.
 function stale() {
-  document.body.classList.add("updating");
-  $("busy").textContent = "updating …";
+  clear();
   hooks.ready = false;
   hooks.values = null;
   shown = null;
   diagramOf = "";
-  for (const id of ["buckles", "lifts-off", "now", "headline", "verdict"]) $(id).textContent = "…";
-  showNumbers(null);
-  document.querySelectorAll("#diagram text, #push text, #side text").forEach((text) => text.remove());
-  document.querySelectorAll("#diagram .special, #diagram .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); each.querySelector("title")?.remove(); });
-  for (const id of ["bar-first", "bar-last"]) $(id).textContent = "";
-  $("cursor").textContent = "";
-  $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
   figure.point(null);
   curves.data = null;
 }
@@ -207,7 +201,7 @@ function settled() {
   link.ask("details", request);
   if (!rod) link.ask("file", { ...request, suffix: "png" });
   stills = rod ? 0 : 1;
-  if (!load.slider.matches(":active") && !playing) history.replaceState(null, "", address.written(state, hello));
+  if (!load.slider.matches(":active") && !player.since) history.replaceState(null, "", address.written(state, hello));
 }
 
 function haveVerdict({ text }) {
@@ -273,28 +267,8 @@ function say(text) {
   $("message").hidden = !text;
 }
 
-// The load from one end of its range to the other, in nine seconds.
-let playing = 0;
-function play(on) {
-  playing = on ? performance.now() : 0;
-  $("play").textContent = on ? "■ Stop" : "▶ Play";
-  $("play").setAttribute("aria-pressed", String(on));
-  if (!on || !diagram) return;
-  const [low, high] = diagram.range;
-  let at = state.load < high - 0.01 * (high - low) ? state.load : low;
-  let before = performance.now();
-  const step = (now) => {
-    if (!playing) return;
-    at += ((high - low) * Math.min(now - before, 200)) / 9000;
-    before = now;
-    go({ load: Number(Math.min(at, high).toPrecision(6)), special: null, branch: state.branch === "straight" ? "" : state.branch }, at >= high);
-    if (at >= high) play(false);
-    else requestAnimationFrame(step);
-  };
-  requestAnimationFrame(step);
-}
-
-$("play").onclick = () => play(!playing);
+const player = new Player($("play"), { state: () => state, diagram: () => diagram, go });
+const play = (on) => player.play(on);
 $("to-lift-off").onclick = () => {
   const b = diagram?.branches[0], k = b ? b.special.findIndex((p) => p.kind === "lift_off") : -1;
   if (k >= 0) go({ branch: b.name, which: 0, special: k, load: b.special[k].load }, true);
@@ -317,4 +291,4 @@ addEventListener("popstate", () => {
   if (rod && $("true-scale").checked !== (state.scale === "true")) { $("true-scale").checked = state.scale === "true"; $("true-scale").onchange?.(); }
   if (diagram && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
 });
-keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!playing), step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });
+keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!player.since), step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });

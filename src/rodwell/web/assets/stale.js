@@ -1,0 +1,17 @@
+// What goes while other inputs are computed: every number, mark and label that belongs to the old ones.
+import { showNumbers } from "./panel.js";
+
+const $ = (id) => document.getElementById(id);
+
+// Nothing may be read that belongs to other inputs: numbers go, pictures turn pale.
+export function clear() {
+  document.body.classList.add("updating");
+  $("busy").textContent = "updating …";
+  for (const id of ["buckles", "lifts-off", "now", "headline", "verdict"]) $(id).textContent = "…";
+  showNumbers(null);
+  document.querySelectorAll("#diagram text, #push text, #side text").forEach((text) => text.remove());
+  document.querySelectorAll("#diagram .special, #diagram .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); each.querySelector("title")?.remove(); });
+  for (const id of ["bar-first", "bar-last"]) $(id).textContent = "";
+  $("cursor").textContent = "";
+  $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
+}
