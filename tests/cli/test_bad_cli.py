@@ -382,7 +382,7 @@ main()
 """
 
 COMPUTING = """
-import rodwell.answers.result.computed as module
+import rodwell.answers.result.arms as module
 genuine = module.follow
 
 def endless(*arguments, **options):
@@ -395,7 +395,7 @@ module.follow = endless
 """
 
 COMPILED = """
-import rodwell.answers.result.computed as module
+import rodwell.answers.result.arms as module
 
 def interrupted(*arguments, **options):  # what a compiled call raises when the signal meets it
     print("ready", flush=True)
@@ -432,7 +432,9 @@ def test_ctrl_c(place: Path, where: str) -> None:
     ) as process:
         try:
             assert process.stdout is not None
-            said = list(iter(process.stdout.readline, "ready\n"))
+            said = []
+            while (line := process.stdout.readline()) not in ("", "ready\n"):
+                said.append(line)
             process.send_signal(signal.SIGINT)
             out, err = process.communicate(timeout=100)
         finally:

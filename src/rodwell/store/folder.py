@@ -23,7 +23,7 @@ def check_writable(out: Path, option: str = "--out") -> None:
     """
     try:
         target = out.resolve()
-        home = _home(out.absolute(), target, option)
+        home = _home(out, target, option)
         with tempfile.TemporaryDirectory(dir=home, prefix=PREFIX):
             pass
         if target.exists() and not os.access(target, os.W_OK | os.X_OK):
