@@ -60,7 +60,8 @@ def violations(texts: Iterable[str]) -> list[tuple[str, str]]:
 
 def without_names(texts: Iterable[str], case: rodwell.Case) -> list[str]:
     """The texts without the title, names and sources of the catalogue, and what the user wrote."""
-    names = {case.title, *(str(v) for values in case.given.values() for v in values.values() if len(str(v)) > 12)}
+    parts = [part for values in case.given.values() for part in (values if isinstance(values, list) else [values])]
+    names = {case.title, *(str(v) for part in parts for v in part.values() if len(str(v)) > 12)}
     names |= {fact.value for fact in case.facts if isinstance(fact.value, str)} | {fact.note for fact in case.facts}
     own = re.compile("|".join(re.escape(name) for name in sorted(filter(None, names), key=len, reverse=True)))
     return [own.sub("", text) for text in texts]

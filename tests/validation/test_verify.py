@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 import rodwell
 from rodwell import InputError, NotConvergedError, Problem
+from rodwell.analysis.branch.verifying import other_program
 from rodwell.analysis.branch.verifying import verify as module
 from rodwell.cli.main import cli
 
@@ -43,13 +44,13 @@ def test_other_kinds_agree(problem: Problem, force: float, monkeypatch: pytest.M
 
 
 def test_a_different_problem_does_not_agree(branch: rodwell.Branch, monkeypatch: pytest.MonkeyPatch) -> None:
-    original = module.load_of
+    original = other_program.load_of
 
     def heavier(problem: Problem, force: float):
         load = original(problem, force)
         return load._replace(lateral_weight=load.lateral_weight * (1.0 + 1e-5))
 
-    monkeypatch.setattr(module, "load_of", heavier)
+    monkeypatch.setattr(other_program, "load_of", heavier)
     result = rodwell.verify(branch, [-90.0], rtol=1e-7)
     assert not result.states[0].agrees
     assert not result.agrees
@@ -57,7 +58,7 @@ def test_a_different_problem_does_not_agree(branch: rodwell.Branch, monkeypatch:
 
 
 def test_no_convergence_is_no_agreement(branch: rodwell.Branch, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "MOST_NODES", 60)
+    monkeypatch.setattr(other_program, "MOST_NODES", 60)
     assert not module._state(branch, -90.0, 1e-8).agrees
     with pytest.raises(NotConvergedError, match="near lift-off"):
         rodwell.verify(branch, [-90.0])

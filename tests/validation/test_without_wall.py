@@ -285,7 +285,7 @@ def run(*arguments: str) -> str:
 def test_critical_says_both_numbers() -> None:
     unpressed = ("--weight", "0", "--alpha", "0", "--twist", "5", "--modes", "1")
     text = run(*unpressed)
-    assert text.startswith("Nothing presses this rod to the wall, so twist counts: the rod buckles at\n-24.1769")
+    assert text.startswith("Nothing presses this rod to the wall, so twist counts: the rod buckles at\n−24.1769")
     assert "stable up to a compression of 24.1769 B/L²" in text
     data = json.loads(run(*unpressed, "--json"))
     assert data["critical_loads"] == pytest.approx([-24.1769211], abs=1e-7)
@@ -295,7 +295,7 @@ def test_critical_says_both_numbers() -> None:
     pressed = ("--weight", "15", "--alpha", "90", "--twist", "5", "--modes", "1")
     text = run(*pressed)
     assert text.startswith("Twist does not enter while weight keeps the rod on the wall.")
-    assert "-24.17692105" in text
+    assert "−24.17692105" in text
     data = json.loads(run(*pressed, "--json"))
     assert data["critical_loads"] == pytest.approx([-111.2334402], abs=5e-8)
     assert data["without_wall"]["loads"] == pytest.approx([-24.1769211], abs=1e-7)

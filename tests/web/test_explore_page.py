@@ -75,6 +75,7 @@ def opened(browser: Any, server: Server) -> Iterator[Opened]:  # noqa: F811
         page.on("request", asked)
         page.goto(server.address + hash_)
         pages.append(page)
+        page.bring_to_front()  # pages in the background are given no frames
         until(page, READY)
         return page
 
@@ -236,7 +237,8 @@ def test_the_load_plays_and_stops(opened: Opened) -> None:
     page.locator("h1").click()
     page.keyboard.press("p")
     moved(page, before + 2)
-    page.keyboard.press("p")
+    if page.locator("#play").get_attribute("aria-pressed") == "true":  # on a slow machine it may be at the end
+        page.keyboard.press("p")
     assert page.locator("#play").get_attribute("aria-pressed") == "false"
     assert values(page)["load"] > 118.4
 
