@@ -299,7 +299,7 @@ def test_critical_says_both_numbers() -> None:
     data = json.loads(run(*pressed, "--json"))
     assert data["critical_loads"] == pytest.approx([-111.2334402], abs=5e-8)
     assert data["without_wall"]["loads"] == pytest.approx([-24.1769211], abs=1e-7)
-    assert "any end force, not at -39.4784" in run("--weight", "0", "--alpha", "0", "--twist", "8.986818915818128")
+    assert "any end force, not at −39.4784" in run("--weight", "0", "--alpha", "0", "--twist", "8.986818915818128")
 
 
 def test_rigid_motion_is_said_in_words() -> None:
