@@ -275,7 +275,9 @@ def _labels(ax: Any, look: _Look) -> None:
         ax.annotate(
             branch.name, (x, y), xytext=(right, place), textcoords="data", color=INK, fontsize=8.5,
             va="center", annotation_clip=False, bbox={"fc": "none", "ec": "none", "pad": 1.0},
-            arrowprops={"arrowstyle": "-", "color": color, "lw": 0.9, "shrinkA": 1.0, "shrinkB": 1.0},
+            arrowprops={
+                "arrowstyle": "-", "color": color, "lw": 0.9, "shrinkA": 1.0, "shrinkB": 1.0, "relpos": (0.0, 0.5),
+            },
         ).set_x(right + 0.03 * (right - ax.get_xlim()[0]))  # fmt: skip
         last = place
 
