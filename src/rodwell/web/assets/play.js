@@ -14,8 +14,16 @@ export class Player {
     this.since = on ? performance.now() : 0;
     this.button.textContent = on ? "■ Stop" : "▶ Play";
     this.button.setAttribute("aria-pressed", String(Boolean(on)));
+    if (on) this.begin();
+  }
+
+  begin() { // at once, or as soon as there is a diagram
+    if (!this.since) return;
     const diagram = this.page.diagram();
-    if (!on || !diagram) return;
+    if (!diagram) {
+      requestAnimationFrame(() => this.begin());
+      return;
+    }
     const [low, high] = diagram.range, state = this.page.state();
     let at = state.load < high - 0.01 * (high - low) ? state.load : low;
     let before = performance.now();
