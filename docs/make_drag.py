@@ -15,7 +15,8 @@ import rodwell
 from rodwell.analysis.endless.local import LIMITS, local_state
 from rodwell.case.keys import key_of_field
 from rodwell.case.schema import StringInput
-from rodwell.case.well import hole_sections, well_schema
+from rodwell.case.well import hole_sections
+from rodwell.case.well import schema as well_schema
 from rodwell.studies.drag.calibration import calibrate, read_measured
 from rodwell.studies.drag.laws import CHEN
 from rodwell.studies.drag.road_map import road_map
