@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.functionals import Number, number_of
+from rodwell.analysis.branch.functionals import Number, value_of
 from rodwell.analysis.discrete.measures import MEASURES, measured
 from rodwell.plots.bifurcation import MARKERS, telling
 from rodwell.plots.style import INK, MODES, new_axes
@@ -45,7 +45,7 @@ def plot_in_parameter(branch: Branch, ax: Any = None, ordinate: Number | None = 
         marker, name = MARKERS.get(point.kind, ("*", point.kind))
         label = None if name in seen else name
         seen.add(name)
-        place = point.value, number_of(point.solution, which).value
+        place = point.value, value_of(point.solution, which)
         ax.plot(*place, marker, color="white", mec=INK, ms=6, zorder=5, label=label)
     ax.set_xlabel(PARAMETERS[branch.parameter])
     ax.set_ylabel(_label(which))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rodwell.analysis.branch.control import Controlled
-from rodwell.analysis.branch.functionals import Number, number_of
+from rodwell.analysis.branch.functionals import Number, number_of, value_of
 from rodwell.analysis.branch.record import BranchRecord
 from rodwell.analysis.branch.special import END, LIFT_OFF, Origin, SpecialPoint
 from rodwell.analysis.branch.symmetry import Reflection, images
@@ -74,7 +74,7 @@ class Branch(BranchRecord, Shown):
             If no measured number has that name, or the function does not return a number.
         """
         if callable(which):
-            return np.array([number_of(solution, which).value for solution in self])
+            return np.array([value_of(solution, which) for solution in self])
         place = measured(which)
         return np.array([p.values[place] for p in self.trace.points])
 

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.analysis.branch.functionals import Functional, changes_sign, number_of, value_on
+from rodwell.analysis.branch.functionals import Functional, changes_sign, number_of, value_of, value_on
 from rodwell.analysis.branch.record import BranchRecord
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import FOLD, SpecialPoint
@@ -58,19 +58,18 @@ class Controlled:
     @cached_property
     def values(self) -> FloatArray:
         """What is controlled at each point, (n,)."""
-        return np.array([number_of(state, self._number).value for state in self.branch])
+        return np.array([number.value for number in self._numbers])
 
     @cached_property
     def errors(self) -> FloatArray:
         """Error estimates of :attr:`values`, (n,)."""
-        return np.array([number_of(state, self._number).error for state in self.branch])
+        return np.array([number.error for number in self._numbers])
 
     @cached_property
     def stability_index(self) -> FloatArray:
         """Negative eigenvalues of the second variation for disturbances that keep what is controlled, (n,)."""
-        rates = np.array([self._rate(*state.levels[1]) for state in self.branch])
         senses = np.array([point.fine.tangent_lam for point in self.branch.trace.points])
-        index = self.branch.stability_index - (rates * senses > 0.0)
+        index = self.branch.stability_index - (self._rates * senses > 0.0)
         if self.branch.origin.switched and len(index) > 1:
             index[0] = index[1]
         return np.asarray(index)
@@ -78,9 +77,9 @@ class Controlled:
     @cached_property
     def folds(self) -> tuple[SpecialPoint, ...]:
         """Where what is controlled turns back, in order of travel: there the rod snaps under this control."""
-        rates = [self._rate(*state.levels[1]) for state in self.branch]
+        rates = self._rates
         start = 1 if self.branch.origin.switched else 0
-        steps = [i for i in range(start, len(rates) - 1) if changes_sign(rates[i], rates[i + 1])]
+        steps = [i for i in range(start, len(rates) - 1) if changes_sign(float(rates[i]), float(rates[i + 1]))]
         return tuple(self._fold(i) for i in steps)
 
     def states_at(self, value: float) -> tuple[Solution, ...]:
@@ -106,9 +105,19 @@ class Controlled:
         branch, number = self.branch, self._number
 
         def gap(state: Solution) -> float:
-            return number_of(state, number).value - value
+            return value_of(state, number) - value
 
         return branch.zero_between(i, value_on(branch.problem, branch.parameter, branch.trace.meshes[i + 1], gap))[0]
+
+    @cached_property
+    def _numbers(self) -> tuple[Value, ...]:
+        """What is controlled at each point, with its error."""
+        return tuple(number_of(state, self._number) for state in self.branch)
+
+    @cached_property
+    def _rates(self) -> FloatArray:
+        """Its rate along the branch at each point, (n,): see :meth:`_rate`."""
+        return np.array([self._rate(*state.levels[1]) for state in self.branch])
 
     @property
     def _number(self) -> Functional:

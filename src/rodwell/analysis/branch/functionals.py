@@ -43,6 +43,11 @@ def number_of(solution: Solution, which: Number) -> Value:
     return Value(fine, float(estimated_error(fine, coarse)))
 
 
+def value_of(solution: Solution, which: Number) -> float:
+    """The same number without its error, which would take a function's value on the coarser mesh too."""
+    return _checked(which, which(solution)) if callable(which) else solution.number(which).value
+
+
 def value_on(problem: Problem, parameter: str, meshes: TwoMeshes, which: Number) -> Callable[[Family, State], float]:
     """The same number, without its error, as a function of the equations and a state on one mesh."""
     if not callable(which):

@@ -97,10 +97,9 @@ def _from_lighter(problem: Problem, force: float, rtol: float) -> Solution | Non
 def _downhill(solution: Solution, force: float) -> Solution | None:
     """A minimum, from a state that need not be one: where symmetric coils are unstable, beside the symmetric one."""
     problem, meshes = solution.problem, solution.meshes
-    line = meshes.on_path(path(problem, "force"), spline_ends(problem), meshes.coarse.parity)
-    c = solution.point.coarse.c
-    if solution.stability_index > 0:
-        line = meshes.on_path(path(problem, "force"), spline_ends(problem), 0)
+    unstable, c = solution.stability_index > 0, solution.point.coarse.c
+    line = meshes.on_path(path(problem, "force"), spline_ends(problem), 0 if unstable else meshes.coarse.parity)
+    if unstable:
         space = line.coarse.space
         bump = problem.clearance * np.sin(np.pi * space.points) ** 2
         c = c + ASIDE * space.project(bump, line.coarse.ends)

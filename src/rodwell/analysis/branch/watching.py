@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.functionals import Number, Numbers, changes_sign, number_of, value_on
+from rodwell.analysis.branch.functionals import Number, Numbers, changes_sign, number_of, value_of, value_on
 from rodwell.analysis.branch.making import made
 from rodwell.analysis.branch.solution import Solution, solution_of
 from rodwell.analysis.branch.special import END, SpecialPoint
@@ -41,7 +41,7 @@ class Watched:
         def halt(trace: Trace) -> str:
             solution = solution_of(problem, parameter, trace.points[-1], trace.meshes[-1])
             before = dict(last)
-            last.update({name: number_of(solution, which).value for name, which in self.stop.items()})
+            last.update({name: value_of(solution, which) for name, which in self.stop.items()})
             changed = (name for name in before if changes_sign(before[name], last[name]))
             return next(changed, "")
 

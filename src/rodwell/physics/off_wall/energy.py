@@ -16,6 +16,7 @@ from pathlib import Path
 
 import sympy as sp
 
+from rodwell.physics.generating import generated
 from rodwell.physics.off_wall.parameters import PARAMETERS
 
 s, x, x1, x2, y1, y2 = sp.symbols("s x x1 x2 y1 y2", real=True)
@@ -76,34 +77,8 @@ def _cheap(expression: sp.Expr) -> sp.Expr:
 
 def generate() -> str:
     """Return the text of ``_density.py``, generated from :func:`energy_density`."""
-    density = energy_density()
-    gradient = [sp.diff(density, f) for f in FIELDS]
-    outputs: dict[str, sp.Expr] = {"energy": density}
-    for i, g in enumerate(gradient):
-        outputs[f"gradient{i}"] = g
-    for i in range(1, len(FIELDS)):  # by x itself the density is linear
-        for j in range(1, i + 1):
-            outputs[f"hessian{i}{j}"] = sp.diff(gradient[i], FIELDS[j])
-    rates = sp.symbols([f"{name}_rate" for name in PARAMETERS], real=True)
-
-    def along_rates(expression: sp.Expr) -> sp.Expr:
-        return sum(r * sp.diff(expression, p) for r, p in zip(rates, SYMBOLS, strict=True))
-
-    for i, g in enumerate(gradient):
-        outputs[f"mixed{i}"] = along_rates(g)
-    outputs["rate"] = along_rates(density)
-    replacements, reduced = sp.cse(
-        [_cheap(e) for e in outputs.values()], symbols=sp.numbered_symbols("t"), order="canonical"
-    )
-    lines = [f"    {name} = {sp.pycode(expr)}" for name, expr in replacements]
-    lines += [f"    {target} = {sp.pycode(expr)}" for target, expr in zip(outputs, reduced, strict=True)]
-    vectors = [", ".join(f"{name}{i}" for i in range(5)) for name in ("gradient", "mixed")]
-    rows = [", ".join(f"hessian{max(i, j)}{min(i, j)}" for j in range(1, 5)) for i in range(1, 5)]
-    whole = ", ".join(f"({row})" for row in rows)
-    lines.append(f"    return energy, rate, ({vectors[0]}), ({vectors[1]}), ({whole})")
-    unpack = [f"    {name} = parameters[{i}]" for i, name in enumerate(PARAMETERS)]
-    unpack += [f"    {name}_rate = rates[{i}]" for i, name in enumerate(PARAMETERS)]
-    return _TEMPLATE.format(body="\n".join([*unpack, PRELUDE, *lines]))
+    body = generated(energy_density(), FIELDS, SYMBOLS, _cheap, PRELUDE, linear=1)  # by x itself the density is linear
+    return _TEMPLATE.format(body=body)
 
 
 _TEMPLATE = '''\

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import sympy as sp
 
+from rodwell.physics.generating import generated
 from rodwell.physics.on_wall.parameters import PARAMETERS
 
 s, y, y1, y2 = sp.symbols("s y y1 y2", real=True)
@@ -110,35 +111,8 @@ def _cheap(expression: sp.Expr) -> sp.Expr:
 
 def generate() -> str:
     """Return the text of ``_density.py``, generated from :func:`energy_density`."""
-    density = energy_density()
-    gradient = [sp.diff(density, f) for f in FIELDS]
-    outputs: dict[str, sp.Expr] = {"energy": density}
-    for i, g in enumerate(gradient):
-        outputs[f"gradient{i}"] = g
-    for i, g in enumerate(gradient):
-        for j in range(i + 1):
-            outputs[f"hessian{i}{j}"] = sp.diff(g, FIELDS[j])
-    rates = sp.symbols([f"{name}_rate" for name in PARAMETERS], real=True)
-
-    def along_rates(expression: sp.Expr) -> sp.Expr:
-        return sum(r * sp.diff(expression, p) for r, p in zip(rates, SYMBOLS, strict=True))
-
-    for i, g in enumerate(gradient):
-        outputs[f"mixed{i}"] = along_rates(g)
-    outputs["rate"] = along_rates(density)
-
-    replacements, reduced = sp.cse(
-        [_cheap(e) for e in outputs.values()], symbols=sp.numbered_symbols("t"), order="canonical"
-    )
-    lines = [f"    {name} = {sp.pycode(expr)}" for name, expr in replacements]
-    lines += [f"    {target} = {sp.pycode(expr)}" for target, expr in zip(outputs, reduced, strict=True)]
-    vectors = [", ".join(f"{name}{i}" for i in range(3)) for name in ("gradient", "mixed")]
-    rows = [", ".join(f"hessian{max(i, j)}{min(i, j)}" for j in range(3)) for i in range(3)]
-    lines.append(f"    return energy, rate, ({vectors[0]}), ({vectors[1]}), (({rows[0]}), ({rows[1]}), ({rows[2]}))")
-    used = [(i, p.name) for i, p in enumerate(SYMBOLS) if p in density.free_symbols]
-    unpack = [f"    {name} = parameters[{i}]" for i, name in used]
-    unpack += [f"    {name}_rate = rates[{i}]" for i, name in used]
-    return _TEMPLATE.format(body="\n".join([*unpack, PRELUDE, *lines]))
+    body = generated(energy_density(), FIELDS, SYMBOLS, _cheap, PRELUDE)
+    return _TEMPLATE.format(body=body)
 
 
 _TEMPLATE = '''\

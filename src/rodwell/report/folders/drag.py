@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.wells.drag import plot_calibration, plot_forces, plot_operation, plot_road_map
-from rodwell.report.folders.pictures import save_figure
+from rodwell.report.folders.pictures import kept, save_figure
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.drag import drag_report, picture_of
-from rodwell.report.reports.front import LOGO
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
@@ -42,12 +41,9 @@ def write_drag(
         if calibration is not None:
             figures["calibration"] = plot_calibration(calibration)
             tables["calibration"] = calibration_table(calibration)
-        pictures = {}
         for name, figure in figures.items():
             save_figure(figure, folder / name)
-            pictures[name] = ("svg", (folder / f"{name}.svg").read_bytes())
-        if found.well.about.logo is not None:
-            pictures[LOGO] = found.well.about.logo
+        pictures = kept(folder, tuple(figures), found.well.about)
         write_report(drag_report(found, calibration), pictures, folder, with_pdf=with_pdf)
         for name, table in tables.items():
             write_csv(table, folder / f"{name}.csv")

@@ -8,7 +8,7 @@ import matplotlib as mpl
 
 from rodwell.plots.style import RC
 from rodwell.plots.wells.packer import plot_packer
-from rodwell.report.folders.pictures import save_figure
+from rodwell.report.folders.pictures import kept, save_figure
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.packer import packer_report
 from rodwell.store.folder import whole_folder
@@ -33,7 +33,7 @@ def write_packer(answer: PackerAnswer, out: str | Path, *, with_pdf: bool = Fals
     with whole_folder(Path(out)) as folder:
         with mpl.rc_context(RC):
             save_figure(plot_packer(answer).figure, folder / "packer")
-        pictures = {"packer": ("svg", (folder / "packer.svg").read_bytes())}
+        pictures = kept(folder, ("packer",), answer.case.about)
         write_report(packer_report(answer), pictures, folder, with_pdf=with_pdf)
         table = packer_table(answer)
         write_csv(table, folder / "packer.csv")

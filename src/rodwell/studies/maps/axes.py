@@ -13,8 +13,8 @@ import numpy as np
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.text import minus
-from rodwell.quantities.written import number_and_rest, remedy
-from rodwell.studies.ranges import LONGEST_RANGE, RANGE, in_unit, tidy
+from rodwell.quantities.written import number_and_rest
+from rodwell.studies.ranges import LONGEST_RANGE, RANGE, in_unit, read_range, tidy
 
 MOST_VALUES = 100_000
 """Values that one parameter may take."""
@@ -167,26 +167,14 @@ def _from_text(name: str, text: str) -> Axis | Distribution | None:
 
 def _range(name: str, text: str) -> Axis:
     logarithmic = LOG.search(text) is not None
-    parts = RANGE.fullmatch(LOG.sub("", text))
-    ends = None if parts is None else (number_and_rest(parts["first"]), number_and_rest(parts["last"]))
-    if parts is None or ends is None or ends[0] is None or ends[1] is None:
-        how = "" if parts is None else remedy(parts["first"]) or remedy(parts["last"])
-        raise InputError(name, text, f"is not a range; {f'write {how}' if how else ''}{ALLOWED}")
-    (first, own), (last, unit), count = ends[0], ends[1], int(parts["count"][:9])
-    try:
-        first = in_unit(own or unit, unit, first)
-    except ValueError as error:
-        raise InputError(name, text, f"{error}; {ALLOWED}") from None
-    if not 2 <= count <= MOST_VALUES:
-        raise InputError(name, text, f"must have from 2 to {MOST_VALUES} values")
-    if not (math.isfinite(first) and math.isfinite(last)) or first == last:
-        raise InputError(name, text, "must go from one finite value to another")
+    read = read_range(name, LOG.sub("", text), text, MOST_VALUES, ALLOWED)
+    first, last = read.first, read.last
     if logarithmic and not (first > 0.0 and last > 0.0):
         raise InputError(name, text, "is logarithmic: both ends must be above 0")
-    spaced = np.geomspace(first, last, count) if logarithmic else np.linspace(first, last, count)
+    spaced = np.geomspace(first, last, read.count) if logarithmic else np.linspace(first, last, read.count)
     numbers = tuple(tidy(float(number)) for number in spaced)
-    axis = Axis(name, (), numbers, unit, logarithmic)
-    return Axis(name, tuple(axis.value(number) for number in numbers), numbers, unit, logarithmic)
+    axis = Axis(name, (), numbers, read.unit, logarithmic)
+    return Axis(name, tuple(axis.value(number) for number in numbers), numbers, read.unit, logarithmic)
 
 
 def _from_list(name: str, given: list[Any]) -> Axis:

@@ -13,8 +13,8 @@ from rodwell.case.checks.explain import LIST, TAPER, TAPERED
 from rodwell.case.sections import check_beside
 from rodwell.errors import InputError
 from rodwell.quantities.text import plain
-from rodwell.quantities.written import number_and_rest, remedy
-from rodwell.studies.ranges import LONGEST_RANGE, RANGE, in_unit, tidy
+from rodwell.quantities.written import number_and_rest
+from rodwell.studies.ranges import LONGEST_RANGE, in_unit, read_range, tidy
 from rodwell.studies.sweep.labels import label, shown_unit
 
 MOST_POINTS = 400
@@ -167,22 +167,8 @@ def _range(section: str, key: str, text: str) -> Varied:
         meant = re.sub(r"\s*(?:\.{3}|…)\s*", "..", text, count=1)
         what = f'has three dots; a range has two: write "{meant}", or a nought before a decimal point, "0..0.5 m in 3"'
         raise InputError(name, text, what)
-    parts = RANGE.fullmatch(text)
-    start = None if parts is None else number_and_rest(parts["first"])
-    end = None if parts is None else number_and_rest(parts["last"])
-    if parts is None or start is None or end is None:
-        allowed = ALLOWED_LOAD if name in LISTS else ALLOWED
-        how = "" if parts is None else remedy(parts["first"]) or remedy(parts["last"])
-        raise InputError(name, text, f"is not a range; {f'write {how}' if how else ''}{allowed}")
-    (first, own), (last, unit), count = start, end, int(parts["count"][:9])
-    try:
-        first = in_unit(own or unit, unit, first)
-    except ValueError as error:
-        raise InputError(name, text, f"{error}; {ALLOWED}") from None
-    if not 2 <= count <= MOST_POINTS:
-        raise InputError(name, text, f"must have from 2 to {MOST_POINTS} values")
-    if not (math.isfinite(first) and math.isfinite(last)) or first == last:
-        raise InputError(name, text, "must go from one finite value to another")
+    read = read_range(name, text, text, MOST_POINTS, ALLOWED_LOAD if name in LISTS else ALLOWED, ALLOWED)
+    first, last, count, unit = read.first, read.last, read.count, read.unit
     numbers = tuple(tidy(first + (last - first) * i / (count - 1)) for i in range(count))
     turns = name in LISTS and min(numbers) < 0.0  # a range from compression to tension says that both are meant
     values = tuple(
