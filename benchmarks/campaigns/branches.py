@@ -22,8 +22,6 @@ import math
 import os
 import platform
 from collections import Counter
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -32,6 +30,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 import numpy as np
+from resumable import finished
 
 import rodwell
 
@@ -102,34 +101,12 @@ def difference(usual: rodwell.Branch, other: rodwell.Branch) -> str | None:
     return None
 
 
-def done() -> dict[int, dict[str, Any]]:
-    """Trials that an earlier run has finished."""
-    if not LINES.exists():
-        return {}
-    return {line["number"]: line for line in map(json.loads, LINES.read_text(encoding="utf-8").splitlines())}
-
-
-def trials(numbers: list[int], workers: int) -> Iterator[dict[str, Any]]:
-    if workers == 1:
-        yield from map(trial, numbers)
-        return
-    with ProcessPoolExecutor(workers) as pool:
-        yield from pool.map(trial, numbers, chunksize=8)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=10_000)
     parser.add_argument("--workers", type=int, default=2)
     given = parser.parse_args()
-    found = done()
-    missing = [number for number in range(given.count) if number not in found]
-    with LINES.open("a", encoding="utf-8") as lines:
-        for result in trials(missing, given.workers):
-            found[result["number"]] = result
-            lines.write(json.dumps(result) + "\n")
-            lines.flush()
-    results = [found[number] for number in range(given.count)]
+    results = finished(trial, given.count, LINES, given.workers, 8)
     faults = [result for result in results if result["fault"]]
     followed = [result for result in results if "kinds" in result]
     summary = {

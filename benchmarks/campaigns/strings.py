@@ -22,12 +22,11 @@ import platform
 import random
 import time
 from collections import Counter
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
 from flint import arb, arb_mat, ctx
+from resumable import finished
 
 from rodwell import Problem, critical_loads, follow
 from rodwell.errors import NotConvergedError
@@ -106,33 +105,12 @@ def followed(problem: Problem) -> dict[str, Any]:
     return found
 
 
-def done() -> dict[int, dict[str, Any]]:
-    """Trials that an earlier run has finished."""
-    if not LINES.exists():
-        return {}
-    return {line["number"]: line for line in map(json.loads, LINES.read_text(encoding="utf-8").splitlines())}
-
-
-def trials(numbers: list[int], workers: int) -> Iterator[dict[str, Any]]:
-    if workers == 1:
-        yield from map(trial, numbers)
-        return
-    with ProcessPoolExecutor(workers) as pool:
-        yield from pool.map(trial, numbers, chunksize=4)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--workers", type=int, default=1)
     given = parser.parse_args()
-    found = done()
-    with LINES.open("a", encoding="utf-8") as lines:
-        for result in trials([number for number in range(given.count) if number not in found], given.workers):
-            found[result["number"]] = result
-            lines.write(json.dumps(result) + "\n")
-            lines.flush()
-    results = [found[number] for number in range(given.count)]
+    results = finished(trial, given.count, LINES, given.workers, 4)
     faults = [result for result in results if result["fault"]]
     summary = {
         "campaign": "strings", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),

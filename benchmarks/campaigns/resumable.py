@@ -1,0 +1,39 @@
+"""Numbered trials on several processes, a line of JSON each, so that a campaign that was ended goes on where it was."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+Result = dict[str, Any]
+Trial = Callable[[int], Result]
+
+
+def finished(trial: Trial, count: int, lines: Path, workers: int, chunk: int) -> list[Result]:
+    """Results of trials 0 to ``count`` − 1, in order: those in ``lines``, and the others, which are added to it."""
+    found = _done(lines)
+    missing = [number for number in range(count) if number not in found]
+    with lines.open("a", encoding="utf-8") as file:
+        for result in _results(trial, missing, workers, chunk):
+            found[result["number"]] = result
+            file.write(json.dumps(result) + "\n")
+            file.flush()
+    return [found[number] for number in range(count)]
+
+
+def _done(lines: Path) -> dict[int, Result]:
+    """Trials that an earlier run has finished."""
+    if not lines.exists():
+        return {}
+    return {line["number"]: line for line in map(json.loads, lines.read_text(encoding="utf-8").splitlines())}
+
+
+def _results(trial: Trial, numbers: list[int], workers: int, chunk: int) -> Iterator[Result]:
+    if workers == 1:
+        yield from map(trial, numbers)
+        return
+    with ProcessPoolExecutor(workers) as pool:
+        yield from pool.map(trial, numbers, chunksize=chunk)
