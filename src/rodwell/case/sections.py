@@ -147,14 +147,32 @@ def string_of(
     """
     members, fluids = [], None
     for number, one in enumerate(given, 1):
-        name = one.name or one.pipe or f"section {number}"
+        name = name_of(one, number)
         with _as_section(number, name):
-            rod = physical_rod(one, hole.gravity, catalogue, _length(one))
-            fluids = fluids_of(mud, pressure, rod)
-            members.append(Member(number, name, rod, checked_weight(fluids, rod, hole.gravity)))
+            rod, fluids, weight = section_rod(one, _length(one), hole.gravity, mud, pressure, catalogue)
+            members.append(Member(number, name, rod, weight))
     if fluids is None:
         raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
     return PhysicalString(tuple(members)), fluids
+
+
+def name_of(one: schema.StringInput, number: int) -> str:
+    """What a section is called: its own name, or that of its pipe, or its number from the bottom, from 1."""
+    return one.name or one.pipe or f"section {number}"
+
+
+def section_rod(
+    one: schema.StringInput,
+    length: float,
+    gravity: float,
+    mud: schema.Mud | None,
+    pressure: schema.PressureAtEnd | None,
+    catalogue: Catalogue,
+) -> tuple[PhysicalRod, Fluids, float]:
+    """The rod of a section of a length in m, the fluids in and around it, and its weight in these in N/m."""
+    rod = physical_rod(one, gravity, catalogue, length)
+    fluids = fluids_of(mud, pressure, rod)
+    return rod, fluids, checked_weight(fluids, rod, gravity)
 
 
 def check_length(string: PhysicalString, length: float | None) -> None:

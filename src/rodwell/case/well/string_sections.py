@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rodwell.case.catalogue import Catalogue
-from rodwell.case.fluids import Fluids, checked_weight, fluids_of
-from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.case.fluids import Fluids
+from rodwell.case.pipe import PhysicalRod
 from rodwell.case.schema import Mud, PressureAtEnd, StringInput
+from rodwell.case.sections import name_of, section_rod
 from rodwell.errors import InputError
 
 MOST_SECTIONS = 200
@@ -50,12 +51,10 @@ def string_sections(
     for i, part in enumerate(parts):
         length = _length(part, i, last=i == len(parts) - 1)
         try:
-            rod = physical_rod(part, gravity, catalogue, length)
-            fluids = fluids_of(mud, pressure, rod)
-            weight = checked_weight(fluids, rod, gravity)
+            rod, fluids, weight = section_rod(part, length, gravity, mud, pressure, catalogue)
         except InputError as error:
             raise _renamed(error, i) from None
-        out.append(StringSection(part.name or part.pipe or f"section {i + 1}", rod, weight, fluids))
+        out.append(StringSection(name_of(part, i + 1), rod, weight, fluids))
     return tuple(out)
 
 
