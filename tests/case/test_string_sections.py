@@ -10,8 +10,11 @@ from typing import Any
 import pytest
 
 from rodwell import Case, answer, critical_loads
+from rodwell.answers.words.meaning import sentences
+from rodwell.answers.words.verdict import verdict
 from rodwell.case.case import CaseError
 from rodwell.errors import InputError
+from rodwell.report.reports.case import case_report
 from rodwell.report.reports.sections import string_section
 from rodwell.strength.section import StringSections
 from rodwell.studies.audit.audit import audit
@@ -182,3 +185,17 @@ def test_the_report_draws_and_lists_the_sections() -> None:
     uniform = {key: DATA[key] for key in ("hole",)} | {"rod": {"length": "30 m", "outer_diameter": "5 in",
                                                                "material": "steel"}}  # fmt: skip
     assert string_section(answer(Case.from_dict(uniform)).assessment) == ()
+
+
+def test_a_buckled_string_stays_on_the_wall_only_where_its_steps_are_held() -> None:
+    """A wall cannot exert the couple at a step: no verdict and no number of the first page says so without it."""
+    found = answer(Case.read(EXAMPLE))
+    first_page = case_report(found, []).front.numbers
+    assert any(number.label.startswith("Leaves the wall between steps at") for number in first_page)
+    assert "its slope held at steps of its stiffness" in verdict(found.assessment)
+    assert any("stays on the wall, if its slope is held" in sentence for sentence in sentences(found))
+    one = {"outer_diameter": "5 in", "inner_diameter": "4.276 in", "material": "steel"}
+    alike = {"string": [{**one, "length": "12 m"}, {**one, "length": "18 m"}], "hole": DATA["hole"]}
+    uniform = answer(Case.from_dict(alike))
+    assert not any("step" in number.label for number in case_report(uniform, []).front.numbers)
+    assert "step" not in verdict(uniform.assessment)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.steps import has_steps
 from rodwell.answers.words.wording import forces_of, quantity, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -52,7 +53,8 @@ def window_sentences(a: Assessment) -> list[str]:
 def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
     fluids = ", effective forces" if case.with_fluids else ""
-    return f"frictionless, elastic, straight hole, {ends_text(case.problem)}{fluids}"
+    held = ", its slope held at steps of its stiffness" if has_steps(case.problem) else ""
+    return f"frictionless, elastic, straight hole, {ends_text(case.problem)}{held}{fluids}"
 
 
 def _range(a: Assessment) -> str:
@@ -83,7 +85,8 @@ def _window(a: Assessment) -> str:
         return "; the shape it buckles into is unstable from the start"
     part = share_shown(a)
     share = "" if part is None else f" ({percent(part)})"
-    text = f"; buckled, it stays on the wall, stable, for another {size_text(scales, width)}{share} until it "
+    held = ", if its slope is held at steps of its stiffness" if has_steps(a.case.problem) else ""
+    text = f"; buckled, it stays on the wall{held}, stable, for another {size_text(scales, width)}{share} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
         text += f", {_stress(a, a.at_lift_off)}"
