@@ -158,8 +158,8 @@ def _numbers(data: dict[str, Any], found: list[ModePair], rows: list[Switching],
     from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
 
     columns = ("what", "modes", "symmetry", "weight", "end force at s = 1, tension positive [B/L^2]")
-    lines = [
-        ("critical load", 2 * pair.pair - 1 + i, "even" if parity == 1 else "odd", weight, force)
+    lines: list[tuple[str, str, str, float | None, float]] = [
+        ("critical load", f"{2 * pair.pair - 1 + i}", "even" if parity == 1 else "odd", weight, force)
         for pair in found
         for i, (parity, force) in enumerate(zip(pair.parities, pair.forces, strict=True))
     ]
