@@ -17,8 +17,9 @@ import numpy as np
 from rodwell.numerics.equilibria.state import EQUAL_COEFFICIENTS, SYMMETRIC, State
 from rodwell.quantities.arrays import FloatArray
 
-CELLS = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31)
-"""Numbers of cells that are looked for: what has twelve has three."""
+CELLS = (2, 3, 4, 5, 7, 8, 9, 11, 13, 16, 17, 19, 23, 25, 27, 29, 31)
+"""Numbers of cells that are looked for, powers of primes: what leaves a row of twelve may keep six, but then it has no
+four; or it may keep four, but then it has no three."""
 
 BROKEN = 0.5
 """Part of a null vector by which it may differ from its image and count as symmetric: that of a symmetric state is
