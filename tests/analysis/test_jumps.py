@@ -114,6 +114,25 @@ def test_a_row_of_four_cells_may_become_one_of_two() -> None:
     assert abs(one.force - 4.0 * other.force) <= one.error + 4.0 * other.error
 
 
+@pytest.mark.parametrize("by", [0.0, 1e-12])
+def test_waves_of_nearly_the_length_of_those_of_the_branch_may_branch_off(by: float) -> None:
+    """Nineteen quarter waves, crossed by fifteen and by seventeen; a hair of weight more or less changes nothing."""
+    problem = Problem(568.79 * (1.0 + by), 90.0, clearance=0.0013384, ends="pinned-guided")
+    branch = follow(problem, 3, until=-1600.0)
+    assert special(branch) == [("critical", 2, 2), ("branch_point", 2, 1), ("branch_point", 1, 0), ("end", 0, 0)]
+    points = [p.solution for p in branch.special_points if p.kind == "branch_point"]
+    assert all(point.converged for point in points)
+    for point, waves in zip(points, (15, 17), strict=True):
+        state, family = point.point.fine, point.meshes.fine
+        vector = np.random.default_rng(1).standard_normal(state.c.size)
+        family.nearest_curvature(state, vector, 12)
+        s = np.linspace(0.0, 1.0, 400)
+        shares = [
+            abs(np.sum(state.space.evaluate(vector, s, 1)[0] * np.sin(k * np.pi / 2.0 * s))) for k in range(1, 40, 2)
+        ]
+        assert int(np.argmax(shares)) * 2 + 1 == waves
+
+
 def test_what_has_the_parity_of_the_branch_does_not_branch_off() -> None:
     """A pitchfork of four half waves that a little twist unfolds: states of both branches are odd about the middle."""
     problem = Problem(143.2, 90.0, clearance=0.0208, twist=-0.00092, ends="pinned-pinned")
