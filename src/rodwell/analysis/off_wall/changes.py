@@ -192,13 +192,15 @@ def _release(plan: _Plan, condition: Condition) -> None:
     """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
     problem = plan.state.model.problem
     weight = max(problem.lateral_weight, 1e-3)
-    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 0.01, 0.3))
+    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 2e-3, 0.3))
     if condition.number:
         plan.touching.append(False)
         plan.breaks.append(1.0 - length)
+        plan.pair = (1.0 - length, 1.0)
     else:
         plan.touching.insert(0, False)
         plan.breaks.insert(0, length)
+        plan.pair = (0.0, length)
 
 
 _EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}

@@ -18,7 +18,7 @@ from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, straight_state, walked
-from rodwell.analysis.path.start import on_wall
+from rodwell.analysis.path.start import OnWall, carried, on_wall, released
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
@@ -276,25 +276,29 @@ def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     control, sense = how.control, -1.0 if how.control.by_force else 1.0
     if control.by_force and until >= how.mode.force:
         return walked(None, model, max(top, until), until, leg, how)
-    stays = problem.pressed and "ball" not in problem.ends
 
     def before(state: PatternedState) -> bool:
         return (until - control.value(state.solved)) * sense > 0.0
 
-    begun = on_wall(problem, 1, mirror, how.rtol, before) if stays else None
-    if begun is None:
+    begun, start = None, None
+    if "ball" in problem.ends:
+        start = released(problem, mirror, how.rtol)
+    elif problem.pressed:
+        begun = on_wall(problem, 1, mirror, how.rtol, before)
+        start = None if begun is None else begun.start
+    if start is None or not before(start):
         return walked(None, model, top if control.by_force else 0.0, until, leg, how)
-    critical = PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), LOADING)
+    critical = Value(how.mode.force, how.mode.error)
     leg.straight.append((top, how.mode.force))
-    out = walked(begun.start, model, control.value(begun.start.solved), until, leg, how)
-    out.events.insert(0, critical)
-    _add_wall(leg, model, begun)
+    out = walked(start, model, control.value(start.solved), until, leg, how)
+    kinds = (CRITICAL, LIFT_OFF) if begun is None else (CRITICAL,)
+    out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
+    if begun is not None:
+        _add_wall(leg, model, begun)
     return out
 
 
-def _add_wall(leg: Leg, model: RodInHole, begun: Any) -> None:
+def _add_wall(leg: Leg, model: RodInHole, begun: OnWall) -> None:
     """States on the wall before the chains begin, as chains too: for curves and for states at loads."""
-    from rodwell.analysis.path.start import carried  # noqa: PLC0415
-
     states = [carried(model, begun.branch[i]) for i in begun.states[:-1]]
     leg.runs[0] = [state for state in states if state is not None] + leg.runs[0]
