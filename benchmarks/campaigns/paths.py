@@ -84,8 +84,13 @@ def _followed(problem: rodwell.Problem) -> dict[str, Any]:
             slack = 1e-3 * abs(state.load)
             if before.solved.index != state.solved.index and not any(low - slack <= f <= high + slack for f in marked):
                 faults.append(f"index changes between {before.load:.8g} and {state.load:.8g} without an event")
-        for state in run[:: max(1, len(run) // LOOKED_AT)]:
+        for state in run[1:-1][:: max(1, len(run) // LOOKED_AT)]:
             faults += _faults(state)
+    for event in path.events:
+        if event.state is not None:
+            faults += _missed(
+                event.state.certificate, f"{event.kind} at F = {event.force.value:.10g}", event.state.force
+            )
     kinds = [event.kind for event in path.events]
     return {
         "faults": faults,
@@ -117,10 +122,18 @@ def _faults(state: Any) -> list[str]:
         certificate = contact_state(state).certificate
     except rodwell.NotConvergedError as error:
         return [*found, f"{error} at {where}"]
+    return found + _missed(certificate, where, state.load)
+
+
+def _missed(certificate: Any, where: str, force: float) -> list[str]:
+    """What a certificate misses."""
+    found = []
     if certificate.penetration > DEEP:
         found.append(f"penetration {certificate.penetration:.2e} at {where}")
     if certificate.worst > BALANCE:
         found.append(f"balance {certificate.worst:.2e} at {where}")
+    if min(certificate.least_force, certificate.least_pressure) < -PULL * max(abs(force), 1.0):
+        found.append(f"contact pulls, {certificate.least_force:.2e}, {certificate.least_pressure:.2e} at {where}")
     return found
 
 

@@ -50,6 +50,9 @@ PAST = 0.02
 SHORT_GAP = 0.3
 """Length of a gap, times the wavenumber, below which it is about to close."""
 
+SEARCH, FARTHEST = 1e-4, 0.4
+"""First and longest step in which the place is sought where a short stretch has vanished."""
+
 SMALLEST_PART = 0.1
 """A gap that opens is tried down to this part of its usual first length."""
 
@@ -293,10 +296,12 @@ class _Walker:
             return False
         after, condition = found
         along = tangent_in_load(after.state.solved, self.along.load)
-        at = search(after.state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
+        at = search(after.state.model, after.state.solved, along, after.grows, SEARCH, FARTHEST)
         if at is None or (self.control.value(at) - self.until) * self.sense > 0.0:  # not before the end
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
+        if any(one.value < -NEARLY * max(abs(there.load), 1.0) for one in conditions(there)):
+            return False
         places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))
         self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
         self._enter(Changed(there, after.grows, after.name))
