@@ -41,7 +41,8 @@ class Axis:
     coefficients
         Of k1, k2, then of N1, N2, T and X, of each piece, (DEGREE + 1, m, 14).
     error
-        Largest of the last coefficients: how far all of it may be from the curve that was tabulated.
+        Largest of the last coefficients, of points over a length above 1: how far frames and points may be from those
+        of the curve that was tabulated.
     """
 
     breaks: FloatArray
@@ -144,8 +145,9 @@ def _tabulated(parameters: FloatArray, motion: Motion, start: FloatArray) -> Axi
         [curvatures, normals.reshape(*nodes.shape, 6), tangents, points], axis=-1
     )  # (m, DEGREE + 1, 14)
     coefficients = np.einsum("kj,mjc->kmc", TO_COEFFICIENTS, whole)
-    last = np.abs(coefficients[-2:, :, 2:])
     breaks = np.concatenate([[0.0], np.cumsum(lengths)])
+    last = np.abs(coefficients[-2:, :, 2:])
+    last[..., -3:] /= max(1.0, breaks[-1])
     return Axis(breaks, coefficients, float(last.max()))
 
 

@@ -22,7 +22,7 @@ FEWEST_POINTS = 4
 LENGTHS = (0.98, 1.02)
 """Between which the length of an axis given by points may lie, in L."""
 
-IN_LINE = 1e-12
+IN_LINE = 1e-11
 """Points that stray less, in L, from a line or a vertical plane lie on it: what remains is round-off."""
 
 UPRIGHT = 1e-9
@@ -209,7 +209,7 @@ class Hole:
                 f"bends the hole with a radius of {1.0 / self.sharpest:.4g} L, which must be above the clearance "
                 f"Δ = {clearance:g} L: a wall cannot be bent more sharply than that",
             )
-        meeting = self._meeting(clearance)
+        meeting = _meeting(self, clearance)
         if meeting is not None:
             low, high, distance = meeting
             raise InputError(
@@ -218,32 +218,6 @@ class Hole:
                 f"makes the hole run into itself: its axis at s = {low:.3g} and at s = {high:.3g} is {distance:.3g} L "
                 f"apart, and must be more than 2Δ = {2.0 * clearance:.3g} L",
             )
-
-    def _meeting(self, clearance: float) -> tuple[float, float, float] | None:
-        """Two arclengths more than πΔ apart where the axis comes closer than 2Δ to itself, and how close; or None."""
-        if self.turning <= CANNOT_FOLD:
-            return None
-        from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to import
-
-        places = np.linspace(0.0, 1.0, int(min(20_000, max(400, 4.0 / clearance))))
-        points = self.points(places)
-        step = places[1]
-        pairs = cKDTree(points).query_pairs(2.0 * clearance + step, output_type="ndarray")
-        pairs = pairs[pairs[:, 1] - pairs[:, 0] > math.pi * clearance / step]
-        if not len(pairs):
-            return None
-        tangents = self.frame(places)[:, 2]
-        low, high = pairs.T
-        gap = points[high] - points[low]
-        for end, sign in ((low, 1.0), (high, -1.0)):  # the nearest points between the samples, to first order
-            shift = np.clip(sign * np.sum(gap * tangents[end], axis=1), -0.5 * step, 0.5 * step)
-            shift = np.clip(places[end] + shift, 0.0, 1.0) - places[end]
-            gap -= sign * shift[:, None] * tangents[end]
-        distance = np.linalg.norm(gap, axis=1)
-        nearest = int(np.argmin(distance))
-        if distance[nearest] >= 2.0 * clearance:
-            return None
-        return float(places[low[nearest]]), float(places[high[nearest]]), float(distance[nearest])
 
 
 def checked_points(points: object) -> Points:
@@ -291,3 +265,31 @@ def _table(axis: Points) -> Axis:
     normals = table.at(np.array([0.5]))[1][0, :2]
     in_plane = np.max(np.abs((points - middle) @ normals.T), axis=0) <= IN_LINE
     return table.without(tuple(np.flatnonzero(in_plane).tolist()))
+
+
+@lru_cache(maxsize=32)
+def _meeting(hole: Hole, clearance: float) -> tuple[float, float, float] | None:
+    """Two arclengths more than πΔ apart where the axis comes closer than 2Δ to itself, and how close; or None."""
+    if hole.turning <= CANNOT_FOLD:
+        return None
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to import
+
+    places = np.linspace(0.0, 1.0, int(min(20_000, max(400, 4.0 / clearance))))
+    points = hole.points(places)
+    step = places[1]
+    pairs = cKDTree(points).query_pairs(2.0 * clearance + step, output_type="ndarray")
+    pairs = pairs[pairs[:, 1] - pairs[:, 0] > max(math.pi * clearance / step, 4.0)]
+    if not len(pairs):
+        return None
+    tangents = hole.frame(places)[:, 2]
+    low, high = pairs.T
+    gap = points[high] - points[low]
+    for end, sign in ((low, 1.0), (high, -1.0)):  # the nearest points between the samples, to first order
+        shift = np.clip(sign * np.sum(gap * tangents[end], axis=1), -0.5 * step, 0.5 * step)
+        shift = np.clip(places[end] + shift, 0.0, 1.0) - places[end]
+        gap -= sign * shift[:, None] * tangents[end]
+    distance = np.linalg.norm(gap, axis=1)
+    nearest = int(np.argmin(distance))
+    if distance[nearest] >= 2.0 * clearance:
+        return None
+    return float(places[low[nearest]]), float(places[high[nearest]]), float(distance[nearest])
