@@ -84,6 +84,7 @@ _HOME = {
     "special_curve": "rodwell.analysis.curves.special",
     "switching_table": "rodwell.analysis.straight.modes",
     "study": "rodwell.studies.sweep.study",
+    "tensile_loads": "rodwell.analysis.straight.critical",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
     "turns_of_least_energy": "rodwell.analysis.branch.turns",

@@ -75,7 +75,7 @@ def arms_differ(problem: Problem, parity: int) -> bool:
 
     Where nothing presses it to the wall it leaves the wall as it buckles, whichever arm it takes.
     """
-    return problem.lateral_weight > 0.0 and len(images(problem, parity)) == 1
+    return not problem.untouched and len(images(problem, parity)) == 1
 
 
 def images(problem: Problem, parity: int) -> tuple[Reflection, ...]:
