@@ -52,7 +52,7 @@ _HOME = {
     "SpecialPoint": "rodwell.analysis.branch.special",
     "SpatialMode": "rodwell.analysis.straight.without_wall",
     "Study": "rodwell.studies.sweep.study",
-    "Survey": "rodwell.studies.well.survey",
+    "Survey": "rodwell.survey.survey",
     "Torsion": "rodwell.analysis.loads.torsion",
     "Well": "rodwell.studies.drag.well_case",
     "WallTouch": "rodwell.analysis.straight.without_wall",
@@ -79,13 +79,14 @@ _HOME = {
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
-    "read_surveys": "rodwell.studies.well.survey",
+    "read_surveys": "rodwell.survey.survey",
     "packer": "rodwell.studies.packer.packer",
     "paper_values": "rodwell.analysis.proof.paper_values",
     "secondary_curve": "rodwell.analysis.curves.states",
     "special_curve": "rodwell.analysis.curves.special",
     "switching_table": "rodwell.analysis.straight.modes",
     "study": "rodwell.studies.sweep.study",
+    "tensile_loads": "rodwell.analysis.straight.critical",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
     "turns_of_least_energy": "rodwell.analysis.branch.turns",
@@ -135,7 +136,7 @@ if TYPE_CHECKING:
     from rodwell.studies.packer.packer import PackerAnswer, packer
     from rodwell.studies.sweep.study import Study, study
     from rodwell.studies.well.screening import Screening, screen
-    from rodwell.studies.well.survey import Survey, read_surveys
+    from rodwell.survey.survey import Survey, read_surveys
 
 
 def _late(module: str, name: str) -> Face:

@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.well_case import Operation, Well
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 PIPE = {
     "outer_diameter": "5 in", "inner_diameter": "4.276 in", "bending_stiffness": "1228241.4795 N m^2",

@@ -26,7 +26,7 @@ from rodwell.studies.drag.laws import STRAIGHT_LAW, correlation
 from rodwell.studies.drag.lock_up import reach
 from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.run import balance, error_of, run
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 WELL_A = {
     "pull-out": (0.0, 502594.800142, 0.0),

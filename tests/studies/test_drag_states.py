@@ -19,7 +19,7 @@ from rodwell.studies.drag.lock_up import reach, transfer
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.run import balance, run
 from rodwell.studies.drag.strength import load_of
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
 """√(Bw/r) in a horizontal hole: P is β times it."""

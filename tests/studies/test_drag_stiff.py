@@ -19,7 +19,7 @@ from rodwell.studies.drag.laws import STRAIGHT_LAW
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.run import balance, run
 from rodwell.studies.drag.stiff import Loads, _beam, _state, frame, lay, loads_at
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 B, Q, R = 1.2e6, 241.0, 0.0445
 

@@ -17,7 +17,7 @@ from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.road_map import road_map
 from rodwell.studies.drag.run import run
 from rodwell.studies.drag.well_case import Well
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 TWO = [
     {"name": "casing", "to": "1900 m", "friction": 0.2},

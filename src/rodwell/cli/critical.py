@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.critical_in_hole import lying_numbers, show_lying
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
@@ -33,13 +34,19 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
 
     End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows: with the
     wall's help, and without. Twist does not enter as long as lateral weight presses the rod to the wall; where nothing
-    does, and without the wall's help, it makes the rod buckle earlier.
+    does, and without the wall's help, it makes the rod buckle earlier. In a curved hole (--build): loads of both signs,
+    and where the wall would have to pull the rod that lies along it.
     """
-    from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
+    from rodwell.analysis.straight.critical import critical_loads, tensile_loads  # noqa: PLC0415
     from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
     loads = critical_loads(problem, modes, rtol=rtol)
+    if problem.hole is not None:
+        tensile = tensile_loads(problem, modes, rtol=rtol)
+        show_lying(loads, tensile, as_json)
+        keep(where, lambda: lying_numbers(loads, tensile), quiet=as_json)
+        return
     free = loads_without_wall(problem, rtol=rtol)
     if as_json:
         print_json(_data(loads, free))
@@ -73,7 +80,7 @@ def _numbers(loads: CriticalLoads, free: LoadsWithoutWall) -> Numbers:
 
 def _untouched(problem: Problem) -> bool:
     """Whether twist counts, since nothing presses the rod to the wall."""
-    return problem.twist != 0.0 and problem.lateral_weight == 0.0
+    return problem.twist != 0.0 and problem.untouched
 
 
 def _data(loads: CriticalLoads, free: LoadsWithoutWall) -> dict[str, Any]:

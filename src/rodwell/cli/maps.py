@@ -111,7 +111,7 @@ def _print_diagram(result: Diagram) -> None:
 
     widest = max((len(KINDS[p.kind]) for branch in result for p in branch.special_points), default=0)
     click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
-    if result.problem.twist != 0.0 and result.problem.lateral_weight == 0.0:
+    if result.problem.twist != 0.0 and result.problem.untouched:
         wrapped(KEPT)
     first = next((p for branch in result for p in branch.special_points if p.kind in ("lift_off", "end")), None)
     note = "" if first is None else steps_note(first.solution.step_loads)

@@ -23,7 +23,19 @@ TOLERANCE_MISSED = 3
 
 Progress = Callable[[str, float], None]
 
-PARAMETERS = ("weight", "alpha", "clearance", "twist", "ends", "on_top", "outside", "turns", "sections")
+PARAMETERS = (
+    "weight",
+    "alpha",
+    "clearance",
+    "twist",
+    "ends",
+    "on_top",
+    "outside",
+    "turns",
+    "sections",
+    "build",
+    "walk",
+)
 """Names of the options that make a problem."""
 
 
@@ -54,6 +66,17 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 metavar="L:B:W,…",
                 help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
                 "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5.",
+            ),
+            click.option(
+                "--build",
+                type=float,
+                help="Curvature of the hole in 1/L, > 0 where it is concave upward; α is then that at mid-length.  "
+                "[default: 0]",
+            ),
+            click.option(
+                "--walk",
+                type=float,
+                help="Curvature of the hole in 1/L to the right, looking towards s = 0.  [default: 0]",
             ),
         ]
         if coiled:

@@ -15,7 +15,7 @@ from rodwell.quantities.text import plain
 if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.studies.well.screening import Screening
-    from rodwell.studies.well.survey import Survey
+    from rodwell.survey.survey import Survey
 
 SHOWN = 12
 """Stations in the table on the terminal."""
@@ -114,7 +114,7 @@ def _columns(given: tuple[str, ...]) -> dict[str, str | int]:
 def _wells(survey: Path, how: dict[str, Any], well: str | None, all_wells: bool) -> dict[str, Survey]:
     """The wells that were asked for, by name."""
     from rodwell.errors import InputError  # noqa: PLC0415
-    from rodwell.studies.well.survey import Survey, read_surveys  # noqa: PLC0415
+    from rodwell.survey.survey import Survey, read_surveys  # noqa: PLC0415
 
     if not all_wells:
         return {"": Survey.read(survey, well=well, **how)}

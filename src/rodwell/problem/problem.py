@@ -10,7 +10,8 @@ from functools import cached_property
 from typing import Any
 
 from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
-from rodwell.problem.ends import HOLD_ANGLE, checked_ends
+from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
+from rodwell.problem.hole import Hole, Points, checked_points
 from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
@@ -86,13 +87,21 @@ class Problem:
         adding up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
+    build, walk
+        Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
+        turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
+        inclination at the middle of the undeformed rod.
+    axis
+        Points (x, y, z) of the hole's axis in L from s = 0 to s = 1, z vertically up, in place of ``build``, ``walk``;
+        ``alpha`` is then taken from it.
 
     Notes
     -----
     With both ends clamped they are (B2), (B4), (B7), (B8) of the paper; what an end does not hold is natural. The
     end force acts at s = 1, the upper end of a cylinder inclined by less than 90°, along the cylinder's axis; the axial
     resultant is N(s) = F + γ cos α (s − 1), or F − γ cos α ∫ₛ¹ (w/w₀) ds of sections. The end s = 0 bears what is left
-    of it, whatever its condition.
+    of it, whatever its condition. In a curved hole the end force acts along the tangent of the rod on the wall at
+    s = 1.
 
     Raises
     ------
@@ -111,6 +120,9 @@ class Problem:
     ends: tuple[str, str] = ("clamped", "clamped")
     torsion: float | None = None
     sections: tuple[Section, ...] = ()
+    build: float = 0.0
+    walk: float = 0.0
+    axis: Points = ()
 
     def __post_init__(self) -> None:
         if isinstance(self.weight, int | float) and self.weight < 0.0:
@@ -138,6 +150,8 @@ class Problem:
                 "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
             )
         self._check_ends()
+        if self.build != 0.0 or self.walk != 0.0 or len(self.axis) > 0:
+            self._check_hole()
         if self.alpha < STEEP and any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
             degrees = math.degrees(self.alpha)
             warnings.warn(
@@ -159,6 +173,47 @@ class Problem:
         if self.on_top and self.lateral_weight > 0.0 and not self.holds_angle:
             raise InputError("ends", ends, "nothing keeps the rod on top: clamp or pin at least one end")
 
+    def _check_hole(self) -> None:
+        """Take the axis of a curved hole, and refuse what goes with a straight one only."""
+        if len(self.axis) > 0:
+            if self.build != 0.0 or self.walk != 0.0:
+                name = "build" if self.build != 0.0 else "walk"
+                raise InputError(name, getattr(self, name), "must be left out where axis gives the hole")
+            object.__setattr__(self, "axis", checked_points(self.axis))
+            hole = Hole.through(self.axis)
+            if self.alpha not in (90.0, hole.alpha):
+                reason = f"must be left out: axis has the inclination {hole.alpha:.10g} degrees at mid-length"
+                raise InputError("alpha", self.alpha, reason)
+            object.__setattr__(self, "alpha", hole.alpha)
+        else:
+            hole = Hole.arc(self.alpha, self.build, self.walk)
+            object.__setattr__(self, "build", hole.build)
+            object.__setattr__(self, "walk", hole.walk)
+        hole.check(self.clearance)
+        if hole.straight:
+            return
+        refuse_off_wall(self.ends, "the states of a rod in a curved hole")
+        if self.turns != 0:
+            raise InputError("turns", self.turns, "must be 0 in a curved hole: coils are computed in straight ones")
+        if self.sections:
+            why = "are computed in straight holes: give a uniform rod, or leave build, walk and axis out"
+            raise InputError("sections", f"{len(self.sections)} of them", why)
+
+    @cached_property
+    def hole(self) -> Hole | None:
+        """The curved hole; None: it is straight."""
+        if self.build == self.walk == 0.0 and not self.axis:
+            return None
+        hole = Hole.through(self.axis) if self.axis else Hole.arc(self.alpha, self.build, self.walk)
+        return None if hole.straight else hole
+
+    def refuse_curved(self, what: str) -> None:
+        """Raise in a curved hole: ``what`` is computed in straight ones."""
+        if self.hole is not None:
+            name = "axis" if self.axis else "build" if self.build != 0.0 else "walk"
+            value = f"{len(self.axis)} points" if self.axis else getattr(self, name)
+            raise InputError(name, value, f"must be left out: {what} in straight holes only")
+
     @property
     def holds_angle(self) -> bool:
         """Whether an end holds y, the place around the cylinder."""
@@ -171,6 +226,8 @@ class Problem:
         A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
+        if self.hole is not None:
+            return not self.axis and self.walk == self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
         if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose:
             return False
         return not self.sections or self.rod.symmetric
@@ -179,6 +236,11 @@ class Problem:
     def pressed(self) -> bool:
         """Whether lateral weight presses the straight rod on the wall: at the bottom inside, or outside on top."""
         return self.lateral_weight > 0.0 and self.on_top == self.outside
+
+    @property
+    def untouched(self) -> bool:
+        """Whether nothing presses the straight rod to the wall: no lateral weight, nor a curve of the hole."""
+        return self.lateral_weight == 0.0 and self.hole is None
 
     @cached_property
     def rod(self) -> Rod:
@@ -250,7 +312,7 @@ class Problem:
         if self.sections:
             columns = zip(*self.sections, strict=True)
             out |= {f"section_{name}": list(column) for name, column in zip(COLUMNS, columns, strict=True)}
-        return out
+        return out | {name: getattr(self, name) for name in ("build", "walk") if getattr(self, name) != 0.0}
 
     def differences(self, other: Problem) -> str:
         """What differs in another problem, in words: names, its value, and that of this one."""

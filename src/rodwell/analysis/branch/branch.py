@@ -147,7 +147,7 @@ class Branch(BranchRecord, Shown):
     @property
     def lift_off_at_buckling(self) -> bool:
         """Whether lift-off coincides with buckling: no lateral weight (weightless rod or vertical cylinder)."""
-        return self.problem.lateral_weight == 0.0 and self.mode is not None
+        return self.problem.untouched and self.mode is not None
 
     @cached_property
     def dataset(self) -> xr.Dataset:

@@ -66,6 +66,7 @@ def coil(
     NotConvergedError
         If no coiled state was found.
     """
+    problem.refuse_curved("coils are computed")
     if problem.turns == 0:
         raise InputError("turns", 0, "must not be 0: a coil has its end carried around the cylinder")
     until = _reach(problem) if until is None else checked_force("until", until)

@@ -16,6 +16,7 @@ from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
+from rodwell.analysis.straight.lying import least_contact
 from rodwell.errors import InputError, NotConvergedError, checked_whole, unknown_name
 from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.events import Leaving
@@ -132,9 +133,11 @@ def _from_straight(
     how: Following,
 ) -> Branch:
     until = None if until is None else checked_force("until", until)
-    if until is None and problem.lateral_weight > 0.0 and not problem.pressed:
+    if until is None and not problem.untouched and not (problem.pressed or problem.hole is not None):
         raise InputError("until", None, "must be given: the rod is not pressed to the wall, so there is no lift-off")
     first = _mode(problem, mode, how.rtol)
+    if until is None:
+        _check_pressed(problem, first)
     if until is not None and until >= first.force:
         raise InputError(
             "until",
@@ -148,7 +151,7 @@ def _from_straight(
         )
     start, stepping = at_critical(problem, first, until, mirror, how.rtol), how.stepping(FIRST_STEP)
     limit = first.force - REACH * first.wavenumber**2 if until is None else until
-    if until is None and problem.lateral_weight == 0.0:  # lift-off coincides with buckling
+    if until is None and problem.untouched:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
     how.watched.tried(solution_of(problem, "force", start[1], start[0]))
     simple = len(first.together) == 1
@@ -161,12 +164,26 @@ def _from_straight(
         raise NotConvergedError(
             f"{first.name} could not be followed from its critical load {first.force:.6g} B/L²: {result.end}"
         )
-    if until is None and problem.lateral_weight == 0.0:
+    if until is None and problem.untouched:
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
     name = first.name + (", mirror arm" if mirror else "")
     origin = Origin(name, None if first.mixed else first, switched=True, mirror=mirror, error=first.error)
     return how.watched.seen(made(problem, origin, result, reached, result.end))
+
+
+def _check_pressed(problem: Problem, mode: Mode) -> None:
+    """Raise where a rod has left the wall of a curved hole before it buckles: there is no lift-off to be sought."""
+    if problem.hole is None:
+        return
+    least = least_contact(problem, mode.force)
+    if least.value <= 0.0:
+        raise InputError(
+            "until",
+            None,
+            f"must be given: at its critical load {mode.force:.8g} B/L² the wall would have to pull the rod at "
+            f"s/L = {least.s:.4g}, so that it has left the wall before, and there is no lift-off of the buckled rod",
+        )
 
 
 def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:

@@ -89,7 +89,7 @@ class _Finding:
         index, places = before, tuple[float, ...]()
         if len(trace.points) > 1:
             index = int(index_at_start(trace))
-            if self.problem.lateral_weight == 0.0 and kind == CRITICAL:  # it lifts off as it buckles
+            if self.problem.untouched and kind == CRITICAL:  # it lifts off as it buckles
                 places = self._solution(trace.points[1], trace.meshes[1]).highest_pressure[2]
         reached = Value(point.lam, max(origin.error, float(point.lam_gap)))
         return SpecialPoint(kind, first.force, reached, places, before, index, first, 0, self.parameter)

@@ -60,6 +60,7 @@ def search(work: Exploration, ways: tuple[str, ...], tell: Progress) -> tuple[st
 
 def symmetric_relatives(problem: Problem) -> tuple[tuple[Problem, str, float], ...]:
     """Problems of more symmetry, with the parameter that leads from each to ``problem`` and its value there."""
+    problem.refuse_curved("branches that nothing connects are sought")
     out = []
     if problem.twist != 0.0:
         out.append((problem.but(twist=0.0), "twist", problem.twist))

@@ -5,10 +5,12 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from rodwell.analysis.discrete.measures import MEASURES
 from rodwell.analysis.state.balance import Reaction, end_rotation, energies, reactions
 from rodwell.analysis.state.certificate import Certificate, certificate_of
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import GRID
+from rodwell.analysis.state.own_places import with_own_places
 from rodwell.analysis.state.wall import StepLoad, WallLoads, step_loads, wall_loads
 from rodwell.faces import Shown, drawn, drawn_in_space, face
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -38,6 +40,31 @@ class Solution(Equilibrium, Shown):
     def certificate(self) -> Certificate:
         """The paper's own equations, relations and end conditions evaluated on this state: what is left of each."""
         return certificate_of(self)
+
+    @cached_property
+    def own_places(self) -> Solution:
+        """The state in a curved hole with every cross-section at its own place along it.
+
+        Branches take the hole where the undeformed rod is, which is off by the end shortening at most: see
+        :mod:`rodwell.analysis.state.own_places`.
+
+        Raises
+        ------
+        InputError
+            If the hole is straight.
+        NotConvergedError
+            If it could not be solved.
+        """
+        meshes, point = with_own_places(self.problem, self.meshes, self.point)
+        return Solution(self.problem, point, meshes)
+
+    @property
+    def place_errors(self) -> dict[str, float]:
+        """By how much each measured number is off, with the hole where the undeformed rod is; none if straight."""
+        if self.problem.hole is None:
+            return {}
+        own = self.own_places
+        return {name: abs(own.number(which).value - self.number(which).value) for which, name in MEASURES.items()}
 
     @cached_property
     def energies(self) -> dict[str, Value]:

@@ -83,7 +83,7 @@ def arms_differ(problem: Problem, parity: int) -> bool:
 
     Where nothing presses it to the wall it leaves the wall as it buckles, whichever arm it takes.
     """
-    return problem.lateral_weight > 0.0 and not arms_alike(problem, parity)
+    return not problem.untouched and not arms_alike(problem, parity)
 
 
 def images(problem: Problem, parity: int) -> tuple[Reflection, ...]:

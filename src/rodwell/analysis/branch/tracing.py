@@ -51,7 +51,7 @@ def traced(
     meshes, point = start
     stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
     events = [_ACROSS, Event.at(END, until)]
-    if problem.lateral_weight > 0.0 or problem.turns != 0:
+    if not problem.untouched or problem.turns != 0:
         events.append(_CONTACT)
     if problem.turns != 0:
         events.append(_ENERGY)

@@ -86,6 +86,7 @@ def turns_of_least_energy(
     InputError
         If an argument is out of range.
     """
+    problem.refuse_curved("coils are computed")
     force, most = checked_force("force", force), checked_whole("most", most, 1, 1000)
     problem.but(turns=1 if problem.rise == 0.0 else problem.turns)  # ends must hold a coil
     best = math.sqrt(max(-force, 0.0) / 2.0) / (2.0 * math.pi)  # of a weightless long rod: −F = 2 (2πn)²

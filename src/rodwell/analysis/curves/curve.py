@@ -236,6 +236,7 @@ def checked_range(
     problem: Problem, over: str, limits: Sequence[float], allowed: Sequence[str] = OVER
 ) -> tuple[float, float]:
     """Return start and end of a range of a parameter that the problem allows, or raise."""
+    problem.refuse_curved("curves of loads are computed")
     if over not in allowed:
         raise InputError("over", over, f"must be one of {', '.join(allowed)}")
     if len(limits) != 2:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import along_rod
+from rodwell.errors import InputError
 from rodwell.numerics.equilibria.family import MIRROR, Family, Given
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
@@ -30,6 +33,8 @@ def parameters(problem: Problem, force: float = 0.0) -> FloatArray:
     out = np.empty(COUNT)
     out[RAMP] = problem.rise
     out[FORCE], out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = force, problem.axial_weight, problem.foundation
+    if problem.hole is not None:
+        out[AXIAL_WEIGHT] = out[LATERAL_WEIGHT] = problem.weight
     out[CLEARANCE], out[TWIST], out[SIDE] = problem.clearance, problem.twist, -1.0 if problem.outside else 1.0
     return out
 
@@ -41,7 +46,7 @@ def spline_ends(problem: Problem) -> Ends:
     picks one of these equal states.
     """
     first, last = problem.ends
-    if problem.lateral_weight == 0.0 and not problem.holds_angle:
+    if problem.lateral_weight == 0.0 and not problem.holds_angle and problem.hole is None:
         first = WITH_Y_HELD[first]
     (held_0, tied_0), (held_1, tied_1) = HELD[first], HELD[last]
     return Ends((held_0, held_1), (tied_0, tied_1))
@@ -65,6 +70,9 @@ def pair_ends(problem: Problem) -> tuple[Ends, Ends]:
 
 def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
     """Parameters as one of :data:`PATHS` varies: see :class:`rodwell.numerics.equilibria.family.Family`."""
+    if problem.hole is not None and parameter not in IN_CURVED_HOLE:
+        known = ", ".join(IN_CURVED_HOLE)
+        raise InputError("parameter", parameter, f"must be one of {known} in a curved hole, which changes with it")
     out = np.zeros((4, COUNT))
     out[0] = parameters(problem, force)
     if parameter == "weight":
@@ -81,12 +89,17 @@ def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
 
 
 def _per_weight(problem: Problem) -> tuple[float, float]:
+    if problem.hole is not None:
+        return 1.0, 1.0
     unit = problem.but(weight=1.0)
     return unit.axial_weight, unit.foundation
 
 
 PATHS = ("force", "weight", "alpha", "clearance", "twist")
 """Parameters in which a branch can be followed: F, γ, α in degrees, Δ/L, T₁."""
+
+IN_CURVED_HOLE = ("force", "weight", "twist")
+"""Those of a curved hole, which stays as it is."""
 
 
 def family(
@@ -111,7 +124,7 @@ def family(
     """
     refuse_off_wall(problem.ends, "buckled states")
     return Family(
-        model=RodOfSections() if problem.sections else RodOnCylinder(),
+        model=_model(problem),
         path=path(problem, parameter, force),
         space=space,
         ends=spline_ends(problem),
@@ -124,9 +137,16 @@ def family(
         first_integral=problem.axial_weight == 0.0
         and problem.ends == ("clamped", "clamped")
         and parameter != "alpha"
-        and not problem.sections,
+        and not problem.sections
+        and problem.hole is None,
         cells=_cells(problem, parameter),
     )
+
+
+def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodInCurvedHole:
+    if problem.hole is not None:
+        return RodInCurvedHole()
+    return RodOfSections() if problem.sections else RodOnCylinder()
 
 
 def _cells(problem: Problem, parameter: str) -> tuple[int, ...]:
@@ -136,13 +156,20 @@ def _cells(problem: Problem, parameter: str) -> tuple[int, ...]:
     """
     if problem.axial_weight != 0.0 or parameter == "alpha" or problem.turns != 0 or problem.sections:
         return ()
+    if problem.hole is not None:
+        return ()
     signs = (-1,) if problem.twist != 0.0 or parameter == "twist" else (-1, 1)
     ends = {"pinned": -1, "guided": 1}
     return signs if all(ends.get(end) in signs for end in problem.ends) else ()
 
 
 def given_along(problem: Problem) -> Given | None:
-    """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3)."""
+    """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3).
+
+    Of a curved hole, what :mod:`rodwell.physics.on_wall.curved` names, (m, 44).
+    """
+    if problem.hole is not None:
+        return along_rod(problem)
     return given_of(problem.rod) if problem.sections else None
 
 
@@ -162,6 +189,8 @@ def reflections(problem: Problem, parameter: str = "force") -> tuple[tuple[int, 
     """
     turnable = problem.symmetric and parameter != "alpha"
     plain = problem.twist == 0.0 and problem.turns == 0 and parameter != "twist"
+    if problem.hole is not None and not problem.hole.planar:
+        return ()
     found = [MIRROR] if plain else []
     found += [(1, True)] if plain and turnable else []
     return (*found, (-1, True)) if turnable else tuple(found)

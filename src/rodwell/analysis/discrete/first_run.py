@@ -62,9 +62,9 @@ def done() -> bool:
 def begin(problem: Problem | None = None) -> None:
     """Start the second process, on the first run; where the largest kernel is at hand already, nothing is asked.
 
-    Kernels of a string of sections are compiled as they are needed: most rods are uniform.
+    Kernels of a string of sections, and of a curved hole, are compiled as they are needed: most rods are uniform.
     """
-    if problem is not None and problem.sections:
+    if problem is not None and (problem.sections or problem.hole is not None):
         return
     if not newton.overloads and newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from rodwell.analysis.discrete import curved_measures
 from rodwell.analysis.discrete.pressures import (
     COEFFICIENT_NOISE,
     balanced,
@@ -26,6 +27,7 @@ from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
 from rodwell.quantities.arrays import FloatArray
 
@@ -187,11 +189,43 @@ def measure(family: Family, state: State) -> FloatArray:
     """
     space, p = state.space, family.parameters(state.lam)
     found = _maxima(family, state.c, p)
+    if isinstance(family.model, RodInCurvedHole):
+        return _in_curved_hole(family, state, found)
     probes = _probed.get(space)
     if probes is None:
         probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
     numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
     return np.asarray(numbers)
+
+
+def _in_curved_hole(family: Family, state: State, found: tuple[FloatArray, FloatArray, float]) -> FloatArray:
+    """The same of a rod in a curved hole, from plain arrays."""
+    places, values, lowest = found
+    clearance = float(family.parameters(state.lam)[CLEARANCE])
+    out = np.zeros((3, PROBED + len(PROBES)))
+    numbers, scales, noise = out
+    known = curved_measures.totals(family, state)
+    probed, left = curved_measures.pressures(family, state, np.array([*PROBES, *places]))
+    bends = curved_measures.curvatures_at(family, state, np.array([0.0, 1.0]))[1]
+    _, turns_0, _, turns_1 = free_ends(family.mesh)
+    numbers[Measured.P_MAX], scales[Measured.P_MAX] = np.max(values), HALF * max(abs(np.max(values)), abs(lowest))
+    noise[Measured.P_MAX] = np.max(left[len(PROBES) :])
+    numbers[Measured.ENERGY], scales[Measured.ENERGY] = state.energy, max(abs(state.energy), known["bending"])
+    numbers[Measured.SHORTENING], scales[Measured.SHORTENING] = known["shortening"], known["shortening_size"]
+    for which, bend, turns in ((Measured.OMEGA2_0, bends[0], turns_0), (Measured.OMEGA2_1, bends[1], turns_1)):
+        # no moment where the end turns freely: what the spline has there tells how far it is off
+        numbers[which], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, 0.0)
+        scales[which] = max(known["sharpest"], known["steepest"] ** 2 / clearance)
+    middle = float(state.space.evaluate(state.c, np.array([0.5]), 1)[0, 0])
+    numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = middle / clearance, known["widest"]
+    numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = known["torque"], known["torque_size"]
+    for soft in (Measured.ANGLE_MID, Measured.TORQUE_0):
+        noise[soft] = SOFT * scales[soft]
+    numbers[STEEPEST], scales[STEEPEST] = known["steepest"], np.inf
+    scales[:STEEPEST][scales[:STEEPEST] == 0.0] = 1.0
+    numbers[AS_FIELD], scales[AS_FIELD] = np.max(values), scales[Measured.P_MAX]
+    numbers[PROBED:], scales[PROBED:] = probed[: len(PROBES)], np.inf
+    return out
 
 
 def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, float]:
@@ -222,5 +256,7 @@ def pressure_maxima(
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     places, _, lowest = _maxima(family, state.c, p)
+    if isinstance(family.model, RodInCurvedHole):
+        return places, curved_measures.pressures(family, state, places)[0], float(lowest)
     values = balanced_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
     return places, values, float(lowest)

@@ -31,6 +31,7 @@ def pressure_rates(
     p carries the sign that makes contact negative. Returns the rates and the estimates of their errors: from the two
     meshes and from twice the step.
     """
+    solution.problem.refuse_curved("rates of the contact pressure are computed")
     here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size

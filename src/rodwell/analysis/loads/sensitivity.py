@@ -132,6 +132,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     NotConvergedError
         If a load cannot be computed.
     """
+    problem.refuse_curved("derivatives of loads are computed")
     rtol = checked_rtol(rtol)
     buckling = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
     out = [of_critical_load(buckling)]

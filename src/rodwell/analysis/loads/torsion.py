@@ -128,6 +128,7 @@ def torsion(
     NotConvergedError
         If the mode has no lift-off within reach.
     """
+    problem.refuse_curved("twist at the lift-off load is studied")
     rtol = checked_rtol(rtol)
     if problem.twist != 0.0:
         raise InputError("twist", problem.twist, "must be 0: the rod is prepared without twist")

@@ -20,6 +20,7 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
+    problem.refuse_curved("load paths off the wall are followed")
     refuse_sections(
         problem.sections,
         "a rod of sections is followed on the wall only: its path off the wall is not computed; ask for its branches "

@@ -129,6 +129,7 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     NotConvergedError
         If a proof fails: the rod takes more than 3000 elements (300 with axial weight), or a sign cannot be decided.
     """
+    problem.refuse_curved("loads are proved")
     modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")

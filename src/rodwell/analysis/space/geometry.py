@@ -117,6 +117,7 @@ def geometry(
     radial_scale: float | None = 1.0,
 ) -> Geometry:
     """Return the rod of ``solution`` in space; arguments and errors as in :meth:`rodwell.Solution.geometry`."""
+    solution.problem.refuse_curved("shapes in space are built")
     problem = solution.problem
     count = _places(solution, places)
     s = np.linspace(0.0, 1.0, count)

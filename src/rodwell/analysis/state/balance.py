@@ -50,6 +50,7 @@ class Reaction:
 
 def energies(solution: Equilibrium) -> dict[str, Value]:
     """Energies in B/L relative to the straight, equally twisted rod, each with its error estimate; see ``ENERGIES``."""
+    solution.problem.refuse_curved("parts of the energy are computed")
     coarse, fine = (_energies(solution.problem, f, state) for f, state in solution.levels)
     return {k: compared(coarse[k], fine[k]) for k in ENERGIES}
 
@@ -79,6 +80,7 @@ def end_rotation(solution: Equilibrium) -> Value:
     Positive as T₁ turns it: it is what the dead torque T₁ works on. Of the straight rod it is T₁/C. At an end that can
     turn across the axis it is the angle in the braid's terms.
     """
+    solution.problem.refuse_curved("the turn of the end is computed")
     coarse, fine = (_end_rotation(solution.problem, f, state) for f, state in solution.levels)
     return compared(coarse, fine)
 

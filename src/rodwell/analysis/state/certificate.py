@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.state.curved_certificate import residuals
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import element_fields, gauss_calculus, gauss_places
+from rodwell.analysis.state.own_places import with_own_places
 from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
@@ -136,6 +138,9 @@ def in_units(x: Fifteen, b: float | FloatArray) -> Fifteen:
 def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
     problem = solution.problem
+    if problem.hole is not None:
+        own = with_own_places(problem, solution.meshes, solution.point)
+        return Certificate(residuals(problem, *own), max(LIMIT, SLACK * solution.meshes.rtol))
     half, fields = element_fields(problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]
     whole = load_of(problem, solution.force)

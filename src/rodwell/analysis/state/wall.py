@@ -102,6 +102,7 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
 
 def wall_loads(solution: Equilibrium) -> WallLoads:
     """Return the loads on cylinder and supports in a state."""
+    solution.problem.refuse_curved("loads of cylinder and supports are computed")
     peaks = {name: solution.largest(name) for name in ("contact_pressure", *MOMENTS)}
     return WallLoads(
         contact=peaks["contact_pressure"],

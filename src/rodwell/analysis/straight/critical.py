@@ -10,6 +10,7 @@ import numpy as np
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
+from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
 from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
 from rodwell.analysis.straight.scale import load_noise, load_scale
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
@@ -131,7 +132,7 @@ class CriticalLoads(tuple[Mode, ...], Shown):
         that nothing presses is free to move inwards, and does so at less compression.
         """
         problem = self[0].problem
-        if problem.lateral_weight > 0.0 or problem.twist == 0.0:
+        if problem.lateral_weight > 0.0 or problem.twist == 0.0 or problem.hole is not None:
             return self[0]
         touch = self.without_wall.at_wall
         assert touch is not None
@@ -175,6 +176,8 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     count = checked_whole("modes", count, 1, MOST_MODES)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
+    if problem.hole is not None:
+        return CriticalLoads(_lying(problem, count, rtol))
     space = _starting_space(problem, count)
     values, vectors = _solve(problem, space, count, None)
     while True:
@@ -201,6 +204,42 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
               (space, vectors[i]))
         for i in range(int(count))
     )  # fmt: skip
+
+
+def tensile_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:
+    """Critical end forces at which a rod that lies along a curved hole is lost in tension; none in a straight hole.
+
+    Tension presses the rod to the inside of the curve: one that lies on the outside would have to be pulled to the wall
+    there, see :func:`rodwell.analysis.straight.lying.least_contact`; it has left the wall before.
+
+    Parameters
+    ----------
+    problem, count, rtol
+        As for :func:`critical_loads`.
+
+    Returns
+    -------
+    CriticalLoads
+        At most ``count`` modes in the order in which they are met as tension grows: force rising, tension positive.
+
+    Raises
+    ------
+    InputError, NotConvergedError
+        As :func:`critical_loads` does.
+    """
+    rtol, count = checked_rtol(rtol), checked_whole("modes", count, 1, MOST_MODES)
+    return CriticalLoads(() if problem.hole is None else _lying(problem, count, rtol, tension=True))
+
+
+def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> list[Mode]:
+    """Modes of a rod that lies along a curved hole."""
+    found = loads_of_lying_rod(problem, count, rtol, tension)
+    if found is None:
+        return []
+    return [
+        _mode(problem, found.space, i + 1, value_of(found, i), shape, (found.coarse_space, found.coarse_vectors[i]))
+        for i, shape in enumerate(found.vectors)
+    ]
 
 
 def _factors(problem: Problem, space: SplineSpace) -> FloatArray:

@@ -80,6 +80,7 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     NotConvergedError
         If the first critical load cannot be computed.
     """
+    problem.refuse_curved("formulas are held against exact loads")
     loads, notes = [critical(problem, rtol)], []
     if problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed:
         notes.append("lift-off: no lateral weight presses the rod to the wall")

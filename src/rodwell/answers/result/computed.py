@@ -56,7 +56,7 @@ class Computed:
     @property
     def untouched(self) -> bool:
         """Whether twist counts for the straight rod, since nothing presses it to the wall."""
-        return self.case.problem.twist != 0.0 and self.case.problem.lateral_weight == 0.0
+        return self.case.problem.twist != 0.0 and self.case.problem.untouched
 
     @cached_property
     def first_met(self) -> Mode | SpatialMode:

@@ -60,7 +60,7 @@ def count_below(stiffness: FloatArray, gram: FloatArray, sigma: float) -> int:
 
 
 def _inverse_step(factors: FloatArray, gram: FloatArray, block: FloatArray) -> FloatArray:
-    """(K − σG)⁻¹ G applied to each vector of a block."""
+    """(K − σG)⁻¹ G applied to each vector of a block, or K in place of G."""
     out = np.array([multiply(gram, vector) for vector in block])
     for vector in out:
         solve(factors, vector)
@@ -75,6 +75,8 @@ def lowest(
     below: float,
     start: tuple[FloatArray, FloatArray] | None,
     near: tuple[float, float] | None = None,
+    *,
+    right: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """The ``count`` lowest eigenvalues, rising, and their vectors.
 
@@ -92,6 +94,9 @@ def lowest(
         Values (k,) and vectors (k, n) of a coarser mesh to start from, or None.
     near
         About where the first eigenvalue and number :func:`block_size` are, to spare counts; need not be right.
+    right
+        Band of what iterates are multiplied with, G if None. K gives the same vectors: (K − σG)⁻¹K v is v and a part of
+        (K − σG)⁻¹G v. It is better where the eigenvalues pile up at zero, and where G is the one whose entries cancel.
 
     Returns
     -------
@@ -117,7 +122,7 @@ def lowest(
     for iteration in range(1, MOST_ITERATIONS + 1):
         moved = block[kept:]
         for _ in range(STEPS if kept == 0 else 1):  # once some are kept the others would turn into them
-            moved = _independent(_inverse_step(factors, gram, moved))
+            moved = _independent(_inverse_step(factors, gram if right is None else right, moved))
         values, block = _rayleigh_ritz(np.concatenate([block[:kept], moved]), quadrature)
         if len(values) < count:
             raise EigenError("the vectors that are iterated became dependent")

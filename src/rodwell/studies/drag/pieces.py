@@ -14,7 +14,7 @@ import numpy as np
 from rodwell.quantities.arrays import FloatArray, IntArray
 from rodwell.studies.drag.contact import PIECE
 from rodwell.studies.drag.well_case import Operation, Well
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 SHORTEST_PIECE = 1e-7
 """Ends of pieces that are closer, in m, are one."""

@@ -16,7 +16,7 @@ from rodwell.studies.drag.laws import Contact
 from rodwell.studies.drag.march import ARRIVED, LOCKED, march, summed_contact
 from rodwell.studies.drag.pieces import Cutter, Interval, Pieces
 from rodwell.studies.drag.well_case import Operation
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 FINE, COARSE, CRUDE = 1e-11, 1e-8, 1e-5
 """Relative errors of the contact force summed, per length: of what is reported, and of what tells its error."""

@@ -21,7 +21,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, solveh_banded
 
 from rodwell.quantities.arrays import FloatArray
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 INTO_WALL = (1e-3, 1e-4, 1e-5, 1e-6)
 """Parts of the clearance by which the weight of the string presses it into the wall: each wall from the one before."""

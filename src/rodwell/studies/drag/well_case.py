@@ -20,7 +20,7 @@ from rodwell.case.well.hole_sections import HoleSection, hole_sections
 from rodwell.case.well.string_sections import StringSection, string_sections
 from rodwell.errors import InputError
 from rodwell.quantities.units import SI, SYSTEMS, System
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 ROTATING = ("rotate-off-bottom", "drill", "ream", "back-ream")
 UPWARD = ("pull-out", "back-ream")

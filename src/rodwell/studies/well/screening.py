@@ -22,7 +22,7 @@ from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.formulas import FORMULAS
 from rodwell.quantities.arrays import FloatArray
-from rodwell.studies.well.survey import Survey
+from rodwell.survey.survey import Survey
 
 CRITICAL_PRECISION = Precision(1e-3, 6)
 LIFT_OFF_PRECISION = Precision(1e-2, 7)

@@ -176,6 +176,7 @@ def verify(
     NotConvergedError
         If the other program does not converge where lift-off is looked for.
     """
+    branch.problem.refuse_curved("branches are held against the other program")
     if not isinstance(branch, Branch):
         how = "must be a branch, as from follow; of a state, the branch that it is on, with forces=[its end force]"
         raise InputError("branch", branch, how)

@@ -6,7 +6,7 @@ import functools
 import unicodedata
 from dataclasses import dataclass
 
-from rodwell.studies.well.reading.tables import LONGEST_NAME, Cell
+from rodwell.survey.reading.tables import LONGEST_NAME, Cell
 
 SPELT = {
     "md": {

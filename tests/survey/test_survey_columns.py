@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rodwell import InputError, Survey
-from rodwell.studies.well.reading.names import CERTAIN, LOOKALIKE, UNDERSTOOD, meaning
+from rodwell.survey.reading.names import CERTAIN, LOOKALIKE, UNDERSTOOD, meaning
 
 
 def read(tmp_path: Path, text: str, **options: Any) -> Survey:

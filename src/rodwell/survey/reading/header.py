@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.names import CERTAIN, SPELT, UNDERSTOOD, Meaning, meaning
-from rodwell.studies.well.reading.numbers import is_number
-from rodwell.studies.well.reading.tables import LONGEST_NAME, MOST_COLUMNS, Cell, RawTable, Row, listed, shown
+from rodwell.survey.reading.names import CERTAIN, SPELT, UNDERSTOOD, Meaning, meaning
+from rodwell.survey.reading.numbers import is_number
+from rodwell.survey.reading.tables import LONGEST_NAME, MOST_COLUMNS, Cell, RawTable, Row, listed, shown
 
 CALLED = {"md": "measured depth", "inclination": "inclination", "azimuth": "azimuth", "force": "force", "well": "well"}
 NEEDED = ("md", "inclination")

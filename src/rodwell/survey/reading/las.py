@@ -12,8 +12,8 @@ import math
 from typing import Any
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.numbers import is_number
-from rodwell.studies.well.reading.tables import MOST_COLUMNS, Cell, Declared, RawTable, Row
+from rodwell.survey.reading.numbers import is_number
+from rodwell.survey.reading.tables import MOST_COLUMNS, Cell, Declared, RawTable, Row
 
 LONGEST_LINE = 1000
 MOST_HEADER_LINES = 200

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.stations import MOST_STATIONS
-from rodwell.studies.well.reading.tables import MOST_COLUMNS, Cell, RawTable, Row
+from rodwell.survey.reading.stations import MOST_STATIONS
+from rodwell.survey.reading.tables import MOST_COLUMNS, Cell, RawTable, Row
 
 LARGEST_UNPACKED = 150_000_000
 MOST_ROWS = 5 * MOST_STATIONS

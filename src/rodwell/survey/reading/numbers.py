@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.tables import Cell, shown
+from rodwell.survey.reading.tables import Cell, shown
 
 LONGEST_NUMBER = 60
 

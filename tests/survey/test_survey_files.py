@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from rodwell import InputError, Survey, read_surveys
 from rodwell.cli.main import cli
-from rodwell.studies.well.reading import source
+from rodwell.survey.reading import source
 
 ROWS = [(0.0, 0.0, 30.5), (100.25, 10.5, 40.0), (1200.0, 62.75, 359.5)]
 
@@ -220,7 +220,7 @@ def test_sizes_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     bomb = io.BytesIO()
     with zipfile.ZipFile(bomb, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("xl/worksheets/sheet1.xml", bytes(1000))
-    monkeypatch.setattr("rodwell.studies.well.reading.workbook.LARGEST_UNPACKED", 500)
+    monkeypatch.setattr("rodwell.survey.reading.workbook.LARGEST_UNPACKED", 500)
     with pytest.raises(InputError, match="unpacks to more"):
         read(tmp_path, bomb.getvalue())
     with pytest.raises(InputError, match="XLS"):
@@ -245,7 +245,7 @@ def test_a_sheet_ends_after_many_empty_rows(tmp_path: Path, monkeypatch: pytest.
     data = workbook(S=[["MD [m]", "Inc"], [0, 0], [], [1, 1], [], [], [], [], ["remark far below"]])
     with pytest.raises(InputError, match="row 9, MD"):
         read(tmp_path, data)
-    monkeypatch.setattr("rodwell.studies.well.reading.workbook.MOST_EMPTY", 3)
+    monkeypatch.setattr("rodwell.survey.reading.workbook.MOST_EMPTY", 3)
     assert len(read(tmp_path, data)) == 2
 
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
-from rodwell.studies.well.reading.check import Written, check_stations
-from rodwell.studies.well.reading.read import Options, read_well, read_wells
-from rodwell.studies.well.reading.stations import Stations
+from rodwell.survey.reading.check import Written, check_stations
+from rodwell.survey.reading.read import Options, read_well, read_wells
+from rodwell.survey.reading.stations import Stations
 
 
 @dataclass(frozen=True)

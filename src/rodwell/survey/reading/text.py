@@ -6,10 +6,10 @@ import csv
 from collections.abc import Iterator, Sequence
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.header import Asked, Sighting, sighted
-from rodwell.studies.well.reading.names import SPELT, words_of
-from rodwell.studies.well.reading.numbers import is_number
-from rodwell.studies.well.reading.tables import LONGEST_NAME, MOST_COLUMNS, Declared, RawTable, Row
+from rodwell.survey.reading.header import Asked, Sighting, sighted
+from rodwell.survey.reading.names import SPELT, words_of
+from rodwell.survey.reading.numbers import is_number
+from rodwell.survey.reading.tables import LONGEST_NAME, MOST_COLUMNS, Declared, RawTable, Row
 
 SEPARATORS = ("\t", ";", ",", "|", " ", "  ")
 """One blank: cells stand apart by any white space. Two blanks: names of columns hold single ones."""

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rodwell.errors import InputError
-from rodwell.studies.well.reading.header import Asked, checked_asked, find_header, sighted
-from rodwell.studies.well.reading.las import is_las, las_table
-from rodwell.studies.well.reading.source import ZIP, read_bytes, text_of
-from rodwell.studies.well.reading.stations import Reading, Stations, body_of, reading_of, stations_of, wells_of
-from rodwell.studies.well.reading.tables import RawTable, Row, shown
-from rodwell.studies.well.reading.text import text_table
-from rodwell.studies.well.reading.workbook import workbook_tables
+from rodwell.survey.reading.header import Asked, checked_asked, find_header, sighted
+from rodwell.survey.reading.las import is_las, las_table
+from rodwell.survey.reading.source import ZIP, read_bytes, text_of
+from rodwell.survey.reading.stations import Reading, Stations, body_of, reading_of, stations_of, wells_of
+from rodwell.survey.reading.tables import RawTable, Row, shown
+from rodwell.survey.reading.text import text_table
+from rodwell.survey.reading.workbook import workbook_tables
 
 MOST_WELLS = 1000
 

@@ -11,12 +11,12 @@ import numpy as np
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.units import in_unit_of
-from rodwell.studies.well.reading.azimuths import some, without_gaps
-from rodwell.studies.well.reading.check import Written, check_stations
-from rodwell.studies.well.reading.header import CALLED, NEEDED, Header
-from rodwell.studies.well.reading.names import SPELT, unit_word
-from rodwell.studies.well.reading.numbers import Found, decimal_mark, is_missing, is_number, number
-from rodwell.studies.well.reading.tables import Cell, RawTable, Row, listed, shown
+from rodwell.survey.reading.azimuths import some, without_gaps
+from rodwell.survey.reading.check import Written, check_stations
+from rodwell.survey.reading.header import CALLED, NEEDED, Header
+from rodwell.survey.reading.names import SPELT, unit_word
+from rodwell.survey.reading.numbers import Found, decimal_mark, is_missing, is_number, number
+from rodwell.survey.reading.tables import Cell, RawTable, Row, listed, shown
 
 UNITS = {"md": "m", "inclination": "degree", "azimuth": "degree", "force": "N"}
 OPTIONS = {"md": "--depth-unit", "inclination": "--angle-unit", "azimuth": "--angle-unit", "force": "--force-unit"}

@@ -1,0 +1,210 @@
+"""A curved hole along the rod that lies in it: what kernels are given, and first meshes.
+
+Coefficients are taken where the rod is before it buckles: at the place S₀(s) on the hole's axis, with dS₀/ds =
+1/(1 + Δκₙ) of a rod on the generator θ = 0, and S₀(½) = ½. Of a buckled rod the place S(s) is another, by the end
+shortening at most; so far is the hole off. :mod:`rodwell.analysis.state.arclength` computes states without that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from rodwell.analysis.discrete.choices import (
+    DEGREE,
+    ELEMENTS_PER_RADIAN,
+    LEAST_WAVENUMBER,
+    LINEAR_ELEMENTS_PER_RADIAN,
+    POINTS_OF_BRANCH,
+)
+from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
+from rodwell.physics.on_wall.curved import TERMS
+from rodwell.problem.hole import Hole
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+PIECES = 64
+"""Pieces of the rod in each of which the hole is a polynomial: to round-off for curvatures up to several radians a
+length, and for points some pieces apart."""
+
+PIECES_PER_RADIAN = 12.0
+"""More pieces where the hole turns more."""
+
+PLACES = 257
+
+Along = Callable[[FloatArray], FloatArray]
+"""Something along the rod: values at places (m,), of several (k, m)."""
+
+
+@dataclass(frozen=True)
+class HoleAlong:
+    """The hole along a rod, piece by piece, as kernels take it.
+
+    Attributes
+    ----------
+    breaks
+        Ends of the pieces, rising from 0 to 1, (n + 1,).
+    rows
+        What :data:`rodwell.physics.on_wall.curved.GIVEN` names of each piece, (n, 44).
+    """
+
+    breaks: FloatArray
+    rows: FloatArray
+
+    def __call__(self, places: FloatArray) -> FloatArray:
+        """Coefficients of the pieces in which places (m,) lie, (m, 44)."""
+        return np.ascontiguousarray(self.rows[np.searchsorted(self.breaks[1:-1], places, side="right")])
+
+
+def hole_along(breaks: FloatArray, functions: Along) -> HoleAlong:
+    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m) on pieces."""
+    half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
+    nodes = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
+    values = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, TERMS)
+    coefficients = np.linalg.solve(np.vander(nodes, increasing=True), values.T).T
+    by_piece = coefficients.reshape(-1, half.size, TERMS).transpose(1, 0, 2).reshape(half.size, -1)
+    return HoleAlong(breaks, np.concatenate([np.stack([centre, 1.0 / half], axis=1), by_piece], axis=1))
+
+
+NODES = 12
+"""Chebyshev nodes in each piece of a :class:`PiecewisePolynomial`."""
+
+
+@dataclass(frozen=True)
+class PiecewisePolynomial:
+    """A smooth function of s from its values at Chebyshev nodes between ``breaks``: coefficients (NODES, pieces)."""
+
+    breaks: FloatArray
+    coefficients: FloatArray
+
+    @classmethod
+    def of(cls, breaks: FloatArray, function: Along) -> PiecewisePolynomial:
+        """Take the values of a function."""
+        half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
+        nodes = np.polynomial.chebyshev.chebpts1(NODES)
+        values = function((centre[:, None] + half[:, None] * nodes).ravel()).reshape(half.size, NODES)
+        fit = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes, NODES - 1))
+        return cls(breaks, np.asarray(fit @ values.T))
+
+    def __call__(self, s: FloatArray) -> FloatArray:
+        """Values (m,) at places (m,)."""
+        piece = np.clip(np.searchsorted(self.breaks, s, side="right") - 1, 0, self.breaks.size - 2)
+        low, high = self.breaks[piece], self.breaks[piece + 1]
+        x = (2.0 * s - low - high) / (high - low)
+        return np.asarray(np.polynomial.chebyshev.chebval(x, self.coefficients[:, piece], tensor=False))
+
+
+def wall_side(problem: Problem) -> float:
+    """1 for a rod at θ = 0 below the axis, −1 for one on top: the frame is then turned by half a turn."""
+    return -1.0 if problem.on_top else 1.0
+
+
+def hole_at(problem: Problem, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """K₁, k₂, g₁, g₂ (4, m) at places S (m,) of the hole's axis, in the frame turned to the rod, and T·k (m,)."""
+    hole, side = _hole(problem), wall_side(problem)
+    up = hole.frame(places)[:, :, 2]
+    return side * np.stack([*hole.curvatures(places).T, up[:, 0], up[:, 1]]), up[:, 2]
+
+
+def undeformed_place(problem: Problem, s: FloatArray) -> FloatArray:
+    """S₀ (m,) on the hole's axis at places ``s`` (m,) of the rod that lies on the generator θ = 0."""
+    hole, reach = _hole(problem), problem.clearance * wall_side(problem)
+    if not hole.axis:
+        return np.asarray(0.5 + (s - 0.5) / (1.0 + reach * hole.curvatures(np.array([0.5]))[0, 0]))
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    grid = np.linspace(-0.05, 1.05, 10 * PLACES + 1)
+    half = 0.5 * np.diff(grid)[:, None]
+
+    def stretch(places: FloatArray) -> FloatArray:
+        return 1.0 + reach * hole.curvatures(places.ravel())[:, 0].reshape(places.shape)
+
+    lengths = (stretch(grid[:-1, None] + half * (nodes + 1.0)) @ weights) * half[:, 0]
+    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    along += 0.5 - np.interp(0.5, grid, along)
+    found = np.interp(s, along, grid)
+    for _ in range(3):  # Newton's method, with the integral from the nearest grid point below
+        below = np.clip(np.searchsorted(grid, found, side="right") - 1, 0, grid.size - 2)
+        step = 0.5 * (found - grid[below])
+        part = (stretch(grid[below][:, None] + step[:, None] * (nodes + 1.0)) @ weights) * step
+        found = found - (along[below] + part - s) / stretch(found)
+    return np.asarray(found)
+
+
+@lru_cache(maxsize=64)
+def along_rod(problem: Problem) -> HoleAlong:
+    """The hole along the undeformed rod of a problem.
+
+    A(s) = ∫ₛ¹ T·k ds is by how much higher the loaded end lies than the rod at s. The rod has the curvature κᵣ =
+    k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = ½κᵣ²(s) − ½κᵣ²(1).
+    """
+    rise = lifted(_breaks(problem), lambda s: hole_at(problem, undeformed_place(problem, s))[1])
+
+    def bending(k1: FloatArray) -> FloatArray:
+        return np.asarray(0.5 * (k1 / (1.0 + problem.clearance * k1)) ** 2)
+
+    last = bending(hole_at(problem, undeformed_place(problem, np.array([1.0])))[0][0])
+
+    def functions(s: FloatArray) -> FloatArray:
+        here = hole_at(problem, undeformed_place(problem, s))[0]
+        return np.concatenate([here, rise(s)[None], (bending(here[0]) - last)[None]])
+
+    return hole_along(_breaks(problem), functions)
+
+
+def lifted(breaks: FloatArray, rate: Along) -> Along:
+    """∫ₛ¹ of a function of s, by Gauss points between ``breaks``, as a function of s."""
+    nodes, weights = np.polynomial.legendre.leggauss(10)
+
+    def integral(low: FloatArray, high: FloatArray) -> FloatArray:
+        half = 0.5 * (high - low)[:, None]
+        return (
+            np.asarray(rate((low[:, None] + half * (nodes + 1.0)).ravel()).reshape(half.size, -1) @ weights)
+            * half[:, 0]
+        )
+
+    pieces = integral(breaks[:-1], breaks[1:])
+    above = np.concatenate([np.cumsum(pieces[::-1])[::-1], [0.0]])
+
+    def along(s: FloatArray) -> FloatArray:
+        piece = np.clip(np.searchsorted(breaks, s, side="right") - 1, 0, breaks.size - 2)
+        return np.asarray(above[piece + 1] + integral(s, breaks[piece + 1]))
+
+    return along
+
+
+def _breaks(problem: Problem) -> FloatArray:
+    hole = _hole(problem)
+    count = max(PIECES, 2 * int(np.ceil(0.5 * PIECES_PER_RADIAN * hole.turning)))
+    return np.linspace(0.0, 1.0, count + 1)
+
+
+def _hole(problem: Problem) -> Hole:
+    assert problem.hole is not None
+    return problem.hole
+
+
+def linear_space(problem: Problem, loads: tuple[float, float]) -> SplineSpace:
+    """Spline space for modes between two end forces, tension positive."""
+    mesh = graded_mesh(_wavenumber(problem, loads) + LEAST_WAVENUMBER, _PLACES, LINEAR_ELEMENTS_PER_RADIAN)
+    return SplineSpace(mesh, DEGREE)
+
+
+def first_space(problem: Problem, compression: float, tension: float) -> SplineSpace:
+    """Spline space for branches between the most compressive and the most tensile end force, tension positive."""
+    wavenumber = _wavenumber(problem, (compression, tension)) + 2.0 * np.pi
+    return SplineSpace(graded_mesh(wavenumber, _PLACES, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
+
+
+_PLACES = np.linspace(0.0, 1.0, PLACES)
+
+
+def _wavenumber(problem: Problem, loads: tuple[float, float]) -> FloatArray:
+    """√|N| + (p/Δ)^¼ with the largest contact p per length between two end forces, at PLACES places."""
+    k1, k2, g1, g2 = hole_at(problem, undeformed_place(problem, _PLACES))[0]
+    hung = problem.weight * lifted(_PLACES, lambda s: hole_at(problem, undeformed_place(problem, s))[1])(_PLACES)
+    axial = np.maximum(*(np.abs(load - hung) for load in loads))
+    pressed = problem.weight * np.hypot(g1, g2) + np.hypot(k1, k2) * axial
+    return np.asarray(np.sqrt(axial) + (pressed / problem.clearance) ** 0.25)

@@ -1,0 +1,98 @@
+"""The certificate of a state in a curved hole: balance of forces and moments in space, on the curve that the rod makes.
+
+Nothing of the energy that the engine makes stationary enters: the rod's centre is put on the wall of the hole in space,
+its tangent and curvature follow by numerical derivatives, and force and moment, put together from the fields, must
+balance weight and contact as vectors:
+
+    r′ = t,   t′ = M × t of the rod's bending,   n − n(0) = ∫ (w k + p d₁) ds,   M′ + t × n = 0.
+
+The state is solved with every cross-section at its own place first (:mod:`rodwell.analysis.state.own_places`): a branch
+takes the hole where the undeformed rod is, and by how much its numbers are off is told beside.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.state.fields import gauss_calculus, gauss_places
+from rodwell.analysis.state.in_hole import InHole
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, TWIST
+from rodwell.problem.ends import HOLD_ANGLE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+_TINY = 1e-300
+
+
+def residuals(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> dict[str, float]:
+    """What is left of each balance, divided by the largest of its terms along the rod."""
+    rod = InHole(problem, meshes.fine, point.fine)
+    s = gauss_places(meshes.fine.space)
+    half = 0.5 * np.diff(meshes.fine.space.breaks)
+    _, whole, running, derivative = gauss_calculus()
+
+    def rate(values: FloatArray) -> FloatArray:
+        by_element = values.reshape(half.size, -1, 3)
+        return np.asarray(np.einsum("pq,eqi->epi", derivative, by_element) / half[:, None, None]).reshape(-1, 3)
+
+    def integral(values: FloatArray) -> FloatArray:
+        """From s = 0."""
+        by_element = values.reshape(half.size, -1, 3)
+        pieces = np.einsum("q,eqi->ei", whole, by_element) * half[:, None]
+        before = np.concatenate([np.zeros((1, 3)), np.cumsum(pieces, axis=0)[:-1]])
+        part = np.einsum("pq,eqi->epi", running, by_element) * half[:, None, None]
+        return np.asarray(before[:, None] + part).reshape(-1, 3)
+
+    def left(*terms: FloatArray) -> float:
+        size = max(float(np.max(np.linalg.norm(term, axis=1))) for term in terms)
+        return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / max(size, _TINY)
+
+    fields = rod.fields(s)
+    centre, frame = rod.frames(s)
+    tangent, d1, u1 = frame.transpose(1, 0, 2)
+
+    force, moment = (_vector(fields, kind, frame) for kind in ("F", "M"))
+    ends = np.array([0.0])
+    first = _vector(rod.fields(ends), "F", rod.frames(ends)[1])
+    weight = np.zeros_like(force)
+    weight[:, 2] = rod.parameters[AXIAL_WEIGHT]
+    bent = fields["omega3"][:, None] * d1 - fields["omega2"][:, None] * u1
+    out = {
+        "r′ = t": left(rate(centre), -tangent),
+        "t′ = M × t": left(rate(tangent), -bent),
+        "force balance": left(force - first, -integral(weight), -integral(fields["contact_pressure"][:, None] * d1)),
+        "moment balance": left(rate(moment), np.cross(tangent, force)),
+    }
+    return out | _ends(problem, rod)
+
+
+def _vector(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> FloatArray:
+    """Force ("F") or moment ("M") of the rod in space, (m, 3)."""
+    return np.asarray(sum(fields[f"rod_{kind}{i + 1}"][:, None] * frame[:, i] for i in range(3)))
+
+
+def _ends(problem: Problem, rod: InHole) -> dict[str, float]:
+    """What ends hold, and the moment and the force around the hole that they leave free, relative to the largest value.
+
+    The force that goes with y is n·u₂ + (ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
+    """
+    everywhere = np.concatenate([[0.0, 1.0], np.linspace(0.0, 1.0, 201)])
+    (y, y1), fields = rod.shape(everywhere, 2), rod.fields(everywhere)
+    cos = np.sqrt(1.0 - y1**2)
+    normal = fields["omega3"] * y1 / rod.clearance
+    torque = rod.parameters[TWIST] * (cos - 1.0) / rod.clearance
+    parts = fields["rod_F1"] * y1, fields["rod_F3"] * cos, normal, torque
+    size = max(float(np.max(np.abs(part))) for part in parts)
+    out: dict[str, float] = {}
+    for k, end in enumerate(problem.ends):
+        if end in HOLD_ANGLE:
+            out[f"y({k})"] = abs(float(y[k])) / max(float(np.max(np.abs(y))), _TINY)
+        else:
+            out[f"force around ({k})"] = abs(float(sum(part[k] for part in parts))) / max(size, _TINY)
+        if end in ("clamped", "guided"):
+            out[f"y′({k})"] = abs(float(y1[k])) / max(float(np.max(np.abs(y1))), _TINY)
+        else:
+            largest = float(np.max(np.abs(fields["rod_M2"])))
+            out[f"M₂({k})"] = abs(float(fields["rod_M2"][k])) / max(largest, _TINY)
+    return out

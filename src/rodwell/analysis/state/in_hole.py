@@ -1,0 +1,151 @@
+"""A state of a rod in a curved hole: where it is in space, and every field along it."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from rodwell.analysis.discrete.curved import PiecewisePolynomial, hole_at, lifted, undeformed_place, wall_side
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
+from rodwell.physics.on_wall.curved import hole_at as tabulated
+from rodwell.physics.on_wall.curved import strand
+from rodwell.physics.on_wall.frames import material_curvatures
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, TWIST
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+
+class InHole:
+    """A state in its hole, with the tables (``family.given``) that it was solved with.
+
+    Attributes
+    ----------
+    problem, family, state
+        The problem, its equations on a mesh, and the state.
+    parameters
+        As kernels take them.
+    """
+
+    def __init__(self, problem: Problem, family: Family, state: State) -> None:
+        self.problem, self.family, self.state = problem, family, state
+        self.parameters = family.parameters(state.lam)
+        self.clearance = float(self.parameters[CLEARANCE])
+
+    def shape(self, s: FloatArray, orders: int) -> FloatArray:
+        """Y and its derivatives (orders, m) at places (m,)."""
+        return self.state.space.evaluate(self.state.c, s, orders)
+
+    def given(self, s: FloatArray) -> FloatArray:
+        """What kernels are given at places (m,), one column each."""
+        assert self.family.given is not None
+        return self.family.given(s).T
+
+    def step(self, s: FloatArray) -> FloatArray:
+        """S′ = cos η/h (m,): arclength of the hole's axis per arclength of the rod."""
+        k1, k2, *_ = tabulated(s, self.given(s))
+        y, y1 = self.shape(s, 2)
+        angle = y / self.clearance
+        return np.asarray(np.sqrt(1.0 - y1**2) / (1.0 + self.clearance * (k1 * np.cos(angle) - k2 * np.sin(angle))))
+
+    @cached_property
+    def place(self) -> PiecewisePolynomial:
+        """S(s): the place of each cross-section on the hole's axis; the end s = 0 stays where it is undeformed."""
+        breaks = self.state.space.breaks
+        start = float(undeformed_place(self.problem, np.array([0.0]))[0])
+        ahead = lifted(breaks, self.step)
+        whole = float(ahead(np.array([0.0]))[0])
+        return PiecewisePolynomial.of(breaks, lambda s: start + whole - ahead(s))
+
+    def drive(self, s: FloatArray) -> FloatArray:
+        """N (m,): the force that drives the rod along the hole, reduced to its axis, as the tables have it."""
+        k1, _, _, _, lift, offset = tabulated(s, self.given(s))
+        p = self.parameters
+        return np.asarray((1.0 + self.clearance * k1) * (p[FORCE] - p[AXIAL_WEIGHT] * lift + offset))
+
+    def frames(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Centre of the rod (m, 3) and its frame t₁, d₁, u₁ (m, 3, 3) in space, z vertically up."""
+        hole, side = self.problem.hole, wall_side(self.problem)
+        assert hole is not None
+        y, y1 = self.shape(s, 2)
+        places, angle = self.place(s), y / self.clearance
+        n1, n2, tangent = (np.asarray(x) for x in hole.frame(places).transpose(1, 0, 2))
+        cos_a, sin_a = side * np.cos(angle)[:, None], side * np.sin(angle)[:, None]
+        sin, cos = y1[:, None], np.sqrt(1.0 - y1**2)[:, None]
+        d1, u2 = cos_a * n1 - sin_a * n2, sin_a * n1 + cos_a * n2
+        along, around = sin * u2 + cos * tangent, cos * u2 - sin * tangent
+        return hole.points(places) - self.clearance * d1, np.stack([along, d1, around], axis=1)
+
+    def fields(self, s: FloatArray) -> dict[str, FloatArray]:
+        """Fields at places (m,) in units B = L = 1: those of the rod, by their names in the nomenclature.
+
+        ``z`` is the way along the hole's axis from s = 0; components refer to t₁, d₁, u₁.
+        """
+        u, p = self.shape(s, 4), self.parameters
+        omega1, omega2, omega3, f1, f2, f3, pressure = strand(s, u, self.given(s), p)
+        torsion = self.problem.torsional_stiffness
+        turned = lifted(self.state.space.breaks, lambda x: strand(x, self.shape(x, 4), self.given(x), p)[0])
+        xi1 = p[TWIST] / torsion * s + float(turned(np.array([0.0]))[0]) - turned(s)
+        material = material_curvatures(xi1, omega2, omega3, p[TWIST], torsion)
+        return {
+            "y": u[0],
+            "xi2": u[0] / self.clearance + (np.pi if self.problem.on_top else 0.0),
+            "eta": np.arcsin(u[1]),
+            "omega1": omega1,
+            "omega2": omega2,
+            "omega3": omega3,
+            "material_omega1": material[0],
+            "material_omega2": material[1],
+            "material_omega3": material[2],
+            "z": self.place(s) - self.place(np.array([0.0])),
+            "xi1": xi1,
+            "contact_pressure": np.asarray(pressure),
+            "rod_F1": np.asarray(f1),
+            "rod_F2": np.asarray(f2),
+            "rod_F3": np.asarray(f3),
+            "rod_M1": np.full_like(s, -p[TWIST]),
+            "rod_M2": np.asarray(omega2),
+            "rod_M3": np.asarray(omega3),
+            "tangential_balance": self._tangential_balance(s),
+        }
+
+    def _tangential_balance(self, s: FloatArray) -> FloatArray:
+        """Residual of F₁ + ½(ω₂² + ω₃²) − w × height = const.: F₁ comes from what drives the rod along the hole."""
+
+        def total(places: FloatArray) -> FloatArray:
+            _, omega2, omega3, f1, *_ = strand(places, self.shape(places, 4), self.given(places), self.parameters)
+            height = self.frames(places)[0][:, 2]
+            return np.asarray(f1 + 0.5 * (omega2**2 + omega3**2) - self.parameters[AXIAL_WEIGHT] * height)
+
+        return np.asarray(total(s) - total(np.array([1.0])))
+
+    def energy(self) -> float:
+        """Bending, height and torque less the work of the end force from S₀(1) on, at the rod's own places, in B/L."""
+        space, p = self.state.space, self.parameters
+        s = space.points
+        y, y1, y2 = space.at_points(self.state.c)
+        k1, k2, *_ = hole_at(self.problem, self.place(s))[0]
+        normal, geodesic, cos, inwards, h = curvature(y / self.clearance, y1, y2, k1, k2, self.clearance)
+        torque = p[TWIST] * y1 * ((1.0 - cos) / self.clearance + cos * inwards / h)
+        height = self.frames(s)[0][:, 2]
+        stored = 0.5 * (normal**2 + geodesic**2) + p[AXIAL_WEIGHT] * height - torque
+        return float(space.weights @ stored - p[FORCE] * self.travel())
+
+    def travel(self) -> float:
+        """∫ (1 + Δk₁) dS from S₀(1), where the undeformed rod ends, to where this one does."""
+        nodes, weights = np.polynomial.legendre.leggauss(10)
+        low, high = float(undeformed_place(self.problem, np.array([1.0]))[0]), float(self.place(np.array([1.0]))[0])
+        half = 0.5 * (high - low)
+        k1 = hole_at(self.problem, low + half * (nodes + 1.0))[0][0]
+        return float(half * weights @ (1.0 + self.clearance * k1))
+
+
+def curvature(
+    angle: FloatArray, y1: FloatArray, y2: FloatArray, k1: FloatArray, k2: FloatArray, clearance: float
+) -> tuple[FloatArray, ...]:
+    """Kₙ, K_g, cos η, κₙ and h of :mod:`rodwell.physics.on_wall.curved_energy`, (m,) each."""
+    cos = np.sqrt(1.0 - y1**2)
+    inwards, around = k1 * np.cos(angle) - k2 * np.sin(angle), k1 * np.sin(angle) + k2 * np.cos(angle)
+    h = 1.0 + clearance * inwards
+    return y1**2 / clearance + cos**2 * inwards / h, y2 / cos + cos * around / h, cos, inwards, h

@@ -1,0 +1,127 @@
+"""States of a rod in a curved hole with every cross-section at its own place S(s) on the hole's axis.
+
+Branches are followed with the hole taken where the undeformed rod is (:mod:`rodwell.analysis.discrete.curved`). Here
+one state is solved with S(s) = S(0) + ∫ cos η/h ds of itself, and with the force N(s) that goes with it: stationary
+points of the energy in which S is eliminated have
+
+    N′ = ∂e/∂S − N ∂q/∂S,   q = cos η/h,   N(1) = (1 + Δk₁) F,
+
+e with the height of the rod. Solving with S and N of the last state and taking them anew converges, by the product of
+curvature and end shortening a time. What changes is the error of the branch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
+from rodwell.analysis.discrete.curved import HoleAlong, along_rod, hole_along, hole_at, lifted
+from rodwell.analysis.discrete.measures import measured_meshes
+from rodwell.analysis.state.in_hole import InHole, curvature
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
+from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, FORCE, TWIST
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+
+MOST_ROUNDS = 40
+
+SETTLED = 1e-12
+"""Change of the shape, in radians around the hole, below which it has settled."""
+
+STENCIL = 1e-4
+"""Distance on the hole's axis, in L, of differences that give the rate of its curvature."""
+
+
+def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
+    """N′ (m,) with the hole at the rod's own places."""
+    y, y1, y2 = shape.shape(s, 3)
+    places, d, problem = shape.place(s), shape.clearance, shape.problem
+    (k1, k2, _, _), climb = hole_at(problem, places)
+    before, after = (hole_at(problem, places + step)[0][:2] for step in (-STENCIL, STENCIL))
+    k1_rate, k2_rate = (after - before) / (2.0 * STENCIL)
+    angle = y / d
+    sin_a, cos_a = np.sin(angle), np.cos(angle)
+    normal, geodesic, cos, _, h = curvature(angle, y1, y2, k1, k2, d)
+    around = k1 * sin_a + k2 * cos_a
+    inwards_rate, around_rate = k1_rate * cos_a - k2_rate * sin_a, k1_rate * sin_a + k2_rate * cos_a
+    weight, twist = shape.parameters[AXIAL_WEIGHT], shape.parameters[TWIST]
+    bent = normal * cos**2 * inwards_rate / h**2 + geodesic * cos * (around_rate - d * around * inwards_rate / h) / h
+    turned = -twist * y1 * cos * inwards_rate / h**2
+    return np.asarray(weight * climb * h + bent + turned + shape.drive(s) * cos * d * inwards_rate / h**2)
+
+
+def tables_of(shape: InHole) -> HoleAlong:
+    """The hole at the rod's own places, and the force that goes with it, as kernels take them."""
+    p, breaks, problem = shape.parameters, shape.state.space.breaks, shape.problem
+    driven = lifted(breaks, lambda s: drive_rate(shape, s))
+    rise = lifted(breaks, lambda s: hole_at(problem, shape.place(s))[1])
+    last = 1.0 + shape.clearance * float(hole_at(problem, shape.place(np.array([1.0])))[0][0, 0])
+
+    def functions(s: FloatArray) -> FloatArray:
+        here, _ = hole_at(problem, shape.place(s))
+        lift = rise(s)
+        drive = last * p[FORCE] - driven(s)
+        offset = drive / (1.0 + shape.clearance * here[0]) - p[FORCE] + p[AXIAL_WEIGHT] * lift
+        return np.concatenate([here, lift[None], offset[None]])
+
+    return hole_along(breaks, functions)
+
+
+def with_own_places(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> tuple[TwoMeshes, MeshedState]:
+    """Solve a state of a curved hole with every cross-section at its own place; its energy is that of the rod there.
+
+    The stability index counts directions in which the places stay.
+
+    Raises
+    ------
+    InputError
+        If the hole is straight: places along it do not matter.
+    NotConvergedError
+        If that does not settle.
+    """
+    if problem.hole is None:
+        raise InputError("build", problem.build, "must not be 0: along a straight hole every place is like another")
+    family, state = meshes.fine, point.fine
+    change = np.inf
+    for _ in range(MOST_ROUNDS):
+        tables = tables_of(InHole(problem, family, state))
+        family = _given(family, tables)
+        solved = _solved(family, state)
+        change = float(np.max(np.abs(solved.c - state.c))) / family.scale_c
+        state = solved
+        if change <= SETTLED:
+            break
+    else:
+        raise NotConvergedError(
+            f"the places of the rod in the hole did not settle: the shape still changes by {change:.1e} rad a round; "
+            "the curvature is too large for this shortening"
+        )
+    own = measured_meshes(_given(meshes.coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
+    both = ((own.coarse, _solved(own.coarse, point.coarse)), (own.fine, state))
+    coarse, fine = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
+    return own, own.point(coarse, fine)
+
+
+def _given(family: Family, tables: HoleAlong) -> Family:
+    """The family with other tables of the hole, in which no symmetry is exact."""
+    return replace(family, given=tables, parity=0, reflections=())
+
+
+def _solved(family: Family, state: State) -> State:
+    outcome, solved, _ = family.at(state.c, state.lam)
+    if solved is None:
+        reason = family.advice(outcome)
+        raise NotConvergedError(f"the state could not be solved at its own places in the hole: {reason}")
+    return solved
+
+
+def _energy(problem: Problem, family: Family, state: State) -> float:
+    """Energy relative to the undeformed rod."""
+    still = replace(state, c=np.zeros_like(state.c))
+    resting = replace(family, given=along_rod(problem))
+    return InHole(problem, family, state).energy() - InHole(problem, resting, still).energy()

@@ -1,0 +1,92 @@
+"""The rod that lies along a curved hole, before it buckles: contact per length, and where it leaves the wall by itself.
+
+In a hole whose axis lies in a vertical plane a rod on its low or high generator, θ = 0, is in equilibrium under any end
+force. In compression it is pressed to the outside of the curve, in tension to the inside, so that the contact per
+length is P = a(s) + b(s) F: the rod lies where P ≥ 0 everywhere, between two end forces at most.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.family import parameters
+from rodwell.analysis.straight.scale import load_scale
+from rodwell.errors import InputError
+from rodwell.physics.on_wall.curved import strand
+from rodwell.physics.on_wall.parameters import SIDE
+from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak
+
+PLACES = 2001
+"""Places at which the contact is looked at before its extremes are refined."""
+
+
+def refuse_spatial(problem: Problem) -> None:
+    """Raise where θ = 0 is no equilibrium: the hole leaves the vertical plane, or a torque turns a free end."""
+    hole = problem.hole
+    if hole is not None and not hole.planar:
+        name = "axis" if problem.axis else "walk"
+        raise InputError(
+            name,
+            f"{len(problem.axis)} points" if problem.axis else problem.walk,
+            "bends the hole sideways, where the rod lies on no straight generator: states and loads are computed of "
+            "holes whose axis lies in a vertical plane (walk = 0)",
+        )
+    if hole is not None and problem.twist != 0.0 and problem.ends != ("clamped", "clamped"):
+        raise InputError(
+            "ends",
+            "-".join(problem.ends),
+            "with a twisting moment in a curved hole must be clamped-clamped: the moment turns other ends around the "
+            "hole at once, and there is no critical load",
+        )
+
+
+def lying_contact(problem: Problem, force: float, s: FloatArray) -> FloatArray:
+    """Force per length (m,) by which the wall presses the rod at ``s`` (m,), in B/L³; negative: it would pull."""
+    rows = along_rod(problem)(s).T
+    still = np.zeros((4, s.size))
+    p = parameters(problem, force)
+    return np.asarray(-p[SIDE] * strand(s, still, rows, p)[-1])
+
+
+def least_contact(problem: Problem, force: float) -> Peak:
+    """Least contact per length of the lying rod and where it is; below 0 the wall would have to pull there."""
+    s = np.linspace(0.0, 1.0, PLACES)
+    for _ in range(4):  # ever closer between the neighbours of the least
+        values = lying_contact(problem, force, s)
+        least = int(np.argmin(values))
+        here = float(values[least]), float(s[least])
+        s = np.linspace(s[max(least - 1, 0)], s[min(least + 1, s.size - 1)], 41)
+    size = float(np.max(np.abs(lying_contact(problem, force, np.linspace(0.0, 1.0, 9)))))
+    return Peak(here[0], 64.0 * np.finfo(float).eps * (size + abs(force)), here[1])
+
+
+def lies_between(problem: Problem) -> tuple[Peak | None, Peak | None]:
+    """Lowest and highest end force at which the wall need not pull the lying rod, each with where it lifts off first.
+
+    None where there is no such limit. Where the rod lies at no force at all, the lowest is above the highest.
+    """
+    s = np.linspace(0.0, 1.0, PLACES)
+    for _ in range(2):
+        at_rest = lying_contact(problem, 0.0, s)
+        slope = lying_contact(problem, 1.0, s) - at_rest
+        flat = np.abs(slope) <= 1e-13 * np.max(np.abs(slope), initial=1e-300)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            limits = -at_rest / slope
+        low = np.where(~flat & (slope > 0.0), limits, -np.inf)
+        high = np.where(~flat & (slope < 0.0), limits, np.inf)
+        first, last = int(np.argmax(low)), int(np.argmin(high))
+        near = [np.linspace(s[max(i - 1, 0)], s[min(i + 1, s.size - 1)], 101) for i in (first, last)]
+        found = low[first], s[first], high[last], s[last]
+        s = np.unique(np.concatenate([s, *near]))
+    return (
+        Peak(float(found[0]), _round_off(problem, found[0]), float(found[1])) if np.isfinite(found[0]) else None,
+        Peak(float(found[2]), _round_off(problem, found[2]), float(found[3])) if np.isfinite(found[2]) else None,
+    )
+
+
+def _round_off(problem: Problem, force: float) -> float:
+    """Error of a force in closed form, but for the grid on which its place was sought: the square of its spacing."""
+    return float(1e-9 * (abs(force) + load_scale(problem)))

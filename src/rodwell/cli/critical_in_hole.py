@@ -1,0 +1,124 @@
+"""What ``rodwell critical`` prints of a rod that lies along a curved hole."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rodwell.cli.listing import wrapped
+from rodwell.cli.options import print_json
+from rodwell.quantities.text import plain, with_error
+
+if TYPE_CHECKING:
+    from rodwell.analysis.straight.critical import CriticalLoads, Mode
+    from rodwell.problem.problem import Problem
+    from rodwell.quantities.value import Peak
+    from rodwell.report.folders.numbers import Numbers
+
+UNIT = "B/L²"
+CONTACT = "B/L³"
+
+
+def show_lying(loads: CriticalLoads, tensile: CriticalLoads, as_json: bool) -> None:
+    """Print loads of both signs and where the rod lies, or all of it as JSON."""
+    if as_json:
+        print_json(_data(loads, tensile))
+    else:
+        _print(loads, tensile)
+
+
+def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads) -> Numbers:
+    """Loads as files: the same data, a row for each load, and the modes in compression drawn."""
+    from rodwell.plots.profiles import plot_modes  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("kind", "mode", "end force along the rod at s = 1, tension positive [B/L^2]", "error [B/L^2]")
+    kinds = (("compression", loads), ("tension", tensile))
+    rows = [(kind, mode.number, mode.force, mode.error) for kind, modes in kinds for mode in modes]
+    table = Table("critical", columns, tuple(rows))
+    return Numbers("critical", _data(loads, tensile), table, lambda axes: plot_modes(loads, ax=axes))
+
+
+def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:
+    from rodwell.analysis.straight.lying import least_contact, lies_between  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem = loads[0].problem
+    low, high = lies_between(problem)
+    return {
+        "critical_loads": [float(f) for f in loads.forces],
+        "error": [float(e) for e in loads.errors],
+        "tensile_loads": [{"value": mode.force, "error": mode.error} for mode in tensile],
+        "without_wall": None,
+        "lying": {
+            "side": "high" if problem.on_top else "low",
+            "lowest_force": _peak(low),
+            "highest_force": _peak(high),
+            "least_contact": [_peak(least_contact(problem, mode.force)) for mode in loads],
+            "least_contact_tensile": [_peak(least_contact(problem, mode.force)) for mode in tensile],
+            "contact_unit": "B/L^3",
+        },
+        "unit": "B/L^2",
+        "convention": "end force along the tangent of the rod on the wall at s = 1, tension positive; "
+        + ends_text(problem),
+    }
+
+
+def _peak(peak: Peak | None) -> dict[str, float] | None:
+    return None if peak is None else {"value": float(peak.value), "error": float(peak.error), "s": float(peak.s)}
+
+
+def _print(loads: CriticalLoads, tensile: CriticalLoads) -> None:
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem = loads[0].problem
+    wrapped(f"{_hole(problem)} End force along the tangent of the rod on the wall at s = 1, tension positive.")
+    click.echo(f"Critical end force in {UNIT}, {ends_text(problem)}:")
+    for mode in loads:
+        click.echo(f"  mode {mode.number:>2}  {with_error(mode.load)}   {_symmetry(mode)}{_pulls(problem, mode)}")
+    for mode in tensile:
+        click.echo(f"  in tension, {mode.number}  {with_error(mode.load)}   {_symmetry(mode)}{_pulls(problem, mode)}")
+    wrapped(_range(problem))
+
+
+def _hole(problem: Problem) -> str:
+    side = "high" if problem.on_top else "low"
+    given = f"build {plain(problem.build, 6)}/L" if not problem.axis else "the axis given"
+    return f"The rod lies on the {side} side of a curved hole ({given}, α = {plain(problem.alpha, 6)}° at mid-length)."
+
+
+def _symmetry(mode: Mode) -> str:
+    return {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
+
+
+def _pulls(problem: Problem, mode: Mode) -> str:
+    """What the wall would have to do at a load, if it would have to pull."""
+    from rodwell.analysis.straight.lying import least_contact  # noqa: PLC0415
+
+    least = least_contact(problem, mode.force)
+    if least.value >= 0.0:
+        return ""
+    return f"   the wall would have to pull, {plain(-least.value, 3)} {CONTACT} at s/L = {plain(least.s, 3)}"
+
+
+def _range(problem: Problem) -> str:
+    """Between which forces the rod lies by itself."""
+    from rodwell.analysis.straight.lying import lies_between  # noqa: PLC0415
+
+    low, high = lies_between(problem)
+    if low is not None and high is not None and low.value >= high.value:
+        return (
+            "At no end force does the undeformed rod lie on this side by itself: somewhere the wall would have to pull."
+        )
+    said = []
+    if low is not None:
+        said.append(f"above {plain(low.value, 6)} {UNIT} (below, it leaves the wall at s/L = {plain(low.s, 3)} first)")
+    if high is not None:
+        said.append(
+            f"below {plain(high.value, 6)} {UNIT} (above, it leaves the wall at s/L = {plain(high.s, 3)} first)"
+        )
+    if not said:
+        return "The undeformed rod lies on this side at every end force."
+    return f"The undeformed rod lies on this side by itself at end forces {' and '.join(said)}."

@@ -1,0 +1,295 @@
+"""The hole in which the rod lies: its axis in space, with curvatures k1, k2 in a rotation-minimising frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from rodwell.errors import InputError, checked_number
+from rodwell.problem.axis import Axis, circle, tabulate
+from rodwell.quantities.arrays import FloatArray
+
+Points = tuple[tuple[float, float, float], ...]
+
+MOST_CURVATURE = 1e4
+MOST_POINTS = 10_000
+FEWEST_POINTS = 4
+
+LENGTHS = (0.98, 1.02)
+"""Between which the length of an axis given by points may lie, in L."""
+
+IN_LINE = 1e-11
+"""Points that stray less, in L, from a line or a vertical plane lie on it: what remains is round-off."""
+
+UPRIGHT = 1e-9
+"""Sines of inclinations below: the hole is vertical there, and has no high side."""
+
+CANNOT_FOLD = 2.0 * math.acos(2.0 / math.pi)
+"""Rad. Points s apart on a curve that turns by less, θ, are at least s cos(θ/2) apart in space: where s > πΔ, 2Δ."""
+
+FORM = f"must be points (x, y, z) of the hole's axis in L, from s = 0 to s = 1, z upwards, at least {FEWEST_POINTS}"
+
+
+@dataclass(frozen=True)
+class Hole:
+    """The axis of a hole, in units of the rod's length L.
+
+    Arclength S runs from 0, at the larger measured depth, to 1, where the end force acts; T = dX/dS. The frame
+    (N1, N2, T) is right-handed and rotation-minimising: T' = k1 N1 + k2 N2, N1' = −k1 T, N2' = −k2 T. At S = ½ N1 is
+    the high side. So k1 > 0 is concave upward (a build section), and −k2 the walk to the right, looking towards S = 0.
+
+    Make it by :meth:`arc` or :meth:`through`. Holes are equal where their attributes are.
+
+    Attributes
+    ----------
+    alpha
+        Angle between T and the vertical at S = ½ in degrees, 0 (T upwards) to 180.
+    build, walk
+        k1 and −k2 of an arc in 1/L; 0 where ``axis`` is given.
+    axis
+        Points that the axis goes through; empty for an arc.
+    """
+
+    alpha: float
+    build: float = 0.0
+    walk: float = 0.0
+    axis: Points = ()
+
+    @classmethod
+    def arc(cls, alpha: float, build: float = 0.0, walk: float = 0.0) -> Hole:
+        """Make a hole of constant curvatures: a circle in space, in closed form; a straight one without any.
+
+        Parameters
+        ----------
+        alpha
+            Inclination at mid-length in degrees, 0 to 180.
+        build
+            k1 in 1/L, positive where the hole is concave upward.
+        walk
+            −k2 in 1/L, positive to the right looking towards S = 0; not dφ/dS of an azimuth φ, which times sin α it is.
+
+        Raises
+        ------
+        InputError
+            For values out of range, and for a walk at mid-length in a vertical hole, which has no high side there.
+        """
+        alpha = checked_number("alpha", alpha, 0.0, 180.0, "from 0 to 180 degrees")
+        allowed = f"from -{MOST_CURVATURE:g} to {MOST_CURVATURE:g}, a curvature in 1/L"
+        build = checked_number("build", build, -MOST_CURVATURE, MOST_CURVATURE, allowed)
+        walk = checked_number("walk", walk, -MOST_CURVATURE, MOST_CURVATURE, allowed)
+        if walk != 0.0 and alpha in (0.0, 180.0):
+            raise InputError(
+                "walk",
+                walk,
+                f"must be 0 at alpha = {alpha:g}: a vertical hole has no high side to walk from; give build",
+            )
+        return cls(alpha, build, walk)
+
+    @classmethod
+    def through(cls, points: Sequence[Sequence[float]] | FloatArray) -> Hole:
+        """Make a hole whose axis goes through points, its curvature continuous.
+
+        Between the points the axis is a spline of degree five in the sum of the chords, with four continuous
+        derivatives (of four or five points, one polynomial). Arclength, frame and curvatures are tabulated of it to
+        round-off: :attr:`error`, and 1e-15/h² of the curvatures at points h apart. Of a smooth curve it is off by
+        O(h⁶). Beyond its ends the axis goes on with the curvatures that it has there.
+
+        Parameters
+        ----------
+        points
+            x, y, z in L, z vertically up, (n, 3), from S = 0 on; the length must be 1 within 2 %.
+
+        Raises
+        ------
+        InputError
+            For too few points, points that are not in order along the hole, and another length.
+        """
+        axis = checked_points(points)
+        table = _table(axis)
+        if not LENGTHS[0] <= table.length <= LENGTHS[1]:
+            raise InputError(
+                "axis",
+                f"points of a curve of length {table.length:.6g}",
+                f"must be 1 long, in units of the rod's length, within {LENGTHS[0]:g} to {LENGTHS[1]:g}: "
+                "give the piece of the hole from s = 0 to s = 1, divided by the rod's length",
+            )
+        tangent = table.at(np.array([0.5]))[1][0, 2]
+        alpha = math.degrees(math.atan2(math.hypot(tangent[0], tangent[1]), tangent[2]))
+        return cls(0.0 if alpha < IN_LINE else alpha, axis=axis)
+
+    @cached_property
+    def _axis(self) -> Axis:
+        return _table(self.axis)
+
+    @cached_property
+    def _middle(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Curvatures (2,), frame (3, 3) and point (3,) of an arc at S = ½, where S = 0 is at the origin."""
+        s, c = math.sin(math.radians(min(self.alpha, 180.0 - self.alpha))), math.cos(math.radians(self.alpha))
+        c = 0.0 if self.alpha == 90.0 else c
+        frame = np.array([[-c, 0.0, s], [0.0, -1.0, 0.0], [s, 0.0, c]])
+        curvatures = np.array([self.build, -self.walk])
+        first = circle(curvatures, frame, np.zeros(3), np.array([-0.5]))[1][0]
+        return curvatures, frame, -first
+
+    def _at(self, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        places = np.atleast_1d(np.asarray(places, dtype=float))
+        if self.axis:
+            return self._axis.at(places)
+        curvatures, frame, point = self._middle
+        return np.tile(curvatures, (places.size, 1)), *circle(curvatures, frame, point, places - 0.5)
+
+    def curvatures(self, places: FloatArray) -> FloatArray:
+        """Curvatures k1, k2 in 1/L at arclengths S (n,): (n, 2)."""
+        return self._at(places)[0]
+
+    def frame(self, places: FloatArray) -> FloatArray:
+        """Unit vectors N1, N2, T, the rows of (n, 3, 3), at arclengths S (n,)."""
+        return self._at(places)[1]
+
+    def points(self, places: FloatArray) -> FloatArray:
+        """Points x, y, z of the axis in L, (n, 3), at arclengths S (n,); an arc begins at the origin."""
+        return self._at(places)[2]
+
+    @property
+    def error(self) -> float:
+        """How far tabulated frames and points may be from the curve through the points, in 1 and L."""
+        return self._axis.error if self.axis else 0.0
+
+    @property
+    def length(self) -> float:
+        """Length of the axis that was given, in L."""
+        return self._axis.length if self.axis else 1.0
+
+    @cached_property
+    def straight(self) -> bool:
+        """Whether the hole is straight."""
+        return self.sharpest == 0.0
+
+    @cached_property
+    def planar(self) -> bool:
+        """Whether the axis lies in the vertical plane through the high side: k2 = 0."""
+        return not np.any(self._sampled[1][:, 1])
+
+    @cached_property
+    def sharpest(self) -> float:
+        """Largest curvature √(k1² + k2²) in 1/L."""
+        return float(np.max(np.hypot(*self._sampled[1].T)))
+
+    @cached_property
+    def turning(self) -> float:
+        """∫ √(k1² + k2²) dS in rad, by the trapezoidal rule."""
+        places, curvatures = self._sampled
+        return float(np.trapezoid(np.hypot(*curvatures.T), places))
+
+    @property
+    def _sampled(self) -> tuple[FloatArray, FloatArray]:
+        if self.axis:
+            return self._axis.samples
+        places = np.array([0.0, 1.0])
+        return places, self.curvatures(places)
+
+    def check(self, clearance: float) -> None:
+        """Raise where a rod cannot lie in this hole at the distance ``clearance`` (Δ/L) from its axis.
+
+        Raises
+        ------
+        InputError
+            Where the axis is curved with a radius of Δ or less, or comes closer to itself than 2Δ.
+        """
+        name = "axis" if self.axis else "build" if abs(self.build) >= abs(self.walk) else "walk"
+        shown = None if self.axis else getattr(self, name)
+        if self.sharpest * clearance >= 1.0:
+            raise InputError(
+                name,
+                shown,
+                f"bends the hole with a radius of {1.0 / self.sharpest:.4g} L, which must be above the clearance "
+                f"Δ = {clearance:g} L: a wall cannot be bent more sharply than that",
+            )
+        meeting = _meeting(self, clearance)
+        if meeting is not None:
+            low, high, distance = meeting
+            raise InputError(
+                name,
+                shown,
+                f"makes the hole run into itself: its axis at s = {low:.3g} and at s = {high:.3g} is {distance:.3g} L "
+                f"apart, and must be more than 2Δ = {2.0 * clearance:.3g} L",
+            )
+
+
+def checked_points(points: object) -> Points:
+    """Return points of an axis as a tuple of triples, or raise."""
+    try:
+        given = np.array(points, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("axis", None, FORM) from None
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise InputError("axis", None, f"{FORM}: (n, 3), not {given.shape}")
+    if not FEWEST_POINTS <= len(given) <= MOST_POINTS:
+        raise InputError("axis", f"{len(given)} points", f"{FORM} and at most {MOST_POINTS}")
+    if not np.all(np.isfinite(given)):
+        raise InputError("axis", None, "must be finite at every point")
+    chords = np.diff(given, axis=0)
+    lengths = np.linalg.norm(chords, axis=1)
+    if not np.all(lengths > IN_LINE):
+        raise InputError("axis", f"point {int(np.argmin(lengths)) + 2}", "is the same point as the one before it")
+    forward = np.sum(chords[1:] * chords[:-1], axis=1)
+    if np.any(forward <= 0.0):
+        where = int(np.argmax(forward <= 0.0)) + 2
+        raise InputError(
+            "axis",
+            f"point {where}",
+            "turns back by 90° or more: points must be in order along the hole, close enough to show its bends",
+        )
+    return tuple((float(x), float(y), float(z)) for x, y, z in given)
+
+
+@lru_cache(maxsize=32)
+def _table(axis: Points) -> Axis:
+    """Table of the axis through points, N1 the high side in the middle; curves make thousands of problems of one."""
+    from scipy.interpolate import make_interp_spline  # noqa: PLC0415 - slow to import
+
+    points = np.array(axis)
+    chords = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    spline = make_interp_spline(chords, points, k=min(5, len(axis) - 1))
+    first, second = spline.derivative(1), spline.derivative(2)
+    table = tabulate(chords, lambda u: (first(u), second(u)), points[0])
+    curvatures, frames, middle = (part[0] for part in table.at(np.array([0.5])))
+    high = np.array([0.0, 0.0, 1.0]) - frames[2, 2] * frames[2]
+    if np.linalg.norm(high) < UPRIGHT:  # no high side: the side to which it bends, or any
+        high = curvatures @ frames[:2] if np.any(curvatures) else frames[0]
+    table = table.turned(math.atan2(high @ frames[1], high @ frames[0]))
+    normals = table.at(np.array([0.5]))[1][0, :2]
+    in_plane = np.max(np.abs((points - middle) @ normals.T), axis=0) <= IN_LINE
+    return table.without(tuple(np.flatnonzero(in_plane).tolist()))
+
+
+@lru_cache(maxsize=32)
+def _meeting(hole: Hole, clearance: float) -> tuple[float, float, float] | None:
+    """Two arclengths more than πΔ apart where the axis comes closer than 2Δ to itself, and how close; or None."""
+    if hole.turning <= CANNOT_FOLD:
+        return None
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to import
+
+    places = np.linspace(0.0, 1.0, int(min(20_000, max(400, 4.0 / clearance))))
+    points = hole.points(places)
+    step = places[1]
+    pairs = cKDTree(points).query_pairs(2.0 * clearance + step, output_type="ndarray")
+    pairs = pairs[pairs[:, 1] - pairs[:, 0] > max(math.pi * clearance / step, 4.0)]
+    if not len(pairs):
+        return None
+    tangents = hole.frame(places)[:, 2]
+    low, high = pairs.T
+    gap = points[high] - points[low]
+    for end, sign in ((low, 1.0), (high, -1.0)):  # the nearest points between the samples, to first order
+        shift = np.clip(sign * np.sum(gap * tangents[end], axis=1), -0.5 * step, 0.5 * step)
+        shift = np.clip(places[end] + shift, 0.0, 1.0) - places[end]
+        gap -= sign * shift[:, None] * tangents[end]
+    distance = np.linalg.norm(gap, axis=1)
+    nearest = int(np.argmin(distance))
+    if distance[nearest] >= 2.0 * clearance:
+        return None
+    return float(places[low[nearest]]), float(places[high[nearest]]), float(distance[nearest])

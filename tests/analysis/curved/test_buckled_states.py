@@ -1,0 +1,122 @@
+"""Buckled states in a curved hole: reference numbers, balance in space, events, ends, and what the places S ≈ S₀ cost.
+
+The state at κ = 0.2, w = 15, F = −200 is that of the project's notes on curved holes, with every cross-section at its
+own place; its largest |θ| there is the largest of 4,001 places.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rodwell import Branch, InputError, Problem, critical_loads, follow
+from rodwell.analysis.state import curved_certificate
+from rodwell.physics.on_wall import curved
+
+
+@pytest.fixture(scope="module")
+def branch() -> Branch:
+    return follow(Problem(15.0, build=0.2), 1, until=-200.0)
+
+
+def test_reference_state(branch: Branch) -> None:
+    state = branch[-1].own_places
+    assert state.number("energy").value == pytest.approx(-1.516491516e-3, rel=5e-10)
+    places = np.linspace(0.0, 1.0, 4001)
+    assert np.max(np.abs(state.fields(places)["xi2"])) == pytest.approx(0.4300265034, abs=1e-10)
+    assert -state.highest_pressure[0] == pytest.approx(35.90317, abs=1e-5)
+    assert branch[-1].stability_index == state.stability_index == 0
+
+
+def test_places_of_the_branch_are_off_by_less_than_the_shortening(branch: Branch) -> None:
+    state = branch[-1]
+    errors, shortening = state.place_errors, state.number("end_shortening").value
+    assert errors["energy"] == pytest.approx(abs(state.number("energy").value + 1.516491516e-3), rel=1e-3)
+    assert errors["energy"] < 0.2 * shortening
+    assert 0.0 < errors["largest_pressure"] < 0.2 * 200.0 * shortening
+
+
+@pytest.mark.parametrize(
+    ("given", "drop"),
+    [
+        ({"weight": 40.0, "alpha": 50.0, "build": 0.5}, 30.0),
+        ({"weight": 40.0, "alpha": 130.0, "build": -0.3}, 5.0),
+        ({"weight": 15.0, "build": 0.4, "ends": "pinned-pinned"}, 20.0),
+        ({"weight": 15.0, "alpha": 70.0, "build": 0.4, "ends": "clamped-free"}, 20.0),
+        ({"weight": 15.0, "alpha": 70.0, "build": 0.4, "ends": "guided-pinned"}, 20.0),
+        ({"weight": 15.0, "build": 0.2, "twist": 3.0}, 20.0),
+        ({"weight": 0.0, "build": -0.4, "on_top": True}, 20.0),
+    ],
+)
+def test_forces_and_moments_balance_in_space(given: dict[str, object], drop: float) -> None:
+    problem = Problem(**given)  # type: ignore[arg-type]
+    first = critical_loads(problem, 1)[0].force
+    state = follow(problem, 1, until=first - drop)[-1]
+    assert state.converged, state.certificate.residuals
+    assert state.certificate.worst < 1e-8
+
+
+def test_certificate_sees_a_wrong_formula(branch: Branch, monkeypatch: pytest.MonkeyPatch) -> None:
+    state = branch[-1].own_places
+    fields = curved_certificate.InHole.fields
+    for name in ("rod_F1", "rod_F3", "contact_pressure", "omega2"):
+
+        def wrong(self: object, s: np.ndarray, name: str = name) -> dict[str, np.ndarray]:
+            found = fields(self, s)  # type: ignore[arg-type]
+            return {**found, name: found[name] * (1.0 + 1e-4 * s)}
+
+        monkeypatch.setattr(curved_certificate.InHole, "fields", wrong)
+        residuals = curved_certificate.residuals(state.problem, state.meshes, state.point)
+        assert max(residuals.values()) > 1e-7, name
+
+
+def test_height_of_the_rod_moves_what_drives_it(branch: Branch) -> None:
+    """F₁ + ½(ω₂² + ω₃²) − w × height is the same everywhere, at the rod's own places; on the branch, nearly so."""
+    own = branch[-1].own_places.fields(51)["tangential_balance"]
+    assert np.max(np.abs(own)) < 1e-9
+    assert 1e-6 < np.max(np.abs(branch[-1].fields(51)["tangential_balance"])) < 1e-3
+
+
+def test_end_force_from_energies_along_the_branch() -> None:
+    """DE/dF is minus the way of the loaded end, also with places of their own."""
+    problem = Problem(15.0, 80.0, build=0.3)
+    first = critical_loads(problem, 1)[0].force
+    states = [follow(problem, 1, until=first - 10.0 + step)[-1] for step in (-0.01, 0.0, 0.01)]
+    for three in (states, [state.own_places for state in states]):
+        low, middle, high = (state.number("energy").value for state in three)
+        assert (high - low) / 0.02 == pytest.approx(-three[1].number("end_shortening").value * -1.0, rel=1e-3)
+        assert middle < 0.0
+
+
+def test_lift_off_in_a_drop_and_none_where_the_rod_has_left_before() -> None:
+    branch = follow(Problem(15.0, build=-0.1), 1)
+    lift = branch.lift_off
+    assert lift is not None
+    assert abs(lift.solution.highest_pressure[0]) < 1e-6
+    assert lift.force > -123.173  # a drop takes contact away
+    with pytest.raises(InputError, match="has left the wall before"):
+        follow(Problem(15.0, build=-0.4), 1)
+
+
+def test_straight_limit_of_lift_off() -> None:
+    lift = follow(Problem(15.0, build=1e-9), 1).lift_off
+    assert lift is not None
+    assert lift.force == pytest.approx(-123.1730743, rel=3e-7)  # theory of the straight hole
+
+
+def test_other_parameters_and_what_is_refused(branch: Branch) -> None:
+    heavier = follow(branch.problem, start=branch[-1], parameter="weight", until=16.0)
+    assert heavier.reached_end
+    again = follow(replace(branch.problem, weight=16.0), 1, until=-200.0)
+    assert heavier[-1].number("energy").value == pytest.approx(again[-1].number("energy").value, rel=1e-8)
+    for parameter in ("alpha", "clearance"):
+        with pytest.raises(InputError, match="in a curved hole"):
+            follow(branch.problem, start=branch[-1], parameter=parameter, until=0.02)
+    with pytest.raises(InputError, match="straight holes only"):
+        branch[-1].geometry()
+
+
+def test_the_model_names_what_it_is_given() -> None:
+    assert len(curved.GIVEN) == 2 + len(curved.FUNCTIONS) * curved.TERMS
