@@ -18,11 +18,11 @@ from rodwell.case.checks.explain import SECTIONS, explain
 from rodwell.case.checks.plausible import implausible
 from rodwell.case.checks.said import gauge_facts, in_users_words
 from rodwell.case.checks.signs import check_loads
-from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
+from rodwell.case.hole.cylinder import Cylinder, cylinder_of
 from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod

@@ -8,7 +8,6 @@ from rodwell.problem.problem import Problem
 from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import checked_force
 
-
 SOFTEST, STIFFEST = 1e-6, 1e18
 """Range of stiffnesses in series, in units B = L = 1."""
 
