@@ -236,10 +236,13 @@ def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> 
     found = loads_of_lying_rod(problem, count, rtol, tension)
     if found is None:
         return []
+    loads = [value_of(found, i) for i in range(len(found.vectors))]
+    forces, errors = np.array([load.value for load in loads]), np.array([load.error for load in loads])
     return [
-        _mode(problem, found.space, i + 1, value_of(found, i), shape, (found.coarse_space, found.coarse_vectors[i]))
+        _mode(problem, found.space, equal_to(forces, errors, i), i + 1, loads[i], shape,
+              (found.coarse_space, found.coarse_vectors[i]))
         for i, shape in enumerate(found.vectors)
-    ]
+    ]  # fmt: skip
 
 
 def _factors(problem: Problem, space: SplineSpace) -> FloatArray:
