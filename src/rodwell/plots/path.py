@@ -101,7 +101,7 @@ def _mark(ax: Any, event: PathPoint, seen: set[str], units: Units) -> None:
 
 
 def _snaps(ax: Any, result: LoadPath, units: Units) -> None:
-    """An arrow from where the rod gives way to where it comes to rest, at the same load."""
+    """An arrow from where the rod gives way to where it comes to rest: at the same load, or as driven."""
     runs = [run for leg in result.legs for run in leg.runs]
     square = result.problem.clearance**2
     lasts = {run[-1].load: run[-1].solved.out.energy_by_load * square for run in runs if run}
@@ -109,14 +109,14 @@ def _snaps(ax: Any, result: LoadPath, units: Units) -> None:
         if event.state is None or event.to is None or not lasts:
             continue
         start = lasts[min(lasts, key=lambda load: abs(load - event.force.value))]
-        end, load = event.state.shortening.value, units.load(event.force.value)
+        end, load, rests = event.state.shortening.value, *map(units.load, (event.force.value, event.to.force.value))
         ax.annotate(
-            "", xy=(units.shortening * end, load), xytext=(units.shortening * start, load),
+            "", xy=(units.shortening * end, rests), xytext=(units.shortening * start, load),
             arrowprops={"arrowstyle": "-|>", "color": WARN, "lw": 1.3, "shrinkA": 3, "shrinkB": 0},
         )  # fmt: skip
         turns = f", {abs(event.to.turns)} turn{'s' if abs(event.to.turns) > 1 else ''}" if event.to.turns else ""
         name = "falls back" if event.to.kind == STRAIGHT else f"snaps: {event.to.kind}{turns}"
         ax.annotate(
-            name, xy=(units.shortening * 0.5 * (start + end), load), xytext=(0, 4), textcoords="offset points",
-            ha="center", fontsize=8.5, color=WARN,
+            name, xy=(units.shortening * 0.5 * (start + end), 0.5 * (load + rests)), xytext=(0, 4),
+            textcoords="offset points", ha="center", fontsize=8.5, color=WARN,
         )  # fmt: skip
