@@ -9,7 +9,7 @@ import pytest
 
 import rodwell
 from rodwell import Case, InputError, Problem
-from rodwell.case.cylinder import Cylinder
+from rodwell.case.hole.cylinder import Cylinder
 from rodwell.quantities.scales import Scales
 from rodwell.strength.cylinder import cylinder_stress
 

@@ -18,11 +18,11 @@ from rodwell.case.checks.explain import SECTIONS, explain
 from rodwell.case.checks.plausible import implausible
 from rodwell.case.checks.said import gauge_facts, in_users_words
 from rodwell.case.checks.signs import check_loads
-from rodwell.case.cylinder import Cylinder, cylinder_of
 from rodwell.case.dimensionless import check_sections, dimensionless
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
+from rodwell.case.hole.cylinder import Cylinder, cylinder_of
 from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
@@ -159,7 +159,7 @@ class Case(Shown):
     ) -> Case:
         """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`.
 
-        Catalogue files are sought from ``folder``.
+        Catalogue files and surveys are sought from ``folder``.
         """
         if not isinstance(data, Mapping):
             raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
@@ -190,7 +190,7 @@ class Case(Shown):
             string_rod = string_rod_of(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
-        return _assemble(parsed, data, source, text, catalogue, string_rod)
+        return _assemble(parsed, data, source, text, catalogue, string_rod, folder)
 
 
 def _uncertain(
@@ -221,6 +221,7 @@ def _assemble(
     text: str,
     catalogue: Catalogue,
     string_rod: schema.StringRod | None,
+    folder: Path,
 ) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
@@ -242,7 +243,7 @@ def _assemble(
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = _plausible(parsed, load, catalogue, data, source, string_rod)
+        found = _plausible(parsed, load, catalogue, data, source, string_rod, folder)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
@@ -264,10 +265,11 @@ def _plausible(
     data: Mapping[str, Any],
     source: str,
     string_rod: schema.StringRod | None,
+    folder: Path,
 ) -> Physical:
     """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
     try:
-        found = physical(parsed, load, catalogue, string_rod)
+        found = physical(parsed, load, catalogue, string_rod, folder)
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]

@@ -9,7 +9,7 @@ import numpy as np
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.state.compared import compared_peaks
 from rodwell.analysis.state.fields import fields_at, largest_of
-from rodwell.case.cylinder import Cylinder
+from rodwell.case.hole.cylinder import Cylinder
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.quantities.arrays import FloatArray

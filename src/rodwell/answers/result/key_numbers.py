@@ -9,7 +9,7 @@ from rodwell.analysis.straight.scale import EULER
 from rodwell.analysis.straight.without_wall import SpatialMode
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.case.case import Case
-from rodwell.case.cylinder import Cylinder
+from rodwell.case.hole.cylinder import Cylinder
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales

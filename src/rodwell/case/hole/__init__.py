@@ -1,0 +1,1 @@
+"""[hole] and [cylinder] of a case."""
