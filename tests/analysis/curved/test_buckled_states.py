@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rodwell import Branch, InputError, Problem, critical_loads, follow
+from rodwell import Branch, InputError, Problem, critical_loads, equilibrium, follow
 from rodwell.analysis.state import curved_certificate
 from rodwell.physics.on_wall import curved
 
@@ -120,3 +120,46 @@ def test_other_parameters_and_what_is_refused(branch: Branch) -> None:
 
 def test_the_model_names_what_it_is_given() -> None:
     assert len(curved.GIVEN) == 2 + len(curved.FUNCTIONS) * curved.TERMS
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"build": 0.2, "walk": 0.3},
+        {"walk": -0.3, "ends": "pinned-free"},
+        {"build": 0.2, "twist": 2.0, "ends": "clamped-guided"},
+    ],
+)
+def test_rod_lies_beside_the_bottom_where_the_hole_leaves_the_vertical_plane(given: dict[str, object]) -> None:
+    """A solved state that moves with the end force; balance in space is the judge, with the hole's own frame."""
+    problem = Problem(15.0, 80.0, **given)  # type: ignore[arg-type]
+    state = equilibrium(problem, 0.0)
+    assert state.stable
+    assert state.converged, state.certificate.residuals
+    branch = follow(problem, start=state, until=-60.0)
+    assert branch.reached_end
+    assert branch[-1].converged, branch[-1].certificate.residuals
+    assert abs(branch[-1].largest("xi2").value - state.largest("xi2").value) > 1e-4
+
+
+def test_walk_to_the_other_side_is_the_mirror_image() -> None:
+    angles = [equilibrium(Problem(15.0, 80.0, build=0.2, walk=k), -40.0).fields(11)["xi2"] for k in (0.2, -0.2)]
+    np.testing.assert_allclose(angles[0], -angles[1], atol=1e-9)
+    assert angles[0][5] * 0.2 != 0.0
+
+
+def test_an_axis_through_points_is_the_arc_that_they_lie_on() -> None:
+    arc = Problem(15.0, 70.0, build=0.3)
+    assert arc.hole is not None
+    points = Problem(15.0, axis=tuple(map(tuple, arc.hole.points(np.linspace(0.0, 1.0, 41)))))
+    assert points.alpha == pytest.approx(70.0, abs=1e-8)
+    ours, known = (critical_loads(problem, 2).forces for problem in (points, arc))
+    np.testing.assert_allclose(ours, known, rtol=1e-6)
+
+
+def test_rod_that_lies_still_has_no_branch_in_the_end_force() -> None:
+    state = equilibrium(Problem(15.0, build=0.2), -50.0)
+    assert not np.any(state.fields(11)["xi2"])
+    assert state.certificate.passed, state.certificate.residuals
+    with pytest.raises(InputError, match="follow a mode"):
+        follow(state.problem, start=state, until=-100.0)
