@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rodwell import Branch, InputError, Problem, critical_loads, equilibrium, follow
+from rodwell import Branch, InputError, Problem, critical_loads, diagram, equilibrium, follow
 from rodwell.analysis.state import curved_certificate
+from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.physics.on_wall import curved
 
 
@@ -163,3 +164,42 @@ def test_rod_that_lies_still_has_no_branch_in_the_end_force() -> None:
     assert state.certificate.passed, state.certificate.residuals
     with pytest.raises(InputError, match="follow a mode"):
         follow(state.problem, start=state, until=-100.0)
+
+
+def test_parts_of_the_energy_add_up_and_ends_bear_what_acts(branch: Branch) -> None:
+    state = branch[-1]
+    parts = {name: value.value for name, value in state.energies.items()}
+    whole = parts["bending_energy"] + parts["lateral_energy"] + parts["axial_energy"] - parts["end_work"]
+    assert whole == pytest.approx(state.number("energy").value, rel=1e-9)
+    own = state.own_places
+    (first, last) = own.reactions
+    assert (first.on, first.s, last.on, last.s) == ("rod", 0.0, "rod", 1.0)
+    kr = 0.2 / 1.002
+    assert last.force[2] == pytest.approx(-200.0 - kr**2, abs=1e-9)  # F, less what bending the rod with the hole takes
+    hole = state.problem.hole
+    assert hole is not None
+    places = np.array([first.s, own.fields(2)["z"][1]]) + 0.5 - 0.5 / 1.002
+    forces = [hole.frame(places[i : i + 1])[0].T @ r.force for i, r in enumerate((first, last))]
+    s = np.linspace(0.0, 1.0, 20001)
+    fields = own.fields(s)
+    angle, axes = fields["xi2"], hole.frame(places[0] + fields["z"])
+    d1 = np.cos(angle)[:, None] * axes[:, 0] - np.sin(angle)[:, None] * axes[:, 1]
+    wall = -np.trapezoid(fields["contact_pressure"][:, None] * d1, s, axis=0)
+    np.testing.assert_allclose(forces[0] + forces[1] + wall, [0.0, 0.0, 15.0], atol=1e-5)
+
+
+def test_diagram_follows_index_and_mirror_images() -> None:
+    result = diagram(Problem(15.0, build=0.2), modes=2, until=-225.0, secondary=False)
+    assert [branch.stability_index[-1] for branch in result] == [0, 0]
+    changes = [point for branch in result for point in branch.special_points if point.kind == "branch_point"]
+    assert [(p.index_before, p.index_after) for p in changes] == [(1, 0)]
+
+
+def test_lift_off_with_own_places() -> None:
+    problem = Problem(15.0, build=0.2)
+    lift = follow(problem, 1).lift_off
+    assert lift is not None
+    own = lift_off_with_own_places(problem, lift.solution.meshes, lift.solution.point)
+    again = follow(problem, 1, until=own.value)[-1].own_places
+    assert abs(again.highest_pressure[0]) < 1e-6
+    assert 0.0 < abs(own.value - lift.force) < 0.2 * abs(lift.force) * lift.solution.number("end_shortening").value
