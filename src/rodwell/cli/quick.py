@@ -109,7 +109,9 @@ def _print_liftoff(
     click.echo(f"  lift-off            {with_error(load)}{places_text(places)}")
     if own is not None:
         click.echo(f"  with own places     {with_error(own)}")
-        wrapped("The branch takes the hole where the undeformed rod is; the last load has every cross-section at its own.")
+        wrapped(
+            "The branch takes the hole where the undeformed rod is; the last load has every cross-section at its own."
+        )
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
