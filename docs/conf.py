@@ -51,6 +51,12 @@ myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "su
 myst_heading_anchors = 3
 myst_substitutions = make_pages.build()
 
+# The view to turn and zoom, in the pages as it is in a report.
+_live = HERE / "_generated" / "live"
+_live.mkdir(exist_ok=True)
+shutil.copy(make_pages.RESULTS / "rod-3d.html", _live / "drill-string-3d.html")
+html_static_path.append(str(_live))
+
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_type_aliases = {"FloatArray": "FloatArray"}

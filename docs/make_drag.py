@@ -25,6 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 COMMANDS = {
     "drag": "drag examples/wells/coiled-tubing.toml",
+    "drag-study": "drag examples/wells/coiled-tubing-study.toml",
     "drag-horizontal": "drag examples/wells/horizontal.toml",
 }
 

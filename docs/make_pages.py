@@ -65,7 +65,7 @@ JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
     "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
     "make_report",
-    "make_architecture",
+    "make_architecture", "make_dependencies",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
 

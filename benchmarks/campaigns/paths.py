@@ -2,8 +2,8 @@
 
     python benchmarks/campaigns/paths.py [--count 100] [--workers 2]
 
-Problem number i comes from the seed (SEED, i) alone, so the campaign can be stopped and taken up again: what is done
-stands in ``paths.jsonl``, a line for each problem, and the summary in ``paths.json``. A problem has a weight of 1 to
+Problem number i comes from the seed (SEED, i) alone, so a campaign that was broken off goes on where it ended
+(``paths.part``); the summary is ``paths.json``. A problem has a weight of 1 to
 300, an inclination of 20 to 90 degrees, a clearance of 1e-3 to 0.05, any ends but loose ones, and twist in half of
 them. A *fault* is
 
@@ -26,7 +26,6 @@ import os
 import platform
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -35,6 +34,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 import numpy as np
+from resumable import finished
 
 import rodwell
 from rodwell.analysis.off_wall.conditions import conditions
@@ -42,7 +42,7 @@ from rodwell.analysis.off_wall.state import contact_state
 
 SEED = 20
 HERE = Path(__file__).parent
-LINES, SUMMARY = HERE / "paths.jsonl", HERE / "paths.json"
+LINES, SUMMARY = HERE / "paths.part", HERE / "paths.json"
 KINDS = ("clamped", "pinned", "guided", "free", "ball")
 PULL, BALANCE, DEEP = 1e-7, 1e-7, 1e-8
 LOOKED_AT = 6
@@ -74,10 +74,7 @@ def trial(number: int) -> dict[str, Any]:
 
 
 def _followed(problem: rodwell.Problem) -> dict[str, Any]:
-    critical = rodwell.critical_loads(problem, 1)[0].force
-    first = rodwell.load_path(problem, until=critical - 0.6 * abs(critical), seeds=1)
-    lift = first.lift_off
-    until = 2.0 * lift.force.value if lift is not None and lift.force.value < 0.0 else critical - 1.2 * abs(critical)
+    until = twice_lift_off(problem)
     path = rodwell.load_path(problem, until=until, seeds=1)
     faults: list[str] = []
     for run in path.legs[0].runs:
@@ -87,16 +84,32 @@ def _followed(problem: rodwell.Problem) -> dict[str, Any]:
             slack = 1e-3 * abs(state.load)
             if before.solved.index != state.solved.index and not any(low - slack <= f <= high + slack for f in marked):
                 faults.append(f"index changes between {before.load:.8g} and {state.load:.8g} without an event")
-        for state in run[:: max(1, len(run) // LOOKED_AT)]:
+        for state in run[1:-1][:: max(1, len(run) // LOOKED_AT)]:
             faults += _faults(state)
+    for event in path.events:
+        if event.state is not None:
+            faults += _missed(
+                event.state.certificate, f"{event.kind} at F = {event.force.value:.10g}", event.state.force
+            )
     kinds = [event.kind for event in path.events]
     return {
         "faults": faults,
+        "until": until,
         "kinds": kinds,
         "reached": path.reached,
         "why": path.ended_because,
         "missed": list(path.missed),
     }
+
+
+def twice_lift_off(problem: rodwell.Problem) -> float:
+    """Twice the load at which the rod lifts off, or buckles, if it has ball joints or its branch ends before."""
+    critical = float(rodwell.critical_loads(problem, 1)[0].force)
+    lift = None
+    if "ball" not in problem.ends:
+        lift = rodwell.follow(problem, 1, until=None).lift_off
+    load = critical if lift is None else float(lift.force)
+    return 2.0 * load if load < 0.0 else critical - 1.2 * abs(critical)
 
 
 def _faults(state: Any) -> list[str]:
@@ -109,10 +122,18 @@ def _faults(state: Any) -> list[str]:
         certificate = contact_state(state).certificate
     except rodwell.NotConvergedError as error:
         return [*found, f"{error} at {where}"]
+    return found + _missed(certificate, where, state.load)
+
+
+def _missed(certificate: Any, where: str, force: float) -> list[str]:
+    """What a certificate misses."""
+    found = []
     if certificate.penetration > DEEP:
         found.append(f"penetration {certificate.penetration:.2e} at {where}")
     if certificate.worst > BALANCE:
         found.append(f"balance {certificate.worst:.2e} at {where}")
+    if min(certificate.least_force, certificate.least_pressure) < -PULL * max(abs(force), 1.0):
+        found.append(f"contact pulls, {certificate.least_force:.2e}, {certificate.least_pressure:.2e} at {where}")
     return found
 
 
@@ -122,13 +143,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--workers", type=int, default=2)
     given = parser.parse_args()
-    done = [json.loads(line) for line in LINES.read_text().splitlines()] if LINES.exists() else []
-    left = sorted(set(range(given.count)) - {one["number"] for one in done})
-    with ProcessPoolExecutor(given.workers) as pool, LINES.open("a", encoding="utf-8") as file:
-        for one in pool.map(trial, left):
-            file.write(json.dumps(one, ensure_ascii=False) + "\n")
-            file.flush()
-            done.append(one)
+    done = finished(trial, given.count, LINES, given.workers, 1)
     SUMMARY.write_text(json.dumps(summary(done), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 

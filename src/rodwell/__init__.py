@@ -34,6 +34,7 @@ _HOME = {
     "Curve": "rodwell.analysis.curves.curve",
     "Diagram": "rodwell.analysis.branch.diagram",
     "Drag": "rodwell.studies.drag.drag",
+    "DragStudy": "rodwell.studies.drag.sweep.study",
     "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
     "LocalState": "rodwell.analysis.endless.local",
@@ -62,6 +63,7 @@ _HOME = {
     "critical_loads": "rodwell.analysis.straight.critical",
     "diagram": "rodwell.analysis.branch.diagram",
     "drag": "rodwell.studies.drag.drag",
+    "drag_study": "rodwell.studies.drag.sweep.study",
     "endless": "rodwell.analysis.endless.endless",
     "equilibrium": "rodwell.analysis.branch.minimum",
     "export": "rodwell.report.folders.export",
@@ -128,6 +130,7 @@ if TYPE_CHECKING:
     from rodwell.store.restart import load_branch, save_branch
     from rodwell.studies.audit.audit import Audit, audit
     from rodwell.studies.drag.drag import Drag, drag
+    from rodwell.studies.drag.sweep.study import DragStudy, drag_study
     from rodwell.studies.drag.well_case import Well
     from rodwell.studies.maps.result import Map
     from rodwell.studies.packer.packer import PackerAnswer, packer

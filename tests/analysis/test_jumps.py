@@ -104,6 +104,35 @@ def test_equal_cells_let_branches_cross_that_no_reflection_of_the_whole_rod_expl
     assert not [p for branch in branches for p in branch.special_points if p.kind == "uncertain"]
 
 
+def test_a_row_of_four_cells_may_become_one_of_two() -> None:
+    """Four half waves are twice the two of half the rod (weight 1/8, clearance 2, force 1/4), odd about its middle."""
+    whole = follow(Problem(60.0, 90.0, ends="pinned-pinned"), 3, until=-215.0)
+    half = follow(Problem(7.5, 90.0, clearance=0.02, ends="pinned-pinned"), 2, until=-215.0 / 4.0)
+    assert special(whole) == [("critical", 2, 2), ("branch_point", 2, 1), ("end", 1, 1)]
+    assert special(half) == [("critical", 1, 1), ("branch_point", 1, 0), ("end", 0, 0)]
+    one, other = whole.special_points[1], half.special_points[1]
+    assert abs(one.force - 4.0 * other.force) <= one.error + 4.0 * other.error
+
+
+@pytest.mark.parametrize("by", [0.0, 1e-12])
+def test_waves_of_nearly_the_length_of_those_of_the_branch_may_branch_off(by: float) -> None:
+    """Nineteen quarter waves, crossed by fifteen and by seventeen; a hair of weight more or less changes nothing."""
+    problem = Problem(568.79 * (1.0 + by), 90.0, clearance=0.0013384, ends="pinned-guided")
+    branch = follow(problem, 3, until=-1600.0)
+    assert special(branch) == [("critical", 2, 2), ("branch_point", 2, 1), ("branch_point", 1, 0), ("end", 0, 0)]
+    points = [p.solution for p in branch.special_points if p.kind == "branch_point"]
+    assert all(point.converged for point in points)
+    for point, waves in zip(points, (15, 17), strict=True):
+        state, family = point.point.fine, point.meshes.fine
+        vector = np.random.default_rng(1).standard_normal(state.c.size)
+        family.nearest_curvature(state, vector, 12)
+        s = np.linspace(0.0, 1.0, 400)
+        shares = [
+            abs(np.sum(state.space.evaluate(vector, s, 1)[0] * np.sin(k * np.pi / 2.0 * s))) for k in range(1, 40, 2)
+        ]
+        assert int(np.argmax(shares)) * 2 + 1 == waves
+
+
 def test_what_has_the_parity_of_the_branch_does_not_branch_off() -> None:
     """A pitchfork of four half waves that a little twist unfolds: states of both branches are odd about the middle."""
     problem = Problem(143.2, 90.0, clearance=0.0208, twist=-0.00092, ends="pinned-pinned")
@@ -153,3 +182,23 @@ def test_two_folds_within_a_step_are_found() -> None:
     assert len(folds[0]) == len(folds[1]) == 2
     for one, other in zip(*folds, strict=True):
         assert abs(one.force - other.force) <= one.error + other.error
+
+
+MET = {
+    "clamped, guided": (Problem(5.677, 90.0, clearance=0.00866, twist=2.984, ends="clamped-guided"), -220.0),
+    "pinned, guided": (Problem(0.8994, 90.0, clearance=0.01209, twist=-3.708, ends="pinned-guided"), -35.0),
+}
+
+
+@pytest.mark.parametrize(("problem", "until"), MET.values(), ids=MET)
+@pytest.mark.parametrize("step", [0.06, 0.03])
+def test_a_branch_that_comes_back_to_the_straight_rod_ends_there(problem: Problem, until: float, step: float) -> None:
+    """Under twist it passes through the straight rod without turning back: that of mode 2 at the load of mode 1."""
+    branch = follow(problem, 2, until=until, largest_step=step)
+    loads = critical_loads(problem, 2)
+    assert branch.ended_because == "it meets the straight rod"
+    met = branch.special_points[-2]
+    assert (met.kind, met.index_before, met.index_after) == ("branch_point", 0, 0)
+    assert abs(met.force - loads[0].force) <= met.error + loads[0].error
+    assert not branch[-1].point.fine.c.any()
+    assert branch.converged

@@ -17,7 +17,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipe, ellipk
 
-from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, LocatedEvent
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
@@ -94,7 +94,7 @@ def meshes_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELE
     return TwoMeshes(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
 
 
-def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, switched: bool = False) -> Trace:
+def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, leaves: Leaving | None = None) -> Trace:
     """The branch from a point to where λ falls below the first of ``loads``, or rises above the last."""
     events = [Event.at(f"{load}", load) for load in loads]
     names = f"{loads[0]}", f"{loads[-1]}"
@@ -102,7 +102,7 @@ def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, s
     def stop(found: LocatedEvent) -> str:
         return END if found.name in names and found.rising == (found.name == names[1]) else ""
 
-    result = trace(meshes, start, Stepping(0.05, 0.3), events, stop=stop, switched=switched)
+    result = trace(meshes, start, Stepping(0.05, 0.3), events, stop=stop, leaves=leaves)
     assert result.end == END
     assert all(point.accurate for point in result.points)
     return result
@@ -132,7 +132,7 @@ def buckled(straight: Trace) -> Trace:
         family.nearest_curvature(state, direction, 8)
         upwards = direction * np.sign(np.sum(direction))
         states.append(family.state(state.c, state.lam, upwards, 0.0, 0))
-    return followed(meshes, meshes.point(*states), (0.0, *LOADS), switched=True)
+    return followed(meshes, meshes.point(*states), (0.0, *LOADS), leaves=Leaving(falling=1, rising=0))
 
 
 def test_pitchforks_of_the_straight_pendulum(straight: Trace) -> None:

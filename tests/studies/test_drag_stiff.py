@@ -194,3 +194,32 @@ def test_a_well_with_a_stiff_string_says_what_it_leaves_out() -> None:
     assert any("by a soft string" in line for line in data["summary"])
     with pytest.raises(InputError, match="for the soft string only"):
         drag(well(survey, {"kind": "run-in"}, string="stiff", road_map={"depths": 5}))
+
+
+def rough_survey() -> Survey:
+    """Down to 60° with stations 30 m apart whose inclination goes to and fro by 2°."""
+    md = np.arange(0.0, 901.0, 30.0)
+    return Survey.of(md, np.minimum(md / 10.0, 60.0) + 2.0 * (np.arange(len(md)) % 2))
+
+
+@pytest.mark.parametrize("kind", ["pull-out", "run-in"])
+def test_the_wall_never_pulls_at_a_stiff_string(kind: str) -> None:
+    """Where stiffness lifts the string off the wall nothing is left of the soft string's contact; work balances."""
+    survey = rough_survey()
+    found = drag(well(survey, {"kind": kind}, string="stiff")).operations[0]
+    contacts = found.run.contacts
+    assert np.min(contacts) == 0.0
+    assert np.mean(contacts == 0.0) > 0.02
+    assert np.min(found.run.rows[:, 3]) > -1e-2 * np.max(contacts)  # what varies along a piece, no more
+    assert found.balance is not None
+    assert found.balance.value <= 1e-8
+
+
+def test_a_stiff_string_that_locks_up_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It locks up as a soft string: there are no forces that could bend it, and nothing that has to settle."""
+    monkeypatch.setattr(bending, "lay", lambda *_: pytest.fail("bent by forces beyond bounds"))
+    slide = {"kind": "slide", "bit_force": "-400 kN"}
+    found = drag(well(well_a_survey(), slide, string="stiff"))
+    assert found.operations[0].locked
+    assert found.operations[0].settled
+    assert not found.operations[0].possible

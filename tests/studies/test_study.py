@@ -29,7 +29,8 @@ from rodwell.strength.limits import LIFTS_OFF, YIELDS
 from rodwell.studies.sweep.plain import study_dict
 from rodwell.studies.sweep.study import Study, is_study
 from rodwell.studies.sweep.tables import sentences, study_table
-from rodwell.studies.sweep.varied import MOST_POINTS, varied_inputs
+from rodwell.studies.sweep.varied import varied_inputs
+from rodwell.studies.varied import MOST_POINTS
 
 STRING: dict[str, Any] = {
     "rod": {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"},

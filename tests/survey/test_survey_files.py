@@ -203,7 +203,7 @@ def test_no_text_makes_the_reader_slow(tmp_path: Path, text: str) -> None:
     start = time.process_time()
     with pytest.raises(InputError) as caught:
         read(tmp_path, text)
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < 20.0  # a second at most where nothing else runs; minutes, once it is quadratic
     assert len(str(caught.value)) < 2000
 
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import force_at, json_option, print_json, progress_bar
 from rodwell.quantities.text import plain, signed
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.verifying.verify import Verification
+    from rodwell.report.folders.numbers import Numbers
 
 
 @click.command(short_help="Solve a case once more with SciPy's solve_bvp, and compare.")
@@ -29,8 +31,9 @@ if TYPE_CHECKING:
 @click.option(
     "--rtol", default=1e-8, show_default=True, help="Relative tolerance of the other program and of agreement."
 )
+@keep_options("the differences of all fields")
 @json_option
-def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: bool) -> None:
+def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: bool, **given: Any) -> None:
     """Solve CASE, a TOML file, once more as the paper's fifteen equations with SciPy's solve_bvp, and compare.
 
     Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
@@ -42,7 +45,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.errors import InputError, NotConvergedError  # noqa: PLC0415
 
-    read = Case.read(case)
+    where, read = take_keep(given), Case.read(case)
     forces = [force_at(text, read) for text in at]
     with progress_bar(not as_json, "the engine's branch") as tell:
         try:
@@ -62,15 +65,28 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
             count[0] += 1
 
         result = solve_again(branch, forces or None, rtol=rtol, progress=report)
+    not_reached = [{"force": force, "reached": False, "why": why} for force in missed]
+    data = {"case": read.title, "mode": mode, **result.as_dict(), "not_reached": not_reached}
     if as_json:
-        not_reached = [{"force": force, "reached": False, "why": why} for force in missed]
-        print_json({"case": read.title, "mode": mode, **result.as_dict(), "not_reached": not_reached})
+        print_json(data)
     else:
         _print(result, read.title, mode)
         for force in missed:
             wrapped(f"  F = {signed(force, 8)}: not reached: {why}")
+    keep(where, lambda: _numbers(data, result), quiet=as_json)
     if not result.agrees:
         raise click.exceptions.Exit(1)
+
+
+def _numbers(data: dict[str, Any], result: Verification) -> Numbers:
+    """The comparison as files, the differences drawn."""
+    from rodwell.plots.loads.verified import plot_verified  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("end force at s = 1, tension positive [B/L^2]", "field", "largest relative difference", "tolerance")
+    rows = [(s.force, name, size, s.tolerance) for s in result.states for name, size in s.differences.items()]
+    return Numbers("verify", data, Table("verify", columns, tuple(rows)), lambda axes: plot_verified(result, axes))
 
 
 def _print(result: Verification, title: str, mode: int) -> None:

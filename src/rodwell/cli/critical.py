@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rodwell.cli.critical_in_hole import show_lying
+from rodwell.cli.critical_in_hole import lying_numbers, show_lying
+from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
 from rodwell.quantities.value import Value
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.straight.critical import CriticalLoads
     from rodwell.analysis.straight.without_wall import LoadsWithoutWall, SpatialMode
     from rodwell.problem.problem import Problem
+    from rodwell.report.folders.numbers import Numbers
 
 UNIT = "B/L²"
 COLUMNS = 80
@@ -24,6 +26,7 @@ COLUMNS = 80
 @click.command()
 @problem_options()
 @click.option("--modes", default=5, show_default=True, help="How many critical loads.")
+@keep_options("the modes")
 @rtol_option
 @json_option
 def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
@@ -37,10 +40,12 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     from rodwell.analysis.straight.critical import critical_loads, tensile_loads  # noqa: PLC0415
     from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
 
-    problem = make_problem(given)
+    where, problem = take_keep(given), make_problem(given)
     loads = critical_loads(problem, modes, rtol=rtol)
     if problem.hole is not None:
-        show_lying(loads, tensile_loads(problem, modes, rtol=rtol), as_json)
+        tensile = tensile_loads(problem, modes, rtol=rtol)
+        show_lying(loads, tensile, as_json)
+        keep(where, lambda: lying_numbers(loads, tensile), quiet=as_json)
         return
     free = loads_without_wall(problem, rtol=rtol)
     if as_json:
@@ -49,12 +54,28 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         _print_untouched(loads, free)
     else:
         _print_pressed(loads, free)
+    keep(where, lambda: _numbers(loads, free), quiet=as_json)
     if _untouched(problem):
         touch = free.at_wall
         known = touch is None or touch.error <= rtol * (abs(touch.force) + free.scale)
         check_missed(
             [] if known or touch is None else [f"load with the wall's help ± {error_digit(touch.error)}"], rtol
         )
+
+
+def _numbers(loads: CriticalLoads, free: LoadsWithoutWall) -> Numbers:
+    """Loads as files: the same data as on the terminal, a row for each load, and the modes drawn."""
+    from rodwell.plots.profiles import plot_modes  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("kind", "mode", "end force at s = 1, tension positive [B/L^2]", "error [B/L^2]")
+    rows = [("kept on the wall", mode.number, mode.force, mode.error) for mode in loads]
+    rows += [("without the wall's help", n, mode.force, mode.error) for n, mode in enumerate(free.modes, 1)]
+    if free.at_wall is not None:
+        rows.append(("with the wall's help", 1, free.at_wall.force, free.at_wall.error))
+    table = Table("critical", columns, tuple(rows))
+    return Numbers("critical", _data(loads, free), table, lambda axes: plot_modes(loads, ax=axes))
 
 
 def _untouched(problem: Problem) -> bool:

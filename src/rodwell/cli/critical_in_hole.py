@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.straight.critical import CriticalLoads, Mode
     from rodwell.problem.problem import Problem
     from rodwell.quantities.value import Peak
+    from rodwell.report.folders.numbers import Numbers
 
 UNIT = "B/L²"
 CONTACT = "B/L³"
@@ -25,6 +26,19 @@ def show_lying(loads: CriticalLoads, tensile: CriticalLoads, as_json: bool) -> N
         print_json(_data(loads, tensile))
     else:
         _print(loads, tensile)
+
+
+def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads) -> Numbers:
+    """Loads as files: the same data, a row for each load, and the modes in compression drawn."""
+    from rodwell.plots.profiles import plot_modes  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("kind", "mode", "end force along the rod at s = 1, tension positive [B/L^2]", "error [B/L^2]")
+    kinds = (("compression", loads), ("tension", tensile))
+    rows = [(kind, mode.number, mode.force, mode.error) for kind, modes in kinds for mode in modes]
+    table = Table("critical", columns, tuple(rows))
+    return Numbers("critical", _data(loads, tensile), table, lambda axes: plot_modes(loads, ax=axes))
 
 
 def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.errors import InputError
 from rodwell.quantities.text import minus
 
 FAR = 10.0
@@ -55,12 +56,16 @@ def drag(
     stretch, and for what goes down how deep it can go: where it locks up, and where the push at surface ends. Forces
     are effective, tension positive. Where two local states are stable, both bounds are printed and the verdict takes
     the worse.
+
+    If one or two of its inputs are ranges (friction = "0.1..0.4 in 7"), or lists in a file that says study = true at
+    its top, a parameter study is made.
     """
     from rodwell.case.file import read_case  # noqa: PLC0415
     from rodwell.report.folders.drag import write_drag  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
     from rodwell.studies.drag.drag import drag as compute  # noqa: PLC0415
     from rodwell.studies.drag.plain import drag_dict  # noqa: PLC0415
+    from rodwell.studies.drag.sweep.study import is_well_study  # noqa: PLC0415
     from rodwell.studies.drag.well_case import Well  # noqa: PLC0415
 
     if with_pdf:
@@ -69,6 +74,15 @@ def drag(
         check_pdf()
     text = read_case(well)
     folder = results_folder(out, text.name, "-drag")
+    if is_well_study(text):
+        from rodwell.cli.drag_study import run_drag_study  # noqa: PLC0415
+
+        if calibrate is not None:
+            what = "takes a file of single values: a study has no measurements of its own; give one value to each key"
+            raise InputError("--calibrate", calibrate, what)
+        check_writable(folder)
+        run_drag_study(text, folder, units, as_json, quiet, with_pdf)
+        return
     read = Well.read(text).in_units(units)
     check_writable(folder)
     fitted = None

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import print_listing, wrapped
-from rodwell.cli.options import OutPath, check_missed, json_option, print_json
+from rodwell.cli.options import check_missed, json_option, print_json
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.endless.endless import Endless
     from rodwell.analysis.endless.hysteresis import Stage
     from rodwell.quantities.value import Value
+    from rodwell.report.folders.numbers import Numbers
 
 UNITS = {
     "frequency": "1/ℓ",
@@ -47,9 +48,9 @@ HEAD = "Endless rod kept on the wall; β = P/√(Bq/D), compression P positive; 
     "--beta", type=float, help="Load β = P/√(Bq/D), compression positive.  [default: the loads of all states]"
 )
 @click.option("--slope", type=float, default=0.0, show_default=True, help="ε = (qD³/B)^¼; 0 for small slopes.")
-@click.option("--figure", type=OutPath(), help="Draw contact forces over β to a file: .png, .svg or .pdf.")
+@keep_options("contact forces over β")
 @json_option
-def endless(beta: float | None, slope: float, figure: Path | None, as_json: bool) -> None:
+def endless(beta: float | None, slope: float, as_json: bool, **given: Any) -> None:
     """States of a rod far from its ends on the wall of a hole.
 
     P is compression, B the bending stiffness, D the distance of the axes, and q the normal load per length: lateral
@@ -59,25 +60,35 @@ def endless(beta: float | None, slope: float, figure: Path | None, as_json: bool
     from rodwell.analysis.endless.endless import endless as solve  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
 
+    where = take_keep(given)
     try:
         result = solve(beta, slope)
     except InputError as error:
         raise InputError(f"--{error.field}", error.value, error.reason) from None
-    if figure is not None:
-        _draw(result, figure)
     if as_json:
         print_json(result.as_dict())
     else:
         _print(result)
-        if figure is not None:
-            click.echo(f"\nWritten: {figure}")
+    keep(where, lambda: _numbers(result), quiet=as_json)
     check_missed([] if result.converged else ["a number of the endless rod"], 1e-8)
 
 
-def _draw(result: Endless, file: Path) -> None:
-    from rodwell.report.folders.pictures import write_picture  # noqa: PLC0415
+def _numbers(result: Endless) -> Numbers:
+    """States, or the loads of all states, as files; contact forces drawn."""
+    from rodwell.plots.endless import plot_endless  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
 
-    write_picture(result, file, "--figure")
+    rows: list[tuple[str, str, float, float, str]] = []
+    for name, load in result.loads.named().items():
+        if load is not None:
+            rows.append(("load", LOADS[name], load.value, load.error, "√(Bq/D)"))
+    for kind, state in result.states.items():
+        for name, unit in UNITS.items():
+            number: Value = getattr(state, name)
+            rows.append((kind, name.replace("_", " "), number.value, number.error, unit))
+    table = Table("endless", ("of", "number", "value", "error", "unit"), tuple(rows))
+    return Numbers("endless", result.as_dict(), table, lambda axes: plot_endless(result, axes))
 
 
 def _print(result: Endless) -> None:

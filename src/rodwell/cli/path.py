@@ -39,6 +39,8 @@ UNIT = "B/L²"
     show_default=True,
     help="What is controlled; with shortening, --until, --unload-to and --at are shortenings in L.",
 )
+@click.option("--axial-stiffness", type=float, help="EA of the rod in B/L², with --control shortening; else rigid.")
+@click.option("--spring", type=float, help="Stiffness in B/L³ of a spring that drives it, with --control shortening.")
 @click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
 @click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
 @click.option("--out", type=OutPath(), help="Folder for a figure of the path, load against shortening.")
@@ -49,6 +51,8 @@ def path(
     unload_to: float | None,
     at: str | None,
     control: str,
+    axial_stiffness: float | None,
+    spring: float | None,
     mirror: bool,
     seeds: int,
     out: Path | None,
@@ -73,7 +77,8 @@ def path(
 
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
-            problem, until=until, unload_to=unload_to, control=control, mirror=mirror, seeds=seeds, rtol=rtol,
+            problem, until=until, unload_to=unload_to, control=control, axial_stiffness=axial_stiffness, spring=spring,
+            mirror=mirror, seeds=seeds, rtol=rtol,
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
     if out is not None:
@@ -127,7 +132,9 @@ def _print(result: LoadPath) -> None:
     from rodwell.analysis.path.load_path import ASSUMPTIONS  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
-    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.control} is")
+    click.echo(
+        f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"
+    )
     click.echo(f"controlled. {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
     leg = ""
     for event in result.events:
@@ -135,12 +142,16 @@ def _print(result: LoadPath) -> None:
             leg = event.leg
             click.echo(f"{leg}:")
         where = _places(event.s)
-        click.echo(f"  {event.force.value:+.10g}  ± {event.force.error:.0e}  {event.meaning}{where}")
+        driven = result.driven(event)
+        at = "" if driven is None else f", {result.way.held} {driven.value:.9g} L"
+        click.echo(f"  {event.force.value:+.10g}  ± {event.force.error:.0e}  {event.meaning}{where}{at}")
         if event.to is not None:
             energy = f"energy {event.to.energy.value:+.9g} B/L relative to the straight rod"
+            energy += "" if driven is None else f", F = {event.to.force.value:+.10g}"
             click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
+    symbol = "F" if result.way.by_force else result.way.held
     if result.reached:
-        click.echo(f"Followed to F = {result.until:g}" + (
+        click.echo(f"Followed to {symbol} = {result.until:g}" + (
             "." if result.unload_to is None else f" and back to {result.unload_to:g}."
         ))  # fmt: skip
     else:
@@ -157,7 +168,7 @@ def _places(s: tuple[float, ...]) -> str:
 def _print_state(shown: PathState) -> None:
     state = shown.state
     index = shown.stability_index
-    held = "" if shown.control.by_force else " where the shortening is held"
+    held = "" if shown.control.by_force else f" where the {shown.control.held} is held"
     stable = f"stable{held}" if index == 0 else f"unstable{held}, index {index}"
     click.echo(f"\nF = {state.force:+.10g}, {shown.leg}: {state.kind}, {stable}")
     click.echo(

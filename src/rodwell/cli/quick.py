@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import (
     check_missed,
@@ -21,6 +22,10 @@ from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.branch import Branch
+    from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.analysis.loads.sensitivity import Sensitivity
+    from rodwell.analysis.loads.torsion import Torsion
+    from rodwell.report.folders.numbers import Numbers
 
 UNIT = "B/L²"
 
@@ -29,6 +34,7 @@ UNIT = "B/L²"
 @problem_options()
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0: it differs with twist.")
+@keep_options("the branch with its lift-off")
 @rtol_option
 @json_option
 def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -> None:
@@ -39,12 +45,13 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
     from rodwell.analysis.branch.symmetry import arms_differ  # noqa: PLC0415
+    from rodwell.analysis.state.own_places import lift_off_with_own_places  # noqa: PLC0415
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
-    from rodwell.answers.words.steps import steps_data, steps_note  # noqa: PLC0415
+    from rodwell.answers.words.steps import steps_data  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
-    problem = make_problem(given)
+    where, problem = take_keep(given), make_problem(given)
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
     differ = branch.mode is not None and arms_differ(problem, branch.mode.parity)
     other = follow(problem, mode, mirror=not mirror, rtol=rtol) if differ else None
@@ -61,25 +68,50 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         met = critical_loads(problem, 1, rtol=rtol).first_met
         load = Value(met.force, met.error)
     what = [line for one in (branch, other) if one is not None for line in missed(one)]
+    own = None if problem.hole is None else lift_off_with_own_places(problem, lift.solution.meshes, lift.solution.point)
+    data = {
+        "critical_load": buckling.force,
+        "critical_load_error": buckling.error,
+        "lift_off": {"force": load.value, "error": load.error, "s": list(places)},
+        "other_arm": _arm(other),
+        "coincides_with_buckling": branch.lift_off_at_buckling,
+        **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
+        **({} if own is None else {"lift_off_own_places": {"value": own.value, "error": own.error}}),
+        "converged": not what,
+        "unit": "B/L^2",
+        "convention": "end force at s = 1, tension positive; " + ends_text(problem),
+    }
     if as_json:
-        print_json(
-            {
-                "critical_load": buckling.force,
-                "critical_load_error": buckling.error,
-                "lift_off": {"force": load.value, "error": load.error, "s": list(places)},
-                "other_arm": _arm(other),
-                "coincides_with_buckling": branch.lift_off_at_buckling,
-                **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
-                "converged": not what,
-                "unit": "B/L^2",
-                "convention": "end force at s = 1, tension positive; " + ends_text(problem),
-            }
-        )
-        check_missed(what, rtol)
-        return
+        print_json(data)
+    else:
+        _print_liftoff(branch, other, lift, (load, own), tuple(places))
+        if what:
+            click.echo(f"Not every number meets the tolerance {plain(rtol)}.")
+    keep(where, lambda: _liftoff_numbers(data, branch, other), quiet=as_json)
+    check_missed(what, rtol)
+
+
+def _print_liftoff(
+    branch: Branch,
+    other: Branch | None,
+    lift: SpecialPoint,
+    loads: tuple[Value, Value | None],
+    places: tuple[float, ...],
+) -> None:
+    """The load with the wall's help, and of a curved hole that with every cross-section at its own place."""
+    from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
+    problem, buckling, (load, own) = branch.problem, branch.mode, loads
+    assert buckling is not None
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {buckling.number}  {with_error(buckling.load)}")
     click.echo(f"  lift-off            {with_error(load)}{places_text(places)}")
+    if own is not None:
+        click.echo(f"  with own places     {with_error(own)}")
+        wrapped(
+            "The branch takes the hole where the undeformed rod is; the last load has every cross-section at its own."
+        )
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
@@ -88,9 +120,31 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         wrapped(note)
     if load != lift.load:
         wrapped("Twist makes the rod leave the wall inwards before it buckles like a rod that is kept on it.")
-    if what:
-        click.echo(f"Not every number meets the tolerance {plain(rtol)}.")
-    check_missed(what, rtol)
+
+
+def _liftoff_numbers(data: dict[str, Any], branch: Branch, other: Branch | None) -> Numbers:
+    """Buckling and lift-off as files, and the branches drawn."""
+    from rodwell.analysis.straight.critical import CriticalLoads  # noqa: PLC0415
+    from rodwell.plots.bifurcation import plot_bifurcation  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    lift = data["lift_off"]
+    columns = ("event", "end force at s = 1, tension positive [B/L^2]", "error [B/L^2]", "places s/L")
+    rows: list[tuple[str, float, float, str]] = [
+        ("buckling", data["critical_load"], data["critical_load_error"], ""),
+        ("lift-off", lift["force"], lift["error"], " ".join(repr(s) for s in lift["s"])),
+    ]
+    if other is not None and other.lift_off is not None:
+        second = other.lift_off
+        rows.append(("lift-off of the other arm", second.force, second.error, " ".join(repr(s) for s in second.s)))
+    shown = [branch] if other is None else [branch, other]
+    return Numbers(
+        "liftoff",
+        data,
+        Table("liftoff", columns, tuple(rows)),
+        lambda axes: plot_bifurcation(shown, CriticalLoads(), None, axes),
+    )
 
 
 def _arm(other: Branch | None) -> dict[str, Any] | None:
@@ -120,6 +174,7 @@ def _print_arms(lift: Value, other: Branch | None) -> None:
 @click.command(short_help="How loads change with weight, inclination, clearance, twist.")
 @problem_options()
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
+@keep_options("the changes as bars")
 @rtol_option
 @json_option
 def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
@@ -131,15 +186,24 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
-    problem = make_problem(given)
+    where, problem = take_keep(given), make_problem(given)
     loads = sensitivities(problem, mode, rtol=rtol)
     missed = [load.name for load in loads if not load.converged]
+    convention = "end force F at s = 1 in B/L^2, tension positive; alpha in degrees; " + ends_text(problem)
+    data = {"loads": [load.as_dict() for load in loads], "convention": convention}
     if as_json:
-        convention = "end force F at s = 1 in B/L^2, tension positive; alpha in degrees; " + ends_text(problem)
-        print_json({"loads": [load.as_dict() for load in loads], "convention": convention})
-        check_missed(missed, rtol)
-        return
+        print_json(data)
+    else:
+        _print_sensitivities(loads)
+    keep(where, lambda: _sensitivity_numbers(data, loads), quiet=as_json)
+    check_missed(missed, rtol)
+
+
+def _print_sensitivities(loads: tuple[Sensitivity, ...]) -> None:
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
     for load in loads:
+        problem = load.problem
         click.echo(
             f"{load.name}: F = {signed(load.force, 10)} {UNIT} at s = 1 (tension positive), {ends_text(problem)}"
         )
@@ -153,7 +217,24 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
                 click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {with_error(slope)}")
         if load.note:
             click.echo(f"  {load.note}")
-    check_missed(missed, rtol)
+
+
+def _sensitivity_numbers(data: dict[str, Any], loads: tuple[Sensitivity, ...]) -> Numbers:
+    """Derivatives and elasticities as files, the latter drawn."""
+    from rodwell.plots.loads.sensitivity import plot_sensitivities  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("load", "end force at s = 1, tension positive [B/L^2]", "change of", "value", "error", "kind")
+    rows = []
+    for load in loads:
+        percent = load.elasticities() if load.force != 0.0 else {}
+        for kind, changes in (("derivative", load.derivatives), ("percent for 1 % (alpha: 1 degree)", percent)):
+            rows += [
+                (load.name, load.force, name, change.value, change.error, kind) for name, change in changes.items()
+            ]
+    table = Table("sensitivity", columns, tuple(rows))
+    return Numbers("sensitivity", data, table, lambda axes: plot_sensitivities(loads, axes))
 
 
 _PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁"}
@@ -176,6 +257,7 @@ _MORE = {
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")
 @click.option("--until", default=200.0, show_default=True, help="Largest |T₁| looked at, in B/L.")
+@keep_options("the contact pressure along the rod, twisted and not,")
 @rtol_option
 @json_option
 def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **given: Any) -> None:
@@ -184,20 +266,37 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
     The rod is prepared without twist (leave --twist at 0), then T₁ grows either way at constant end force.
     """
     from rodwell.analysis.loads.torsion import torsion  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
+    where = take_keep(given)
     result = torsion(make_problem(given), mode, mirror=mirror, until=until, rtol=rtol)
     what = [] if result.prepared.solution.converged else ["the state at lift-off"]
     if result.branch is not None and result.again is not None and not result.branch.meets_tolerance(result.again):
         what.append("the twist at which it lifts off again")
     if as_json:
         print_json(result.as_dict())
-        check_missed(what, rtol)
-        return
+    else:
+        _print_twist(result, mode)
+    keep(where, lambda: _twist_numbers(result), quiet=as_json)
+    check_missed(what, rtol)
+
+
+def _print_twist(result: Torsion, mode: int) -> None:
+    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+
     lift = result.prepared
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
     click.echo(f"  prepared at lift-off of mode {mode}  F = {with_error(lift.load)}")
     for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
         click.echo(f"  at s/L = {plain(s, 6)}  dp/dT₁ = {with_error(Value(rate, error), 6)} 1/L²")
     click.echo(result.meaning)
-    check_missed(what, rtol)
+
+
+def _twist_numbers(result: Torsion) -> Numbers:
+    """Rates of the contact pressure as files, the pressure drawn."""
+    from rodwell.plots.loads.twisting import plot_torsion  # noqa: PLC0415
+    from rodwell.quantities.table import Table  # noqa: PLC0415
+    from rodwell.report.folders.numbers import Numbers  # noqa: PLC0415
+
+    columns = ("place s/L", "dp/dT1 [1/L^2]", "error [1/L^2]")
+    rows = tuple(zip(result.prepared.s, result.rates, result.rate_errors, strict=True))
+    return Numbers("twist", result.as_dict(), Table("twist", columns, rows), lambda axes: plot_torsion(result, axes))

@@ -15,6 +15,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.symmetry import ODD, Reflection
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.plots.smooth import BETWEEN, smooth
 from rodwell.plots.style import (
     GREY,
     INK,
@@ -239,11 +240,12 @@ def _draw(ax: Any, line: _Line, look_of_line: dict[str, Any], look: _Look) -> No
     """Draw a line in pieces of one style: stable or not, on the wall or off it."""
     style = line.stable[1:].astype(int) + 2 * line.off[1:].astype(int)
     starts = np.flatnonzero(np.diff(style, prepend=-1))
+    force, y = smooth(line.force, line.y)
     for start, stop in zip(starts, [*starts[1:], len(style)], strict=True):
-        part = slice(start, stop + 1)
+        part = slice(BETWEEN * start, BETWEEN * stop + 1)
         solid, off = line.stable[start + 1], line.off[start + 1]
         ax.plot(
-            look.x(line.force[part]), line.y[part] * look.fy, lw=2.2 if solid else 1.0, alpha=PALE if off else 1.0,
+            look.x(force[part]), y[part] * look.fy, lw=2.2 if solid else 1.0, alpha=PALE if off else 1.0,
             ls=SOLID if solid else UNSTABLE, solid_capstyle="butt", **look_of_line,
         )  # fmt: skip
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -15,13 +16,12 @@ from matplotlib.lines import Line2D
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.plots.style import DASHDOT, INK, LIMIT, MODES, RC, WARN
 from rodwell.quantities.value import Value
-from rodwell.studies.sweep.labels import label
 from rodwell.studies.sweep.load_columns import fails, most_loads
 from rodwell.studies.sweep.loads import LoadResult
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import scales
-from rodwell.studies.sweep.varied import Varied
+from rodwell.studies.varied import Varied
 
 DASHES, DOTS = DASHDOT, LIMIT
 
@@ -42,7 +42,7 @@ def plot_study(study: Study) -> Figure:
     the load where that varies. Returns the figure.
     """
     scale, force, per, per_length = scales(study)
-    across, other = _axes_of(study)
+    across, other = axes_of(study.varied)
     families = _families(study, across, other)
     loads = {name: _scaled(study, name) for name in ("critical", "lift_off", "contact")}
     with mpl.rc_context(RC):
@@ -72,42 +72,40 @@ def plot_study(study: Study) -> Figure:
             ax.axhline(1.0, color=WARN, lw=1.0)
             ax.set_ylabel("safety factor\nat the load")
             ax.set_ylim(bottom=0.0)
-        _label_across(last[0] if last else lower, study.varied[across])
+        label_across(last[0] if last else lower, study.varied[across])
         figure.legend(handles=_key(study, families), loc="outside lower center", ncols=3, handlelength=3.0)
         left_out = 0 if other is None else len(study.varied[other].values) - len(families)
-        note = (
-            f"\n{left_out} values of {label(study.varied[other or 0].name)} are in the table only" if left_out else ""
-        )
+        note = f"\n{left_out} values of {study.varied[other or 0].called} are in the table only" if left_out else ""
         figure.suptitle(study.title + note, x=0.01, ha="left", fontsize=10)
         return figure
 
 
-def _axes_of(study: Study) -> tuple[int, int | None]:
+def axes_of(varied: Sequence[Varied]) -> tuple[int, int | None]:
     """Which input goes across, and which makes the family of curves."""
-    if len(study.varied) == 1:
+    if len(varied) == 1:
         return 0, None
-    sizes = [len(v.values) if v.numbers is not None else 0 for v in study.varied]
+    sizes = [len(v.values) if v.numbers is not None else 0 for v in varied]
     across = 0 if sizes[0] >= sizes[1] else 1
     return across, 1 - across
 
 
 def _families(study: Study, across: int, other: int | None) -> list[tuple[str, list[StudyPoint]]]:
     """Points of each curve, in the order of the input across, with the label of the curve."""
-    key = _position(study.varied[across])
+    key = position(study.varied[across])
     if other is None:
         return [("", sorted(study.points, key=lambda point: key[point.at[0]]))]
     count = len(study.varied[other].values)
     shown = sorted({int(i) for i in np.linspace(0, count - 1, min(count, MOST_CURVES)).round()})
     return [
         (
-            f"{label(study.varied[other].name)} {study.varied[other].text(i)}",
+            f"{study.varied[other].called} {study.varied[other].text(i)}",
             sorted((p for p in study.points if p.at[other] == i), key=lambda point: key[point.at[across]]),
         )
         for i in shown
     ]
 
 
-def _position(varied: Varied) -> tuple[float, ...]:
+def position(varied: Varied) -> tuple[float, ...]:
     """Where the values lie across: themselves, or one after the other if they are no numbers."""
     return varied.numbers or tuple(float(i) for i in range(len(varied.values)))
 
@@ -132,7 +130,7 @@ def _curve(
     scale: float, colour: str, dashes: Any,
 ) -> None:  # fmt: skip
     """One curve with its points; it is interrupted where a point has no value."""
-    place = _position(study.varied[across])
+    place = position(study.varied[across])
     x = [place[p.at[across]] for p in points]
     shown = [values.get(p.number, Value(math.nan)) for p in points]
     y, errors = np.array([v.value for v in shown]) / scale, np.array([v.error for v in shown]) / scale
@@ -151,7 +149,7 @@ def _switches(
         x, y = (
             0.5 * (one + two)
             for one, two in (
-                (_position(study.varied[across])[before.at[across]], _position(study.varied[across])[after.at[across]]),
+                (position(study.varied[across])[before.at[across]], position(study.varied[across])[after.at[across]]),
                 (values[before.number].value / scale, values[after.number].value / scale),
             )
         )
@@ -183,7 +181,7 @@ def _safety(study: Study) -> dict[int, Value]:
 
 def _loads(ax: Any, study: Study, across: int, points: list[StudyPoint], scale: float, colour: str) -> None:
     """The loads that act as compression at s = 1: dotted, with marks where the rod is buckled or worse."""
-    place = _position(study.varied[across])
+    place = position(study.varied[across])
     joined = DOTS if study.varied[across].numbers is not None else "none"
     for k in range(most_loads(study)):
         pairs = [(place[p.at[across]], p, p.loads[k]) for p in points if k < len(p.loads)]
@@ -202,7 +200,7 @@ def _key(study: Study, families: list[tuple[str, list[StudyPoint]]]) -> list[Lin
         Line2D([], [], color=plain, lw=1.7, label="buckles"),
         Line2D([], [], color=plain, lw=1.7, ls=DASHES, label="leaves the wall"),
     ]
-    across = _axes_of(study)[0]
+    across = axes_of(study.varied)[0]
     if any(_switched(study, across, points) for _, points in families):
         out.append(Line2D([], [], ls="none", label="another mode comes first", **SWITCH))
     if not study.load_varies:
@@ -220,7 +218,7 @@ def _ring_worst(
     ax: Any, study: Study, across: int, loads: dict[str, dict[int, Value]], scale: float, shown: set[int]
 ) -> None:
     """Ring the worst cases, as far as their curves are drawn."""
-    place = _position(study.varied[across])
+    place = position(study.varied[across])
     for name in () if study.load_varies else ("critical", "lift_off"):
         worst = study.worst(name)
         if worst is not None and worst.number in shown:
@@ -228,7 +226,8 @@ def _ring_worst(
             ax.plot(x, y, "o", ms=13, mfc="none", mec=WARN, mew=2.0, zorder=6, clip_on=False)
 
 
-def _label_across(ax: Any, varied: Varied) -> None:
+def label_across(ax: Any, varied: Varied) -> None:
+    """Label the axis of the input that goes across."""
     ax.set_xlabel(varied.label)
     if varied.numbers is None:
         ax.set_xticks(range(len(varied.values)), [str(value) for value in varied.values], rotation=15)

@@ -11,6 +11,8 @@ from rodwell.studies.audit.audit import Audit
 from rodwell.studies.audit.plain import audit_dict
 from rodwell.studies.drag.drag import Drag
 from rodwell.studies.drag.plain import drag_dict
+from rodwell.studies.drag.sweep.study import DragStudy
+from rodwell.studies.drag.sweep.tables import drag_study_dict
 from rodwell.studies.maps.plain import map_dict
 from rodwell.studies.maps.result import Map
 from rodwell.studies.packer.packer import PackerAnswer
@@ -48,6 +50,11 @@ def _(result: Map) -> dict[str, Any]:
 @plain.register
 def _(result: Drag) -> dict[str, Any]:
     return drag_dict(result)
+
+
+@plain.register
+def _(result: DragStudy) -> dict[str, Any]:
+    return drag_study_dict(result)
 
 
 @plain.register

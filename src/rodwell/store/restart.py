@@ -154,6 +154,7 @@ def _attributes(branch: Branch, points: int) -> dict[str, Any]:
         "switched": int(origin.switched),
         "parent": origin.parent or "",
         "mirror": int(origin.mirror),
+        "start_error": origin.error,
         "points": points,
         "end": branch.trace.end,
         "ended_because": branch.ended_because,
@@ -188,7 +189,8 @@ class _Reading:
         number = int(about["mode"])
         mode = critical_loads(self.problem, number, rtol=float(about["rtol"]))[-1] if number else None
         parent = str(about["parent"]) or None
-        origin = Origin(str(about["name"]), mode, bool(about["switched"]), parent, bool(about["mirror"]))
+        error = float(about.get("start_error", mode.error if mode else 0.0))
+        origin = Origin(str(about["name"]), mode, bool(about["switched"]), parent, bool(about["mirror"]), error)
         ending = bool(about["reached_end"]), str(about["ended_because"])
         return made(self.problem, origin, trace, *ending, str(about["parameter"]))
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import combinations
 
 import numpy as np
 
@@ -12,9 +13,10 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import Following, branch_off, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
-from rodwell.analysis.branch.symmetry import images
+from rodwell.analysis.branch.symmetry import arms_alike
 from rodwell.analysis.discrete.family import reflections
-from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.analysis.straight.critical import CriticalLoads, Mode
+from rodwell.analysis.straight.mixed import mixed_modes
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
 
@@ -52,9 +54,28 @@ class Exploration:
         """Follow the branches of the modes met on the way, both arms unless one is the image of the other."""
         followed = [mode for mode in self.critical if mode.force > self.until]
         for i, mode in enumerate(followed):
-            tell(f"branch of mode {mode.number}", 0.6 * i / len(followed))
-            for mirror in (False, True) if len(images(self.problem, mode.parity)) == 1 else (False,):
+            tell(f"branch of {mode.name}", 0.6 * i / len(followed))
+            for mirror in self._arms(mode):
                 self.branches.append(self._follow(mode, until=self.until, mirror=mirror))
+        for modes in _double(followed):
+            self._follow_mixed(*modes)
+
+    def _follow_mixed(self, first: Mode, second: Mode) -> None:
+        """Follow what leaves a double critical load along both of its modes."""
+        for number, mode in enumerate(mixed_modes(self.problem, first, second), 1):
+            name = mode.name + (f", direction {number}" if number > 1 else "")
+            for mirror in self._arms(mode):
+                try:
+                    branch = self._follow(mode, until=self.until, mirror=mirror)
+                except NotConvergedError as error:
+                    self.unexplored.append(f"{name} at F = {mode.force:.8g}: {error}")
+                    continue
+                origin = replace(branch.origin, name=name + (", mirror arm" if mirror else ""))
+                self.branches.append(branch.renamed(origin))
+
+    def _arms(self, mode: Mode) -> tuple[bool, ...]:
+        """Whether the usual arm is followed and the mirrored one, unless one is the image of the other."""
+        return (False,) if arms_alike(self.problem, mode.parity) else (False, True)
 
     def continue_in(self, parameter: str, until: float) -> None:
         """Continue each branch that reached its end in another parameter."""
@@ -130,6 +151,11 @@ class Exploration:
                 if other is not branch and point.kind == BRANCH_POINT and same_state(point.solution, end):
                     self.joints.append(Joint(other.name, branch.name, point.force))
                     return
+
+
+def _double(modes: Sequence[Mode]) -> Iterator[tuple[Mode, Mode]]:
+    """Pairs of modes whose critical loads cannot be told apart."""
+    return ((a, b) for a, b in combinations(modes, 2) if b.number in a.together)
 
 
 def same_state(a: Solution, b: Solution) -> bool:

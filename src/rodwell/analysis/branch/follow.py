@@ -9,7 +9,7 @@ from rodwell.analysis.branch.functionals import Numbers, checked_numbers
 from rodwell.analysis.branch.making import continued, made
 from rodwell.analysis.branch.solution import Solution, solution_of
 from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
-from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state
+from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state, crossing
 from rodwell.analysis.branch.tracing import Progress, traced
 from rodwell.analysis.branch.watching import Watched
 from rodwell.analysis.discrete import first_run
@@ -19,6 +19,7 @@ from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.straight.lying import least_contact
 from rodwell.errors import InputError, NotConvergedError, checked_whole, unknown_name
 from rodwell.numerics.continuation.closing import CLOSED
+from rodwell.numerics.continuation.events import Leaving
 from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
@@ -145,7 +146,7 @@ def _from_straight(
         )
     if first.wavenumber < RIGID:
         raise NotConvergedError(
-            f"mode {first.number} turns the rod as a whole (its wavenumber is {first.wavenumber:.2g} rad/L): it has no "
+            f"{first.name} turns the rod as a whole (its wavenumber is {first.wavenumber:.2g} rad/L): it has no "
             "buckled branch that could be followed; hold an end, or take the next mode"
         )
     start, stepping = at_critical(problem, first, until, mirror, how.rtol), how.stepping(FIRST_STEP)
@@ -153,19 +154,22 @@ def _from_straight(
     if until is None and problem.untouched:  # lift-off coincides with buckling
         stepping = replace(stepping, most_points=2)
     how.watched.tried(solution_of(problem, "force", start[1], start[0]))
+    simple = len(first.together) == 1
+    leaves = Leaving(falling=first.number - 1, rising=first.number) if simple else Leaving()
     result = traced(
-        problem, start, limit, stepping, at_lift_off=until is None, switched=True, progress=how.progress,
+        problem, start, limit, stepping, at_lift_off=until is None, leaves=leaves, progress=how.progress,
         halt=how.watched.halt(problem, "force"),
     )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(
-            f"mode {first.number} could not be followed from its critical load {first.force:.6g} B/L²: {result.end}"
+            f"{first.name} could not be followed from its critical load {first.force:.6g} B/L²: {result.end}"
         )
     if until is None and problem.untouched:
         result.end = LIFT_OFF
     reached = result.end == (LIFT_OFF if until is None else END)
-    origin = Origin(f"mode {first.number}" + (", mirror arm" if mirror else ""), first, switched=True)
-    return how.watched.seen(made(problem, replace(origin, mirror=mirror), result, reached, result.end))
+    name = first.name + (", mirror arm" if mirror else "")
+    origin = Origin(name, None if first.mixed else first, switched=True, mirror=mirror, error=first.error)
+    return how.watched.seen(made(problem, origin, result, reached, result.end))
 
 
 def _check_pressed(problem: Problem, mode: Mode) -> None:
@@ -192,10 +196,15 @@ def from_state(problem: Problem, start: Solution, parameter: str, until: float |
         raise InputError("start", start, f"belongs to another problem ({differ}): follow it in what differs first")
     if until == start.value_of(parameter):
         raise InputError("until", until, "must differ from the value at the start")
+    if not start.point.fine.c.any() and parameter == "force":
+        reason = (
+            "is the rod that has not buckled, which stays so at any end force: follow a mode from its critical load"
+        )
+        raise InputError("start", start, reason)
     begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
     how.watched.tried(start)
     result = traced(
-        problem, begin, until, stepping, parameter=parameter, switched=False, progress=how.progress,
+        problem, begin, until, stepping, parameter=parameter, progress=how.progress,
         halt=how.watched.halt(problem, parameter),
     )  # fmt: skip
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
@@ -254,13 +263,13 @@ def branch_off(
     watched.tried(point.solution)
     start, stepping = at_branch_point(point, mirror, how.rtol), how.stepping(FIRST_STEP)
     result = traced(
-        problem, start, until, stepping, parameter=parameter, switched=True, progress=progress,
+        problem, start, until, stepping, parameter=parameter, leaves=crossing(point), progress=progress,
         halt=watched.halt(problem, parameter),
     )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
-    name = origin or Origin(f"secondary from {point.value:.6g}", switched=True)
-    return watched.seen(made(problem, name, result, result.end in (END, REJOINS, CLOSED), result.end, parameter))
+    origin = replace(origin or Origin(f"secondary from {point.value:.6g}", switched=True), error=point.error)
+    return watched.seen(made(problem, origin, result, result.end in (END, REJOINS, CLOSED), result.end, parameter))
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
@@ -273,7 +282,7 @@ def extended(branch: Branch, until: float, *, progress: Progress | None = None) 
     """
     until = checked_force("until", until)
     stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
-    result = traced(branch.problem, branch.last, until, stepping, switched=False, progress=progress)
+    result = traced(branch.problem, branch.last, until, stepping, progress=progress)
     return continued(branch, result, result.end == END, result.end)
 
 

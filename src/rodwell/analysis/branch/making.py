@@ -82,16 +82,16 @@ class _Finding:
 
     def _start(self) -> SpecialPoint:
         """The point where the branch leaves another one, or the straight rod."""
-        trace, mode = self.trace, self.origin.mode
+        trace, origin = self.trace, self.origin
         point = trace.points[0]
         first, before = self._solution(point, trace.meshes[0]), point.fine.index
-        kind, error = (BRANCH_POINT, float(point.lam_gap)) if mode is None else (CRITICAL, mode.error)
+        kind = BRANCH_POINT if point.fine.c.any() else CRITICAL
         index, places = before, tuple[float, ...]()
         if len(trace.points) > 1:
             index = int(index_at_start(trace))
-            if self.problem.untouched and mode is not None:  # it lifts off as it buckles
+            if self.problem.untouched and kind == CRITICAL:  # it lifts off as it buckles
                 places = self._solution(trace.points[1], trace.meshes[1]).highest_pressure[2]
-        reached = Value(point.lam, error)
+        reached = Value(point.lam, max(origin.error, float(point.lam_gap)))
         return SpecialPoint(kind, first.force, reached, places, before, index, first, 0, self.parameter)
 
     def _special(self, event: LocatedEvent, *, met: bool) -> SpecialPoint:

@@ -116,6 +116,8 @@ class Origin:
         Name of the branch that it leaves there.
     mirror
         Whether it is the other of the two arms of its mode, ω₂(1) > 0.
+    error
+        Estimate of the error of the parameter at its start, where it leaves another.
     """
 
     name: str
@@ -123,6 +125,7 @@ class Origin:
     switched: bool = False
     parent: str | None = None
     mirror: bool = False
+    error: float = 0.0
 
 
 def index_at_start(trace: Trace) -> int:

@@ -14,7 +14,7 @@ from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.continuation.events import INDEX, LocatedEvent
+from rodwell.numerics.continuation.events import INDEX, Leaving, LocatedEvent
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.stretch import NEARLY, events_between
 from rodwell.numerics.equilibria.family import Family
@@ -122,6 +122,15 @@ def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
     return meshes, meshes.point(*states)
 
 
+def crossing(point: SpecialPoint) -> Leaving:
+    """What is known of the index of a branch that crosses another at a branch point."""
+    before, after = point.index_before, point.index_after
+    if abs(after - before) != 1:
+        return Leaving()
+    along = point.solution.point.fine.tangent_lam < 0.0
+    return Leaving(falling=before, rising=after) if along else Leaving(falling=after, rising=before)
+
+
 def _share_of_tangent(equilibria: Family, state: State, vector: FloatArray) -> float:
     """How much of the branch's tangent t belongs to the direction v + τ t of the branch that crosses it.
 
@@ -192,7 +201,7 @@ def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
         if len(points) < 2 or points[0].fine.index == points[1].fine.index:
             continue
         try:
-            events = events_between(meshes, points[0], points[1], (), opening=False, leaves=False)
+            events = events_between(meshes, points[0], points[1], (), opening=False)
         except LocationError:
             continue
         changes = [f for f in events if f.name == INDEX and not f.fold and f.certain]

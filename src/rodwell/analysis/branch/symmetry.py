@@ -70,12 +70,20 @@ def reflections(problem: Problem) -> tuple[Reflection, ...]:
     return tuple(found)
 
 
+def arms_alike(problem: Problem, parity: int) -> bool:
+    """Whether a reflection makes one arm of a branch that leaves the straight rod of the other.
+
+    ``parity`` is that of its states, 0 if they have none.
+    """
+    return any(r.sign * (parity if r.turned else 1) < 0 for r in reflections(problem))
+
+
 def arms_differ(problem: Problem, parity: int) -> bool:
     """Whether the two arms of a mode of this parity are no images of each other, of a rod pressed to the wall.
 
     Where nothing presses it to the wall it leaves the wall as it buckles, whichever arm it takes.
     """
-    return not problem.untouched and len(images(problem, parity)) == 1
+    return not problem.untouched and not arms_alike(problem, parity)
 
 
 def images(problem: Problem, parity: int) -> tuple[Reflection, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from rodwell.analysis.branch.special import END, EQUAL_ENERGY, LIFT_OFF, OUT_OF_RANGE, REJOINS, STRAIGHT
 from rodwell.analysis.branch.starts import Start, rejoined
 from rodwell.analysis.discrete.measures import STEEPEST, Measured
-from rodwell.numerics.continuation.events import INDEX, TURN, Event, LocatedEvent
+from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, LocatedEvent
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.walk import Halt, Stepping, Trace, trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -43,7 +43,7 @@ def traced(
     *,
     at_lift_off: bool = False,
     parameter: str = "force",
-    switched: bool,
+    leaves: Leaving | None = None,
     progress: Progress | None,
     halt: Halt | None = None,
 ) -> Trace:
@@ -79,7 +79,7 @@ def traced(
         return REJOINS
 
     report = None if progress is None else lambda p: progress(p.lam)
-    result = trace(meshes, point, stepping, events, stop=stop, switched=switched, progress=report, halt=halt)
+    result = trace(meshes, point, stepping, events, stop=stop, leaves=leaves, progress=report, halt=halt)
     if result.end == REJOINS:
         return _ended_at(result, meeting(result.found[-1]))
     return _end_exactly(result, until)

@@ -40,8 +40,8 @@ FIRST_CONTACT = 5e-4
 SHORTEST_CONTACT = 1.2e-4
 """Length below which no contact stretch starts, though what happens next is passed over with it."""
 
-HALVINGS, ALONE = 6, 3
-"""How often a first gap is halved, and how often before others open with it that would be next."""
+HALVINGS, ROUNDS = 5, 3
+"""Sizes of a first gap, each half the one before; and how often others that would open next open with it."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
          GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
@@ -87,30 +87,39 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
 
     ``part``: of the first length that a gap usually starts with.
     """
-    half, first = part * FIRST_GAP / wavenumber(state.model, state.load), vanished[0]
-    vanished = list(vanished)
-    contact, last = 2.2 * FIRST_CONTACT, None
-    for tried in range(HALVINGS):
-        plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
-        for condition in sorted(vanished, key=lambda one: -one.s):
-            _EDITS[condition.kind](plan, condition)
-        pattern = Pattern(tuple(plan.touching), state.pattern.turns)
-        sample = lowered(sampler(state.solved.shape), plan.bumps)
-        found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
-        if found is not None:
+    first, vanished, last = vanished[0], list(vanished), None
+    size = part * FIRST_GAP / wavenumber(state.model, state.load)
+    for _ in range(ROUNDS):
+        spots: list[float] = []
+        for halved in range(HALVINGS):
+            half, contact = size * 0.5**halved, max(2.2 * FIRST_CONTACT * 0.5**halved, SHORTEST_CONTACT)
+            plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
+            for condition in sorted(vanished, key=lambda one: -one.s):
+                _EDITS[condition.kind](plan, condition)
+            pattern = Pattern(tuple(plan.touching), state.pattern.turns)
+            sample = lowered(sampler(state.solved.shape), plan.bumps)
+            found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
+            if found is None:
+                continue
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
             last = Changed(found, _growing(first, found, plan), NAMES[first.kind])
             if not hurt or first.kind not in (OPENS, GROWS, GROWS_AT_END):
                 return last
-            spots = [one.s for one in hurt if one.kind == OPENS and tried >= ALONE]
-            known = [one.s for one in vanished]
-            vanished += [
-                one for one in conditions(state)
-                if one.kind == OPENS and min(abs(one.s - s) for s in known) > 1e-6
-                and any(abs(one.s - s) < 2.0 * half for s in spots)
-            ]  # fmt: skip
-        half, contact = 0.5 * half, max(0.5 * contact, SHORTEST_CONTACT)
+            spots = [one.s for one in hurt if one.kind == OPENS] or spots
+        following = _next(state, vanished, spots, size)
+        if not following:
+            break
+        vanished += following
     return last if first.kind in (GROWS, GROWS_AT_END) else None
+
+
+def _next(state: PatternedState, vanished: list[Condition], spots: list[float], near: float) -> list[Condition]:
+    """Gaps that open next, at places where contact would pull beside those that have opened before."""
+    known = [one.s for one in vanished]
+    return [
+        one for one in conditions(state)
+        if one.kind == OPENS and min(abs(one.s - s) for s in known) > 1e-6 and any(abs(one.s - s) < near for s in spots)
+    ]  # fmt: skip
 
 
 def _just_now(condition: Condition) -> bool:
@@ -192,13 +201,15 @@ def _release(plan: _Plan, condition: Condition) -> None:
     """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
     problem = plan.state.model.problem
     weight = max(problem.lateral_weight, 1e-3)
-    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 0.01, 0.3))
+    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 2e-3, 0.3))
     if condition.number:
         plan.touching.append(False)
         plan.breaks.append(1.0 - length)
+        plan.pair = (1.0 - length, 1.0)
     else:
         plan.touching.insert(0, False)
         plan.breaks.insert(0, length)
+        plan.pair = (0.0, length)
 
 
 _EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}

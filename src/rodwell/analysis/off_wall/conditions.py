@@ -34,6 +34,13 @@ PER_ELEMENT = 12
 CLOSER, ZOOMS = 9, 4
 """Places of each closer look at a minimum, and how many looks: the last are some thousandths of an element apart."""
 
+NOISE = 1e-10
+"""A gap, over the polynomial with which it opens, is not known better than this: it is round-off over that."""
+
+KNOWN_FORCE = 5e-6
+"""A force at the end of a stretch in contact is known to this part of |F|^{3/2} on the elements along a path, whose third
+derivative it comes from: an end of a gap that has just opened may seem to pull by less."""
+
 EDGE = 0.02
 """Part of a free stretch at either end where the gap is left to the conditions on forces and curvature."""
 
@@ -85,11 +92,17 @@ def conditions(state: PatternedState) -> list[Condition]:
         found += pressing(state, i) if on else [apart(state, i)]
     for i in range(pattern.breaks):
         place = float(solved.shape.breaks[i])
-        found.append(Condition(LOST if pattern.is_point(i) else LEAVES, i, float(solved.forces[i]), place))
+        found.append(Condition(LOST if pattern.is_point(i) else LEAVES, i, _pushing(state, i), place))
         if pattern.is_point(i):
             found.append(Condition(GROWS, i, float(solved.openings[i]), place))
     found += [at for last in (False, True) if (at := _at_end(state, last)) is not None]
     return found
+
+
+def _pushing(state: PatternedState, i: int) -> float:
+    """The concentrated force at a break; at an end of a stretch in contact as far as it is certain that it pulls."""
+    force = float(state.solved.forces[i])
+    return force if state.pattern.is_point(i) else force + KNOWN_FORCE * abs(state.load) ** 1.5
 
 
 def _at_end(state: PatternedState, last: bool) -> Condition | None:
@@ -159,7 +172,7 @@ def apart(state: PatternedState, stretch: int) -> Condition:
             value, part = lowest(gap, np.linspace(low, high, PER_ELEMENT + 1))
             if value < best:
                 best, where = value, start + h * part
-    return Condition(TOUCHES, stretch, best, where)
+    return Condition(TOUCHES, stretch, 0.0 if abs(best) < NOISE else best, where)
 
 
 def _power(state: PatternedState, stretch: int, last: bool) -> int:
@@ -200,4 +213,4 @@ def watched(condition: Condition, state: PatternedState) -> float:
     if condition.kind in (GROWS_AT_END, UNHELD):
         at = _at_end(state, bool(condition.number))
         return np.nan if at is None else at.value
-    return float(state.solved.forces[condition.number])
+    return _pushing(state, condition.number)

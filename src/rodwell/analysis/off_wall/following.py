@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.happening import (
     END,
     FOLD,
     LOAD_PEAK,
+    TOGETHER,
     Followed,
     PathEvent,
     together,
@@ -49,11 +50,17 @@ PAST = 0.02
 SHORT_GAP = 0.3
 """Length of a gap, times the wavenumber, below which it is about to close."""
 
+SEARCH, FARTHEST = 1e-4, 0.4
+"""First and longest step in which the place is sought where a short stretch has vanished."""
+
 SMALLEST_PART = 0.1
 """A gap that opens is tried down to this part of its usual first length."""
 
 NEARLY = 1e-9
 """A condition that is missed by no more than this is as good as met."""
+
+MOST_EARLIER = 6
+"""How often within a step something is found that happens before what was found first."""
 
 MOST_STATES = 2000
 
@@ -147,6 +154,20 @@ class _Walker:
 
     def _first_event(self, new: PatternedState, turned: Motion) -> PathEvent | None:
         """The first thing that happens within a step, located; kind "" where it could not be: the step is shortened."""
+        event = None
+        for _ in range(MOST_EARLIER):
+            found = self._located(new, turned)
+            if found is None:
+                return event
+            event = found
+            if not event.kind or not self._earlier(event, new):
+                return event
+            new, turned = event.state, tangent(event.state.solved, self.along)
+        self._shorten(f"contact changes too often beyond F = {self.state.load:.8g} B/L²")
+        return PathEvent("", self.state)
+
+    def _located(self, new: PatternedState, turned: Motion) -> PathEvent | None:
+        """What is seen to happen within a step by what holds at its ends; the first of it along the tangent."""
         state = self.state
         broken = [one for one in conditions(new) if one.value < 0.0]
         candidates = [(one.kind, watch(one, state)) for one in broken]
@@ -171,6 +192,20 @@ class _Walker:
             return event
         at_once = together(event.state, broken, number)
         return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
+
+    def _earlier(self, event: PathEvent, new: PatternedState) -> bool:
+        """Whether a condition is missed at an event already, since the path bends within the step."""
+        before, after = (
+            {(one.kind, one.number): abs(one.value) for one in sorted(conditions(state), key=lambda one: -one.value)}
+            for state in (self.state, new)
+        )
+        known = {(one.kind, one.number) for one in event.together}
+        for one in conditions(event.state):
+            key = one.kind, one.number
+            size = max(before.get(key, 0.0), after.get(key, 0.0))
+            if key not in known and one.value < -TOGETHER * size and before.get(key, 0.0) > 0.0:
+                return True
+        return False
 
     def _turned(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
         """At a fold or a change of the index: go on, or end."""
@@ -261,10 +296,12 @@ class _Walker:
             return False
         after, condition = found
         along = tangent_in_load(after.state.solved, self.along.load)
-        at = search(after.state.model, after.state.solved, along, after.grows, 1e-4, 0.2)
+        at = search(after.state.model, after.state.solved, along, after.grows, SEARCH, FARTHEST)
         if at is None or (self.control.value(at) - self.until) * self.sense > 0.0:  # not before the end
             return False
         there = PatternedState(after.state.pattern, after.state.elements, at)
+        if any(one.value < -NEARLY * max(abs(there.load), 1.0) for one in conditions(there)):
+            return False
         places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))
         self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
         self._enter(Changed(there, after.grows, after.name))

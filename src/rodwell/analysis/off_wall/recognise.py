@@ -11,6 +11,7 @@ import numpy as np
 from rodwell.analysis.off_wall.arrange import arranged, solved
 from rodwell.analysis.off_wall.changes import changed
 from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
+from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.carry import Sampler, sampler
@@ -52,10 +53,10 @@ class _Piece(NamedTuple):
     right: float
 
 
-def recognised(model: RodInHole, shape: Shape) -> PatternedState | None:
+def recognised(model: RodInHole, shape: Shape, control: Control, value: float) -> PatternedState | None:
     """The stable equilibrium behind the hard wall close to a minimum behind a soft one; None if none was found.
 
-    The wall is made stiffer until the pattern that it shows can be solved for: forces that are concentrated behind a
+    The controlled quantity has the value given. The wall is made stiffer until the pattern that it shows can be solved for: forces that are concentrated behind a
     hard wall are spread over lengths like k^(−1/4).
     """
     for stiffness in STIFFNESSES:
@@ -64,17 +65,17 @@ def recognised(model: RodInHole, shape: Shape) -> PatternedState | None:
                 model, Pattern((False,)), np.zeros(0), shape.load, sampler(shape), degree=shape.chain.degree,
                 elements=(2 * shape.chain.elements,),
             )  # fmt: skip
-        low = descended(model, shape, stiffness)
+        low = descended(model, shape, stiffness, control.row(shape.chain, value), control.index_at)
         if low is None:
             return None
         shape = low.shape
-        state = _solved(model, shape, stiffness, low.out.energy)
+        state = _solved(model, shape, stiffness, low.out.energy, control)
         if state is not None:
             return state
     return None
 
 
-def _solved(model: RodInHole, shape: Shape, stiffness: float, energy: float) -> PatternedState | None:
+def _solved(model: RodInHole, shape: Shape, stiffness: float, energy: float, control: Control) -> PatternedState | None:
     """The valid, stable state of the pattern of a minimum behind a soft wall."""
     sample = sampler(shape)
     s = np.linspace(0.0, 1.0, SAMPLES + 1)
@@ -84,18 +85,18 @@ def _solved(model: RodInHole, shape: Shape, stiffness: float, energy: float) -> 
     for tried, (touching, breaks) in enumerate(_readings(_pieces(s, depth > 0.0), stiffness**-0.25)):
         if tried >= MOST_TRIES:
             return None
-        state = _polished(model, Pattern(touching, turns), breaks, shape.load, sample)
+        state = _polished(model, Pattern(touching, turns), breaks, shape.load, sample, control)
         if state is not None and abs(state.solved.out.energy - energy) <= NEAR * abs(energy) + TINY:
             return state
     return None
 
 
 def _polished(
-    model: RodInHole, pattern: Pattern, breaks: FloatArray, load: float, sample: Sampler
+    model: RodInHole, pattern: Pattern, breaks: FloatArray, load: float, sample: Sampler, control: Control
 ) -> PatternedState | None:
     state = solved(model, pattern, breaks, load, sample)
     state = None if state is None else _put_right(state)
-    return state if state is not None and state.solved.index == 0 else None
+    return state if state is not None and control.index_at(state.solved) == 0 else None
 
 
 def _pieces(s: FloatArray, deep: BoolArray) -> list[_Piece]:

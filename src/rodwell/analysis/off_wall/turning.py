@@ -29,8 +29,7 @@ def turning_points(
     found: list[tuple[str, Callable[[Solved], float]]] = []
     if along.load * turned.load < 0.0:
         found.append((FOLD if control.by_force else LOAD_PEAK, load_rate(along)))
-    back = (control.value(new.solved) - control.value(state.solved)) * sense < 0.0
-    if not control.by_force and back:
+    if not control.by_force and control.rate(new.solved, turned) * sense < 0.0:
         found.append((FOLD, lambda one: control.rate(one, tangent(one, along))))
     before = control.index(state.solved, along, sense)
     if before != control.index(new.solved, turned, sense) and not any(kind == FOLD for kind, _ in found):

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from rodwell.analysis.off_wall.control import CONTROLS, Control
+from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import checked_force
+
+SOFTEST, STIFFEST = 1e-6, 1e18
+"""Range of stiffnesses in series, in units B = L = 1."""
+
+MOST_DRIVEN = 1e9
+"""Largest shortening, in L, of a driven end behind something soft."""
+
+ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; leave it out for a rigid one"
 
 
 def checked_problem(problem: Problem) -> None:
@@ -37,11 +45,21 @@ def checked_problem(problem: Problem) -> None:
         raise InputError("ends", "-".join(problem.ends), "loose ends have no load path yet: take ball or free")
 
 
-def checked_control(control: str) -> Control:
-    """Return what is controlled, or raise."""
-    if control not in CONTROLS:
-        raise InputError("control", control, f"must be one of {', '.join(CONTROLS)}")
-    return CONTROLS[control]
+def checked_control(problem: Problem, control: str, axial_stiffness: float | None, spring: float | None) -> Control:
+    """Return what is controlled, with what gives way in series, or raise."""
+    if control not in NAMES:
+        raise InputError("control", control, f"must be one of {', '.join(NAMES)}")
+    compliance = 0.0
+    for field, value in (("axial_stiffness", axial_stiffness), ("spring", spring)):
+        if value is None:
+            continue
+        if control == "force":
+            raise InputError(
+                field, value, "a dead load takes no notice of it: it counts where the shortening is controlled "
+                "(control = shortening)",
+            )  # fmt: skip
+        compliance += 1.0 / checked_number(field, value, SOFTEST, STIFFEST, ALLOWED)
+    return FORCE if control == "force" else shortening(problem, compliance)
 
 
 def checked_range(control: Control, until: float, unload_to: float | None) -> tuple[float, float | None]:
@@ -52,11 +70,13 @@ def checked_range(control: Control, until: float, unload_to: float | None) -> tu
         if unload_to is not None and unload_to <= until:
             raise InputError("unload_to", unload_to, f"must be above until, {until:g} B/L²: less compression")
         return until, unload_to
-    until = checked_number("until", until, 0.0, 1.0, "above 0 and below 1: a shortening in L")
-    if until in (0.0, 1.0):
-        raise InputError("until", until, "must be above 0 and below 1: a shortening in L")
+    high = MOST_DRIVEN if control.compliance else 1.0
+    allowed = f"above 0 and below {high:g}: a shortening in L"
+    until = checked_number("until", until, 0.0, high, allowed)
+    if until in (0.0, high):
+        raise InputError("until", until, f"must be {allowed}")
     if unload_to is not None:
-        unload_to = checked_number("unload_to", unload_to, 0.0, 1.0, "from 0 to 1: a shortening in L")
+        unload_to = checked_number("unload_to", unload_to, 0.0, high, f"from 0 to {high:g}: a shortening in L")
         if unload_to >= until:
             raise InputError("unload_to", unload_to, f"must be below until, {until:g} L: less shortening")
     return until, unload_to

@@ -40,22 +40,24 @@ MEANING = {
 
 @dataclass(frozen=True)
 class Destination:
-    """Where a snap leads: the kind of state, its turns around the hole, its energy at the load of the snap.
+    """Where a snap leads: the kind of state, its turns around the hole, its energy relative to the straight rod.
 
+    ``force`` is the end force there: that of the snap, where it is controlled, and another one, where the shortening is.
     ``starts`` is how many disturbed starts were tried, ``agree`` how many ended in this state or its mirror image.
     """
 
     kind: str
     turns: int
     energy: Value
+    force: Value
     starts: int
     agree: int
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
         return {
-            "state": self.kind, "turns": self.turns, "energy": plain(self.energy), "starts": self.starts,
-            "agree": self.agree,
+            "state": self.kind, "turns": self.turns, "energy": plain(self.energy), "force": plain(self.force),
+            "starts": self.starts, "agree": self.agree,
         }  # fmt: skip
 
 

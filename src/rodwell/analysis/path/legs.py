@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import at_load, solved
+from rodwell.analysis.off_wall.arrange import solved
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import END, Followed
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
-from rodwell.analysis.off_wall.resolve import resolved_event
+from rodwell.analysis.off_wall.resolve import UNKNOWN, resolved_event
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
@@ -85,7 +85,7 @@ def straight_state(model: RodInHole, load: float) -> PatternedState:
 
 
 def walked(start: PatternedState | None, model: RodInHole, begin: float, target: float, leg: Leg, how: How) -> Walked:
-    """Go from a state, or the straight rod, at the end force ``begin`` to ``target``."""
+    """Go from a state, or the straight rod, to ``target``: ``begin`` and it are values of what is controlled."""
     out = Walked(leg, last=start)
     sense = float(np.sign(target - begin))
     for _ in range(MOST_SNAPS):
@@ -96,20 +96,15 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
             continue
         path = followed(out.last, target, control=how.control, progress=how.progress)
         if _came_to_rest(out, path, how):
-            begin = how.mode.force
+            begin = how.control.of_straight(how.mode.force)
             continue
         leg.runs.append(path.states)
         out.last = path.last
         _tell(out, path, how)
         if path.ended == END:
             out.ended = END
-        elif path.ended in (FOLD, BRANCH_POINT) and not how.control.by_force:
-            out.ended = (
-                f"the state ceases to be stable at F = {path.last.load:.8g} B/L² while its {how.control.name} is held; "
-                "where the rod goes from there is found for a controlled end force only"
-            )
         elif path.ended in (FOLD, BRANCH_POINT):
-            begin = path.last.load
+            begin = how.control.value(path.last.solved)
             _give_way(out, path, sense, how)
         else:
             out.ended = path.ended
@@ -121,18 +116,22 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
 
 def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, sense: float, how: How) -> float:
     """Keep the rod straight as far as it is; return where it buckles."""
-    if not how.control.by_force:
-        out.ended = END if sense < 0.0 else "the buckled rod on the wall, where the path begins, is not stable"
-        return target
-    critical = Value(how.mode.force, how.mode.error)
-    if sense > 0.0 or target >= critical.value:
-        out.leg.straight.append((begin, target))
+    control, critical = how.control, Value(how.mode.force, how.mode.error)
+    first, last, buckles = (
+        control.straight_load(begin),
+        control.straight_load(target),
+        control.of_straight(how.mode.force),
+    )
+    if (sense > 0.0) == control.by_force or (target - buckles) * sense <= 0.0:
+        if first is not None and last is not None:
+            out.leg.straight.append((first, last))
         out.ended = END
         return target
-    out.leg.straight.append((begin, critical.value))
+    if first is not None:
+        out.leg.straight.append((first, critical.value))
     out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
-    _to(out, straight_state(model, critical.value), sense, how, critical)
-    return critical.value
+    _to(out, straight_state(model, critical.value), sense, how, critical, buckles)
+    return buckles
 
 
 def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
@@ -179,25 +178,29 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
         out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
         out.last = None
         return
-    load = Value(last.load, 0.0)
+    load, finer = Value(last.load, 0.0), last
     if path.events and path.events[-1].value is not None:
-        load = resolved_event(path.events[-1], how.rtol).load
-    _to(out, last, sense, how, load)
+        resolved = resolved_event(path.events[-1], how.rtol)
+        load, finer = resolved.load, resolved.event.state
+    held = load.value if how.control.by_force else how.control.value(finer.solved)
+    _to(out, last, sense, how, load, held, fold=path.ended == FOLD)
 
 
-def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value) -> None:
-    """Go where the flow leads from a state that gives way at a load."""
-    snap = None
+def _to(
+    out: Walked, event: PatternedState, sense: float, how: How, load: Value, held: float, *, fold: bool = False
+) -> None:
+    """Go where the flow leads from a state that gives way at a load, with ``held`` of what is controlled."""
+    control, snap = how.control, None
     for beyond in BEYOND_BUCKLING if _flat(event) else (BEYOND,):
-        snap = snap or snapped(event, sense, how.seeds, beyond)
+        snap = snap or snapped(event, sense, how.seeds, control, beyond)
     if snap is None:
         out.ended = (
             f"the rod gives way at F = {load.value:.8g} B/L², and where it goes was not resolved: no minimum found by "
             "descent could be solved for with its contacts"
         )
         return
-    found, at = _destination(snap, load)
-    if _continuous(event, snap.state, at):
+    found, at = _destination(snap, control, held)
+    if not fold and _continuous(event, snap.state, at, control):
         kind = BRANCH_POINT
         if _flat(event):
             kind = "" if found.fine.pattern.full else LIFT_OFF
@@ -205,25 +208,35 @@ def _to(out: Walked, event: PatternedState, sense: float, how: How, load: Value)
             out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
     else:
         energy = Value(0.0, 0.0) if found.kind == STRAIGHT else found.energy
-        to = Destination(found.kind, found.turns, energy, snap.tried, snap.agree)
+        to = Destination(found.kind, found.turns, energy, _load_after(found, control, held), snap.tried, snap.agree)
         out.events.append(PathPoint(SNAP, load, (), out.leg.name, to, found))
     out.last = None if found.kind == STRAIGHT else snap.state
 
 
-def _continuous(event: PatternedState, after: PatternedState, at: PatternedState | None) -> bool:
-    """Whether the state after an event grows out of that before: at the load of the event itself they are the same."""
+def _continuous(event: PatternedState, after: PatternedState, at: PatternedState | None, control: Control) -> bool:
+    """Whether the state after an event grows out of that before: at the event itself they are the same."""
     if at is None:
         return True  # it exists beyond that load only
-    before, beyond = event.solved.out.energy, after.solved.out.energy
-    there = at.solved.out.energy
+    before, beyond, there = (control.potential(one.solved) for one in (event, after, at))
     if _flat(event):
-        return abs(there) < 0.1 * abs(beyond)
-    return abs(there - before) < NO_DROP * max(abs(there), abs(before))
+        return abs(there - before) < 0.1 * abs(beyond - before)
+    same_load = abs(at.load - event.load) <= NO_DROP * abs(event.load)
+    return same_load and abs(there - before) < NO_DROP * max(abs(there), abs(before))
 
 
-def _destination(snap: Snap, load: Value) -> tuple[ContactState, PatternedState | None]:
-    """The state after a snap, at the load of the snap if it exists there, else where the flow was."""
-    at = at_load(snap.state, load.value)
-    if at is not None and (at.solved.index or any(one.value < -SLACK * abs(load.value) for one in conditions(at))):
-        at = None
+def _load_after(found: ContactState, control: Control, held: float) -> Value:
+    """The end force after a snap, with the estimate of its error."""
+    if control.by_force:
+        return Value(found.force, 0.0)
+    finer = control.at(found.fine, held)
+    error = abs(finer.load - found.force) if finer is not None else UNKNOWN * abs(found.force)
+    return Value(found.force if finer is None else finer.load, error)
+
+
+def _destination(snap: Snap, control: Control, held: float) -> tuple[ContactState, PatternedState | None]:
+    """The state after a snap, at the load (or shortening) of the snap if it exists there, else where the flow was."""
+    at = control.at(snap.state, held)
+    if at is not None:
+        valid = all(one.value >= -SLACK * abs(at.load) for one in conditions(at))
+        at = at if valid and not control.index_at(at.solved) else None
     return contact_state(at if at is not None else snap.state), at

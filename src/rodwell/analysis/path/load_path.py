@@ -11,14 +11,14 @@ import numpy as np
 
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
-from rodwell.analysis.off_wall.control import CONTROLS, FORCE, Control
+from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.state import ContactState, contact_state
+from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
 from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, straight_state, walked
-from rodwell.analysis.path.start import on_wall
+from rodwell.analysis.path.start import OnWall, carried, on_wall, released
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
@@ -54,7 +54,8 @@ class PathState:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
-        return {"leg": self.leg, **self.state.as_dict(), "stability_index": self.stability_index}
+        more = {} if self.control.by_force else {"driven": self.control.value(self.state.fine.solved)}
+        return {"leg": self.leg, **self.state.as_dict(), **more, "stability_index": self.stability_index}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +83,8 @@ class LoadPath(Shown):
         Whether it took the other arm of the buckling mode.
     control
         What is controlled: "force" or "shortening".
+    compliance
+        Of what gives way in series with the shape, 1/EA + 1/k in L³/B; 0: rigid.
     """
 
     problem: Problem
@@ -94,6 +97,12 @@ class LoadPath(Shown):
     rtol: float
     mirror: bool = False
     control: str = "force"
+    compliance: float = 0.0
+
+    @property
+    def way(self) -> Control:
+        """What is controlled."""
+        return FORCE if self.control == "force" else shortening(self.problem, self.compliance)
 
     def __repr__(self) -> str:
         unit = "B/L²" if self.control == "force" else "L of shortening"
@@ -133,7 +142,7 @@ class LoadPath(Shown):
             If the state could not be solved for.
         """
         value = checked_force(self.control, value)
-        control = CONTROLS[self.control]
+        control = self.way
         found = [
             PathState(leg.name, self._on(leg, value, control), control)
             for leg in self.legs if _passes(leg, value, control)
@@ -151,8 +160,8 @@ class LoadPath(Shown):
 
     def _on(self, leg: Leg, value: float, control: Control) -> ContactState:
         model = RodInHole(self.problem)
-        if control.by_force and any(min(a, b) <= value <= max(a, b) for a, b in leg.straight):
-            return contact_state(straight_state(model, value))
+        if _straight(leg, value, control):
+            return contact_state(straight_state(model, control.straight_load(value) or 0.0))
         for near in leg.near(value, control):
             state = control.at(near, value)
             if state is not None and all(one.value > -1e-9 for one in conditions(state)):
@@ -183,13 +192,28 @@ class LoadPath(Shown):
     def as_dict(self, at: Sequence[float] = ()) -> dict[str, Any]:
         """Plain data, for JSON, with the states at the end forces ``at``."""
         return {
-            "events": [one.as_dict() for one in self.events],
+            "events": [{**one.as_dict(), **self._driven(one)} for one in self.events],
             "states": [one for force in at for one in self._plain_states(force)],
             "reached": self.reached,
             "ended_because": self.ended_because,
             "control": self.control,
+            "compliance": self.compliance,
             "assumptions": ASSUMPTIONS,
         }
+
+    def _driven(self, event: PathPoint) -> dict[str, Any]:
+        """The controlled shortening at an event, for JSON."""
+        found = self.driven(event)
+        return {} if found is None else {"driven": plain(found)}
+
+    def driven(self, event: PathPoint) -> Value | None:
+        """The shortening of the driven end at an event, in L, with its error; None where the end force is controlled."""
+        if self.way.by_force:
+            return None
+        force, own = event.force, Value(0.0, 0.0) if event.state is None else event.state.shortening
+        if event.to is not None:
+            force = event.to.force
+        return Value(own.value - self.compliance * force.value, own.error + self.compliance * force.error)
 
     def _plain_states(self, force: float) -> list[dict[str, Any]]:
         """States at an end force as plain data, or why there is none."""
@@ -203,9 +227,14 @@ class LoadPath(Shown):
         return drawn(self, ax)
 
 
+def _straight(leg: Leg, value: float, control: Control) -> bool:
+    """Whether the rod is straight on a leg at a value of what is controlled."""
+    load = control.straight_load(value)
+    return load is not None and any(min(a, b) <= load <= max(a, b) for a, b in leg.straight)
+
+
 def _passes(leg: Leg, value: float, control: Control) -> bool:
-    straight = control.by_force and any(min(a, b) <= value <= max(a, b) for a, b in leg.straight)
-    return straight or bool(leg.near(value, control))
+    return _straight(leg, value, control) or bool(leg.near(value, control))
 
 
 def load_path(
@@ -214,6 +243,8 @@ def load_path(
     until: float,
     unload_to: float | None = None,
     control: str = "force",
+    axial_stiffness: float | None = None,
+    spring: float | None = None,
     mirror: bool = False,
     seeds: int = SEEDS,
     rtol: float = RTOL,
@@ -233,6 +264,11 @@ def load_path(
         "force": the end force is a dead load; or "shortening": the approach of the ends is prescribed, as by a stiff
         machine. Then ``until`` and ``unload_to`` are shortenings in L, the load may pass extrema, and the stability
         index is that of the rod so held.
+    axial_stiffness, spring
+        EA of the rod in B/L², and stiffness k in B/L³ of a spring through which it is driven, where the shortening is
+        controlled; None: rigid. Then ``until`` and ``unload_to`` are those of the driven end, u − F/EA − F/k with the
+        shortening u of the shape, counted from the straight rod without end force. What the strain F/EA changes in the
+        shape is left out.
     mirror
         The other of the two arms of the buckling mode: with twist they differ.
     seeds
@@ -251,7 +287,7 @@ def load_path(
     """
     checked_problem(problem)
     first_run.begin(problem)
-    rtol, way = checked_rtol(rtol), checked_control(control)
+    rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
     until, unload_to = checked_range(way, until, unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
     mode = critical_loads(problem, 1, rtol=rtol)[0]
@@ -267,34 +303,39 @@ def load_path(
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
     events = tuple(event for walk in walks for event in walk.events)
     legs = tuple(walk.leg for walk in walks)
-    return LoadPath(problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name)
+    return LoadPath(problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance)
 
 
 def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
     model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
     control, sense = how.control, -1.0 if how.control.by_force else 1.0
-    if control.by_force and until >= how.mode.force:
-        return walked(None, model, max(top, until), until, leg, how)
-    stays = problem.pressed and "ball" not in problem.ends
+    if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
+        begin = max(top, until) if control.by_force else control.of_straight(top)
+        return walked(None, model, begin, until, leg, how)
 
     def before(state: PatternedState) -> bool:
         return (until - control.value(state.solved)) * sense > 0.0
 
-    begun = on_wall(problem, 1, mirror, how.rtol, before) if stays else None
-    if begun is None:
-        return walked(None, model, top if control.by_force else 0.0, until, leg, how)
-    critical = PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), LOADING)
+    begun, start = None, None
+    if "ball" in problem.ends:
+        start = released(problem, mirror, how.rtol)
+    elif problem.pressed:
+        begun = on_wall(problem, 1, mirror, how.rtol, before)
+        start = None if begun is None else begun.start
+    if start is None or not before(start):
+        return walked(None, model, control.of_straight(top), until, leg, how)
+    critical = Value(how.mode.force, how.mode.error)
     leg.straight.append((top, how.mode.force))
-    out = walked(begun.start, model, control.value(begun.start.solved), until, leg, how)
-    out.events.insert(0, critical)
-    _add_wall(leg, model, begun)
+    out = walked(start, model, control.value(start.solved), until, leg, how)
+    kinds = (CRITICAL, LIFT_OFF) if begun is None else (CRITICAL,)
+    out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
+    if begun is not None:
+        _add_wall(leg, model, begun)
     return out
 
 
-def _add_wall(leg: Leg, model: RodInHole, begun: Any) -> None:
+def _add_wall(leg: Leg, model: RodInHole, begun: OnWall) -> None:
     """States on the wall before the chains begin, as chains too: for curves and for states at loads."""
-    from rodwell.analysis.path.start import carried  # noqa: PLC0415
-
     states = [carried(model, begun.branch[i]) for i in begun.states[:-1]]
     leg.runs[0] = [state for state in states if state is not None] + leg.runs[0]

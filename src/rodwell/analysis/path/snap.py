@@ -1,8 +1,8 @@
 """Where a rod goes when its state ceases to be stable: downhill, from the direction in which it gave way.
 
-The state is kicked along the softest direction, either way, and by small random disturbances, at a load just beyond;
-the gradient flow behind a soft wall leads to a minimum, whose pattern of contact is then solved for behind the hard
-wall. Frictionless, and without inertia: a rod that swings may end elsewhere.
+The state is kicked along the softest direction, either way, and by small random disturbances, just beyond that load (or
+that shortening, where it is controlled); the gradient flow behind a soft wall leads to a minimum, whose pattern of
+contact is then solved for behind the hard wall. Frictionless, and without inertia: a rod that swings may end elsewhere.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.arrange import arranged, wavenumber
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.recognise import recognised
 from rodwell.numerics.stretches.assembly import bubbles_of
@@ -23,7 +24,7 @@ from rodwell.numerics.stretches.newton import Solved, softest
 from rodwell.quantities.arrays import FloatArray
 
 BEYOND = 1e-3
-"""How far beyond the loss of stability the flow starts, relative to the load."""
+"""How far beyond the loss of stability the flow starts, relative to the load, or the shortening."""
 
 BEYOND_BUCKLING = (2e-4, 2e-3, 1e-2)
 """The same for the straight rod, tried one after the other: what branches off from it is small at first."""
@@ -48,7 +49,8 @@ class Snap:
     """Where the flow leads, and how sure that is.
 
     ``agree`` of ``tried`` starts ended in ``state``, or its mirror image; ``others`` are the energies of other minima
-    behind the soft wall, in BΔ²/L³.
+    behind the soft wall, in BΔ²/L³
+    (where the shortening is controlled, without the work of the load).
     """
 
     state: PatternedState
@@ -57,47 +59,49 @@ class Snap:
     others: tuple[float, ...]
 
 
-def snapped(event: PatternedState, sense: float, seeds: int, beyond: float = BEYOND) -> Snap | None:
-    """The state to which the rod goes from one that has just ceased to be stable; ``sense`` of the load's change.
+def snapped(event: PatternedState, sense: float, seeds: int, control: Control, beyond: float = BEYOND) -> Snap | None:
+    """The state to which the rod goes from one that has just ceased to be stable; ``sense`` in which
+    the controlled quantity changes.
 
     None if no start led to a state that could be solved.
     """
-    load = event.load + sense * beyond * max(abs(event.load), 1.0)
+    value = control.value(event.solved)
+    value += sense * beyond * control.scale(value, event.load)
     minima: list[Solved] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
-            low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), load)
+            low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), control, value)
             if low is not None:
                 minima.append(low)
-    scale = abs(event.solved.out.energy)
-    for group in _alike(minima, scale):
-        state = recognised(event.model, group[0].shape)
+    for group in _alike(minima, event.solved, control):
+        state = recognised(event.model, group[0].shape, control, value)
         if state is not None:
-            others = tuple(sorted({round(one.out.energy, 9) for one in minima if one not in group}))
+            others = tuple(sorted({round(control.potential(one), 9) for one in minima if one not in group}))
             return Snap(state, 2 * seeds, len(group), others)
     return None
 
 
-def _alike(minima: list[Solved], scale: float) -> list[list[Solved]]:
+def _alike(minima: list[Solved], event: Solved, control: Control) -> list[list[Solved]]:
     """Minima of equal energy, which are the same up to mirror images; the largest group first, then the lowest."""
     groups: list[list[Solved]] = []
-    for one in sorted(minima, key=lambda low: low.out.energy):
-        size = SAME_ENERGY * max(abs(one.out.energy), scale)
-        if groups and abs(groups[-1][0].out.energy - one.out.energy) <= size:
+    energy, scale = control.potential, abs(control.potential(event))
+    for one in sorted(minima, key=energy):
+        size = SAME_ENERGY * max(abs(energy(one)), scale)
+        if groups and abs(energy(groups[-1][0]) - energy(one)) <= size:
             groups[-1].append(one)
         else:
             groups.append([one])
-    return sorted(groups, key=lambda group: (-len(group), group[0].out.energy))
+    return sorted(groups, key=lambda group: (-len(group), energy(group[0])))
 
 
-def _flowed(event: PatternedState, sample: Sampler, load: float) -> Solved | None:
-    """The minimum behind a soft wall to which the flow leads from a sampled shape at a load."""
-    model = event.model
+def _flowed(event: PatternedState, sample: Sampler, control: Control, value: float) -> Solved | None:
+    """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held."""
+    model, load = event.model, value if control.by_force else event.load
     count = max(FEWEST_ELEMENTS, int(np.ceil(ELEMENTS_PER_HALF_WAVE * wavenumber(model, load) / np.pi)))
     shape, _ = arranged(
         model, Pattern((False,), event.pattern.turns), np.zeros(0), load, sample, degree=FLOW_DEGREE, elements=(count,)
     )
-    return descended(model, shape, STIFFNESS)
+    return descended(model, shape, STIFFNESS, control.row(shape.chain, value), control.index_at)
 
 
 def _kicked(state: Solved, sign: float) -> Shape:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,15 +11,18 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.arrange import solved
-from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.changes import changed
+from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.turning import growing_direction
 from rodwell.numerics.stretches.carry import Sampler, rim_fields
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
-ENOUGH = 0.02
-"""Largest angle around the hole, in radians, from which on a buckled state is a start for a chain."""
+ENOUGH, MOST = 0.02, 0.6
+"""Largest angle around the hole, in radians, from which on a buckled state is a start for a chain; and up to which the
+rod with ball joints is sought beside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +76,30 @@ def on_wall(
             start = carried(model, branch[i])
             if start is not None and start.solved.index == 0 and before(start):
                 return OnWall(branch, tuple(k for k in kept if k <= i), start)
+    return None
+
+
+def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | None:
+    """The first state of a rod with ball joints, which leaves the wall there as soon as it buckles.
+
+    From the rod that is radially held there instead, buckled a little. None where no such state was found that is
+    stable and from which on the load grows: what follows then is for the descent to find.
+    """
+    first, second = ("pinned" if end == "ball" else end for end in problem.ends)
+    model = RodInHole(problem)
+    branch = follow(replace(problem, ends=(first, second)), 1, until=None, mirror=mirror, rtol=rtol)
+    for i in range(1, len(branch)):
+        amplitude = _amplitude(branch[i])
+        if amplitude > MOST:
+            return None
+        kept = carried(model, branch[i]) if amplitude >= ENOUGH else None
+        if kept is None:
+            continue
+        after = changed(kept, [one for one in conditions(kept) if one.kind == UNHELD])
+        if after is None or after.state.solved.index:
+            continue
+        if all(one.value > 0.0 for one in conditions(after.state)):
+            return after.state if growing_direction(after, -1.0).load < 0.0 else None
     return None
 
 

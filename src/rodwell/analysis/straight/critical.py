@@ -11,6 +11,7 @@ from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
 from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
+from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
 from rodwell.analysis.straight.scale import load_noise, load_scale
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
@@ -55,6 +56,11 @@ class Mode:
     space, coefficients
         The mode as a spline; y''(1) > 0, so ω₂(1) < 0: the paper's "downward" branch. At an end that can turn, where
         y''(1) = 0: y'(1) < 0 if it is pinned, y(1) < 0 if it is free.
+    together
+        Numbers of the modes whose loads cannot be told from this one, which is among them.
+    mixed
+        Whether this is a direction in which a branch leaves along all of those at once; ``number`` is that of the
+        first.
     """
 
     problem: Problem
@@ -65,9 +71,16 @@ class Mode:
     space: SplineSpace
     coefficients: FloatArray
     coarse: tuple[SplineSpace, FloatArray]
+    together: tuple[int, ...]
+    mixed: bool = False
 
     def __repr__(self) -> str:
-        return f"<Mode {self.number} at F = {self.force:.10g} B/L², {self.wavenumber / np.pi:.3g} half waves>"
+        return f"<{self.name.capitalize()} at F = {self.force:.10g} B/L², {self.wavenumber / np.pi:.3g} half waves>"
+
+    @property
+    def name(self) -> str:
+        """In words: "mode 1", or "modes 1 and 2" of a mixed one."""
+        return "modes " + " and ".join(map(str, self.together)) if self.mixed else f"mode {self.number}"
 
     @property
     def force(self) -> float:
@@ -182,12 +195,15 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
                 "ask for fewer modes or a larger rtol"
             )
         space, values, vectors = finer, better, shapes
-    better, shapes = _with_symmetry(problem, finer, better[:count], shapes)
-    _, vectors = _with_symmetry(problem, space, values[:count], vectors)
+    few = close_to_last(better, count)
+    better, shapes = told_apart(finer, _factors(problem, finer), better[:few], shapes, symmetric=problem.symmetric)
+    _, vectors = told_apart(space, _factors(problem, space), values[:few], vectors, symmetric=problem.symmetric)
+    error = np.append(error, np.full(few - count, error[-1]))
     return CriticalLoads(
-        _mode(problem, finer, i + 1, Value(-float(better[i]), float(error[i])), shapes[i], (space, vectors[i]))
+        _mode(problem, finer, equal_to(better, error, i), i + 1, Value(-float(better[i]), float(error[i])), shapes[i],
+              (space, vectors[i]))
         for i in range(int(count))
-    )
+    )  # fmt: skip
 
 
 def tensile_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> CriticalLoads:
@@ -220,10 +236,13 @@ def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> 
     found = loads_of_lying_rod(problem, count, rtol, tension)
     if found is None:
         return []
+    loads = [value_of(found, i) for i in range(len(found.vectors))]
+    forces, errors = np.array([load.value for load in loads]), np.array([load.error for load in loads])
     return [
-        _mode(problem, found.space, i + 1, value_of(found, i), shape, (found.coarse_space, found.coarse_vectors[i]))
+        _mode(problem, found.space, equal_to(forces, errors, i), i + 1, loads[i], shape,
+              (found.coarse_space, found.coarse_vectors[i]))
         for i, shape in enumerate(found.vectors)
-    ]
+    ]  # fmt: skip
 
 
 def _factors(problem: Problem, space: SplineSpace) -> FloatArray:
@@ -265,35 +284,6 @@ def _solve(
     return values, full(vectors)
 
 
-def _with_symmetry(
-    problem: Problem, space: SplineSpace, values: FloatArray, vectors: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Turn vectors of (nearly) equal values into even and odd ones, where the problem is symmetric; values likewise."""
-    if not problem.symmetric:
-        return values, vectors
-    out, values = vectors[: len(values)].copy(), values.copy()
-    factors = _factors(problem, space) * space.weights
-    i = 0
-    while i < len(values):
-        j = i + 1
-        while j < len(values) and values[j] - values[i] < 1e-6 * (abs(values[i]) + 1.0):
-            j += 1
-        if j == i + 1:  # even or odd by itself
-            i = j
-            continue
-        slopes = np.array([space.at_points(v)[1] for v in out[i:j]])
-        mirrored = np.array([space.at_points(v[::-1])[1] for v in out[i:j]])
-        reflection = (slopes * space.weights) @ mirrored.T
-        _, turn = np.linalg.eigh(0.5 * (reflection + reflection.T))
-        out[i:j] = turn.T @ out[i:j]
-        fields = [space.at_points(v) for v in out[i:j]]  # values of the vectors as they are now
-        quotients = np.array([np.sum(factors * f**2) / (space.weights @ f[1] ** 2) for f in fields])
-        order = np.argsort(quotients)
-        values[i:j], out[i:j] = quotients[order], out[i:j][order]
-        i = j
-    return values, out
-
-
 def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
     """What tells the arms of a mode apart: y''(1), or, where that vanishes, −y'(1) if pinned, −y(1) if free."""
     y, slope, bend = space.evaluate(vector, np.array([1.0]), 3)[:, 0]
@@ -303,6 +293,7 @@ def _sense(problem: Problem, space: SplineSpace, vector: FloatArray) -> float:
 def _mode(
     problem: Problem,
     space: SplineSpace,
+    together: tuple[int, ...],
     number: int,
     load: Value,
     vector: FloatArray,
@@ -317,4 +308,4 @@ def _mode(
     wavenumber = space.wavenumber(vector)
     if problem.weight == 0.0 and wavenumber < RIGID:
         load = Value(0.0, load.error)
-    return Mode(problem, number, load, parity, wavenumber, space, vector, coarse)
+    return Mode(problem, number, load, parity, wavenumber, space, vector, coarse, together)

@@ -32,7 +32,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
 MOST_PROBLEMS = 40
 """As many as are explained at once; each explanation takes a moment."""
 
-_RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$")
+RANGE_LIKE = re.compile(r"\.\..*\sin\s+\S+\s*$")
 
 SIMILAR, ALIKE = 0.55, 0.8
 """How alike a known key must be to be offered, and to be offered before a section that has the key as written."""
@@ -40,13 +40,19 @@ SIMILAR, ALIKE = 0.55, 0.8
 SHORTEST_PART = 4
 """Letters that a part of a key must have at least to be taken for it: yield for yield_strength."""
 
-LIST = (
+_LIST = (
     "; a list of values is a parameter study: declare it with study = true at the top of the file, before the first "
-    "section (`rodwell run` then computes one case for each value)"
+    "section (`rodwell {}` then computes one {} for each value)"
+)
+_RANGE = "; this is a range, a parameter study: compute it with `rodwell {}`, or give one value here"
+_STUDY = "; the file is a parameter study: compute it with `rodwell {}`, or give one value here"
+LIST, RANGE, STUDY = _LIST.format("run", "case"), _RANGE.format("run"), _STUDY.format("run")
+LIST_OF_WELLS, RANGE_OF_WELLS, STUDY_OF_WELLS = (
+    _LIST.format("drag", "well"),
+    _RANGE.format("drag"),
+    _STUDY.format("drag"),
 )
 TAPER = "; a taper, or a string of several pipes, is written as one [[string]] for each section"
-RANGE = "; this is a range, a parameter study: compute it with `rodwell run`, or give one value here"
-STUDY = "; the file is a parameter study: compute it with `rodwell run`, or give one value here"
 TAPERED = (
     "outer_diameter", "inner_diameter", "youngs_modulus", "bending_stiffness", "torsional_stiffness", "density",
     "weight_per_length", "poisson", "pipe", "material", "grade", "yield_strength",
@@ -126,7 +132,7 @@ def _several(location: tuple[int | str, ...], value: object, declared: bool) -> 
     if len(location) != 2 or location[0] not in SECTIONS or location[0] in ("analysis", "catalogue"):
         return ""
     if isinstance(value, str):
-        return RANGE if len(value) <= LONGEST_VALUE and _RANGE_LIKE.search(value) else ""
+        return RANGE if len(value) <= LONGEST_VALUE and RANGE_LIKE.search(value) else ""
     if not isinstance(value, list | tuple) or location[1] in ("until", "applied"):
         return ""
     return (STUDY if declared else LIST) + (TAPER if location[0] == "rod" and location[1] in TAPERED else "")

@@ -10,13 +10,27 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from rodwell.case.case import CaseError
-from rodwell.case.checks.explain import MOST_PROBLEMS, SIMILAR, plain
+from rodwell.case.checks.explain import (
+    LIST_OF_WELLS,
+    MOST_PROBLEMS,
+    RANGE_LIKE,
+    RANGE_OF_WELLS,
+    SIMILAR,
+    STUDY_OF_WELLS,
+    plain,
+)
 from rodwell.case.file import printable_data
 from rodwell.case.well.schema import WellFile
-from rodwell.errors import InputError
+from rodwell.errors import LONGEST_VALUE, InputError
 
-_LISTED = {"string": "[[string]]", "hole.section": "[[hole.section]]", "well.operation": "[[well.operation]]"}
+LISTED = {"string": "[[string]]", "hole.section": "[[hole.section]]", "well.operation": "[[well.operation]]"}
 """Tables in double brackets, by their place."""
+
+VARY = ("hole", "mud", "pressure", "well")
+"""Sections of which keys may vary in a parameter study."""
+
+ROAD_MAP = ("well", "road_map")
+"""A section of lists that are lists."""
 
 _ELSEWHERE = {
     "rod": "is not taken in the file of a well: the string stands in [[string]], a section for each pipe, from the bit "
@@ -44,11 +58,11 @@ def read_well(data: Mapping[str, Any], source: str) -> WellFile:
     try:
         return WellFile.model_validate(printable_data(data))
     except ValidationError as error:
-        raise CaseError(source, problems(error)) from None
+        raise CaseError(source, problems(error, data.get("study") is True)) from None
 
 
-def problems(error: ValidationError) -> list[tuple[str, object, str]]:
-    """What is wrong, in the user's words: (key, value, what to do)."""
+def problems(error: ValidationError, declared: bool = False) -> list[tuple[str, object, str]]:
+    """What is wrong, in the user's words: (key, value, what to do). ``declared``: the file is a parameter study."""
     out = []
     for item in error.errors()[:MOST_PROBLEMS]:
         location = item["loc"]
@@ -57,11 +71,20 @@ def problems(error: ValidationError) -> list[tuple[str, object, str]]:
             out.append((named(location), value, _unknown(location)))
         elif item["type"] == "missing":
             out.append((named(location), None, "is missing; add it"))
-        elif item["type"] in ("tuple_type", "list_type") and _table(location) in _LISTED:
-            out.append((named(location), value, f"must be a table in double brackets: {_LISTED[_table(location)]}"))
+        elif item["type"] in ("tuple_type", "list_type") and _table(location) in LISTED:
+            out.append((named(location), value, f"must be a table in double brackets: {LISTED[_table(location)]}"))
         else:
-            out.append((named(location), value, _reason(item)))
+            out.append((named(location), value, _reason(item) + _several(location, item["input"], declared)))
     return out
+
+
+def _several(location: tuple[int | str, ...], value: object, declared: bool) -> str:
+    """What to say of a list or a range where one value is asked for, beside what is wrong with it."""
+    if isinstance(value, str):
+        return RANGE_OF_WELLS if len(value) <= LONGEST_VALUE and RANGE_LIKE.search(value) else ""
+    if not isinstance(value, list | tuple) or location[0] not in VARY or location[:2] == ROAD_MAP:
+        return ""
+    return STUDY_OF_WELLS if declared else LIST_OF_WELLS
 
 
 def _reason(item: Any) -> str:
@@ -80,15 +103,16 @@ def _reason(item: Any) -> str:
 
 
 def _table(location: tuple[int | str, ...]) -> str:
+    """Sections and key of a place, without numbers."""
     return ".".join(str(part) for part in location if isinstance(part, str))
 
 
 def named(location: tuple[int | str, ...]) -> str:
     """How a place in the file is called: "[[string]] 2, length", "hole.diameter"."""
     for i, part in enumerate(location):
-        if isinstance(part, int) and (table := _table(location[:i])) in _LISTED:
+        if isinstance(part, int) and (table := _table(location[:i])) in LISTED:
             rest = _table(location[i + 1 :])
-            return f"{_LISTED[table]} {part + 1}" + (f", {rest}" if rest else "")
+            return f"{LISTED[table]} {part + 1}" + (f", {rest}" if rest else "")
     return ".".join(str(part) for part in location)
 
 

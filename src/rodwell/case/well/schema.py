@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, StrictBool
 
 from rodwell.case.hole.schema import DepthUnit
 from rodwell.case.kinds import (
@@ -116,5 +116,8 @@ class WellFile(SectionInput):
     mud: Mud | None = None
     pressure: PressureAtEnd | None = None
     well: WellInput = Field(default_factory=WellInput)
+    study: StrictBool | None = _key(
+        None, "`true` makes each list of values a parameter study; a range makes one by itself", True
+    )
     catalogue: CatalogueFiles | None = None
     report: ReportInput | None = None

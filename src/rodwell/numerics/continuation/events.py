@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rodwell.numerics.continuation.location import LocatedZero
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.quantities.arrays import FloatArray
 
@@ -47,6 +48,24 @@ class LocatedEvent:
     fold: bool = False
     certain: bool = True
     after: int = 0
+
+
+@dataclass(frozen=True)
+class Leaving:
+    """That a branch leaves another where it starts, and the stability index that it has from there on.
+
+    ``falling`` is the index if λ falls, ``rising`` if it grows. Where one eigenvalue vanishes, two branches that cross
+    exchange their stability: this one has on one side of λ the index that the other has on the other side. See M. G.
+    Crandall, P. H. Rabinowitz, *Arch. Ration. Mech. Anal.* 52 (1973) 161–180. None where nothing is known.
+    """
+
+    falling: int | None = None
+    rising: int | None = None
+
+    def index(self, state: State) -> int:
+        """The index that the branch has where it is at ``state``, right behind its start."""
+        expected = self.falling if state.tangent_lam < 0.0 else self.rising
+        return state.index if expected is None else expected
 
 
 Placed = tuple[float, LocatedEvent]

@@ -6,11 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
+from rodwell.numerics.continuation.at_rest import passes_rest
 from rodwell.numerics.continuation.crossings import Crossing, index_crossings
 from rodwell.numerics.continuation.events import (
     INDEX,
     TURN,
     Event,
+    Leaving,
     LocatedEvent,
     Placed,
     found_at,
@@ -43,13 +45,15 @@ ROUGHLY = 1e-5
 singular and round-off hides the place from there on: what is exact there is the branch point that it meets."""
 
 SHORT_OF = 0.98
-"""Part of the way to where a branch meets its mirror image up to which its index is looked at."""
+"""Part of the way to where a branch meets its mirror image, or rest, up to which its index is looked at."""
 
 LEFT_THE_BRANCH = "the step has left the branch: the stability index and the sense in λ do not go together"
 """The sign of det H, which the index tells, and the sense of travel in λ change together along a branch of regular
 points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there. What
 may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods in
 Bifurcation Problems* (1987), chapter 5."""
+
+LEFT_THE_START = "the first step has left the branch: its stability index is not that of a branch that crosses there"
 
 TINY = 1e-300
 """Stands for zero in a denominator."""
@@ -65,15 +69,15 @@ def events_between(
     events: Sequence[Event],
     *,
     opening: bool,
-    leaves: bool,
+    leaves: Leaving | None = None,
     doubted: bool = False,
 ) -> list[LocatedEvent]:
     """All that happens between two points on the same meshes, in order.
 
     ``opening`` says that ``before`` is the start of the branch, which may be the zero of an event itself; ``leaves``
-    that it is where the branch leaves another: its index and its sense in λ are not this branch's. ``doubted`` says
-    that branches come closer to each other here than can be told apart: a change of the index that nothing explains is
-    then uncertain, and no error.
+    that it is where the branch leaves another: its index and its sense in λ are not this branch's, but it has to have
+    the index given there. ``doubted`` says that branches come closer to each other here than can be told apart: a
+    change of the index that nothing explains is then uncertain, and no error.
 
     Raises
     ------
@@ -83,9 +87,9 @@ def events_between(
         If the two points are not on one branch.
     """
     stretch = _Stretch(meshes, before, after, doubted)
-    placed = stretch.changes_past_the_start() if leaves else stretch.changes()
+    placed = stretch.changes() if leaves is None else stretch.changes_past_the_start(leaves)
     changes = sorted(placed, key=lambda item: item[0])
-    index = before.fine.index if not leaves else changes[0][1].index_before if changes else after.fine.index
+    index = before.fine.index if leaves is None else changes[0][1].index_before if changes else after.fine.index
     for event in events:
         if not (opening and stretch.starts_at(event)):
             placed += stretch.zeros(event, index, changes)
@@ -105,7 +109,7 @@ class _Stretch:
         return Segment(coarse, self.before.coarse, self.after.coarse), Segment(fine, self.before.fine, self.after.fine)
 
     def changes(self) -> list[Placed]:
-        """Changes of the stability index, and the turning point that has none, if there is one.
+        """Changes of the stability index, and the turning point that has none, or where the branch meets rest.
 
         Raises
         ------
@@ -113,6 +117,11 @@ class _Stretch:
             If index and sense of travel do not go together: the two ends are not on one branch.
         """
         turn = self.turn()
+        rest = passes_rest(self.meshes, self.before, self.after) if turn is None else None
+        if rest is not None:
+            placed = self._index_changes_up_to(SHORT_OF * rest.t)
+            index = index_at(rest.t, self.before.fine.index, placed)
+            return [*placed, (rest.t, found_at(TURN, self.meshes, rest, index, index))]
         placed = self.index_changes(turn)
         if turn is not None and not any(found.fold for _, found in placed):
             meets = self.meshes.fine.meets_mirror_image(turn.fine, NEARLY)
@@ -122,9 +131,16 @@ class _Stretch:
             placed.append((turn.t, found_at(TURN, self.meshes, turn, index, index)))
         return placed
 
-    def changes_past_the_start(self) -> list[Placed]:
-        """The same where a branch leaves another, from a place on, close by, at which it is by itself."""
+    def changes_past_the_start(self, leaves: Leaving) -> list[Placed]:
+        """The same where a branch leaves another, from a place on, close by, at which it is by itself.
+
+        Raises
+        ------
+        LocationError
+            If it has not the index there that it has to have: next to a double load, a step has gone to a third branch.
+        """
         length = self.before.fine.along(self.after.fine)
+        strayed = False
         for early in [distance / length for distance in EARLY if distance < 0.5 * length] or PARTS_OF_SHORT:
             try:
                 coarse, fine = (segment(early) for segment in self.segments)
@@ -132,8 +148,19 @@ class _Stretch:
                 continue
             if not self._is_steep(fine):
                 continue
-            placed = _Stretch(self.meshes, self.meshes.point(coarse, fine), self.after, self.doubted).changes()
-            return [(early + (1.0 - early) * t, found) for t, found in placed]
+            strayed = fine.index != leaves.index(fine)
+            if strayed and not self.doubted:
+                continue
+            point = self.meshes.point(coarse, fine)
+            placed = _Stretch(self.meshes, point, self.after, self.doubted).changes()
+            placed = [(early + (1.0 - early) * t, found) for t, found in placed]
+            if strayed:
+                error = abs(self.after.lam - self.before.lam)
+                index = leaves.index(fine), fine.index
+                placed.insert(0, (early, LocatedEvent(INDEX, point, self.meshes, error, *index, certain=False)))
+            return placed
+        if strayed:
+            raise LeftTheBranchError(LEFT_THE_START)
         return []
 
     def _is_steep(self, state: State) -> bool:
@@ -151,11 +178,14 @@ class _Stretch:
         if turn is None and self.before.fine.index == self.after.fine.index:
             return []
         if turn is not None and self.meshes.fine.meets_mirror_image(turn.fine, NEARLY):
-            found = index_crossings(*self.segments, end=SHORT_OF * turn.t, doubted=True)
-            found = [crossing for crossing in found if crossing.place is not None]
-        else:
-            found = index_crossings(*self.segments, [] if turn is None else [turn.t], doubted=self.doubted)
+            return self._index_changes_up_to(SHORT_OF * turn.t)
+        found = index_crossings(*self.segments, [] if turn is None else [turn.t], doubted=self.doubted)
         return [(crossing.t, self._changed(crossing)) for crossing in found]
+
+    def _index_changes_up_to(self, end: float) -> list[Placed]:
+        """The same on the way to where the branch ends at another: those that both meshes show."""
+        found = index_crossings(*self.segments, end=end, doubted=True)
+        return [(crossing.t, self._changed(crossing)) for crossing in found if crossing.place is not None]
 
     def _changed(self, crossing: Crossing) -> LocatedEvent:
         index = crossing.before, crossing.after

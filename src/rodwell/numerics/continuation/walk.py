@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rodwell.numerics.continuation.closing import CLOSED, closes
-from rodwell.numerics.continuation.events import Event, LocatedEvent
+from rodwell.numerics.continuation.events import Event, Leaving, LocatedEvent
 from rodwell.numerics.continuation.location import LeftTheBranchError, LocationError
 from rodwell.numerics.continuation.prediction import Predictor
 from rodwell.numerics.continuation.softest import SoftestEigenvalues, hidden_change
@@ -79,7 +79,7 @@ def trace(
     events: Sequence[Event],
     *,
     stop: Stop,
-    switched: bool,
+    leaves: Leaving | None = None,
     progress: Progress | None = None,
     halt: Halt | None = None,
 ) -> Trace:
@@ -88,11 +88,11 @@ def trace(
     A step is repeated with half the length if the corrector fails, if the branch turns by more than allowed, if the
     end strays from where it was predicted, or if an event in it cannot be located; the last two steps are, if
     the stability index changed and changed back within them. If the step falls below
-    ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``switched`` says that ``start`` is a
+    ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``leaves`` says that ``start`` is a
     branch point, whose stability index is that of the branch left. ``halt`` looks at the trace at its start and after
     each step, and may end it.
     """
-    walk = _Walk(stepping, events, stop, switched, Trace([start], [meshes]), Predictor(start.coarse), halt)
+    walk = _Walk(stepping, events, stop, leaves, Trace([start], [meshes]), Predictor(start.coarse), halt)
     walk.to_the_end(progress)
     return walk.trace
 
@@ -108,7 +108,7 @@ class _Walk:
     stepping: Stepping
     events: Sequence[Event]
     stop: Stop
-    switched: bool
+    leaves: Leaving | None
     trace: Trace
     predictor: Predictor
     halt: Halt | None = None
@@ -176,7 +176,7 @@ class _Walk:
         point = home or point
         try:
             opening = len(trace.points) == 1
-            leaves = opening and self.switched
+            leaves = self.leaves if opening else None
             found = events_between(
                 new_meshes, base, point, self.events, opening=opening, leaves=leaves, doubted=self.doubted
             )

@@ -33,7 +33,8 @@ class Condensed:
     """Elements of one kind: what remains for their ends, and what gives the bubbles back.
 
     ``block`` (k, 8, 8), ``residual``, ``by_length``, ``by_start``, ``by_load`` (k, 8) in the coordinates of the two
-    nodes; ``back`` (k, f·b, f·4 + 4): columns of ends, residual, length, start, load.
+    nodes; ``back`` (k, f·b, f·4 + 4): columns of ends, residual, length, start, load. ``work`` (k, 4): what the
+    derivative of the energy by the load changes by with those four.
     """
 
     group: IntArray
@@ -43,6 +44,7 @@ class Condensed:
     raw: FloatArray
     block: FloatArray
     vectors: FloatArray
+    work: FloatArray
     negative: int
 
 
@@ -52,7 +54,8 @@ class Assembled:
 
     ``diagonal`` (n, 4, 4) and ``below`` (e, 4, 4), blocks of the Hessian; ``residual`` and ``by_load`` (n, 4);
     ``by_break`` (n, 4, m); ``plain`` (n, 4): the gradient before bubbles are condensed, whose held entries are
-    reactions.
+    reactions. ``work_by_break`` (m,), ``work_by_load`` and ``work_residual``: derivatives of ``energy_by_load`` besides
+    ``by_load``, which is that by the nodes, and what it lacks as long as the bubbles are not in equilibrium.
     """
 
     shape: Shape
@@ -64,8 +67,19 @@ class Assembled:
     by_load: FloatArray
     by_break: FloatArray
     plain: FloatArray
+    work_by_break: FloatArray
     groups: tuple[Condensed, ...]
     largest_bubble_residual: float
+
+    @property
+    def work_by_load(self) -> float:
+        """Derivative of ``energy_by_load`` by the load at fixed nodes and breaks."""
+        return float(sum(np.sum(one.work[:, 3]) for one in self.groups))
+
+    @property
+    def work_residual(self) -> float:
+        """By how much ``energy_by_load`` changes as the bubbles come into equilibrium."""
+        return float(sum(np.sum(one.work[:, 0]) for one in self.groups))
 
     @property
     def negative_bubbles(self) -> int:
@@ -85,7 +99,7 @@ def assemble(model: Any, shape: Shape) -> Assembled:
             energy, by_load, bubble = energy + e, by_load + e_load, max(bubble, worst)
     out = Assembled(
         shape, energy, by_load, np.zeros((n, 4, 4)), np.zeros((n - 1, 4, 4)), np.zeros((n, 4)), np.zeros((n, 4)),
-        np.zeros((n, 4, m)), np.zeros((n, 4)), tuple(groups), bubble,
+        np.zeros((n, 4, m)), np.zeros((n, 4)), np.zeros(m), tuple(groups), bubble,
     )  # fmt: skip
     to_polar = cartesian_derivatives(shape.nodes, chain.polar)
     covector = np.zeros((n, 4))
@@ -126,12 +140,16 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     matrix = (flat.T @ half).reshape(k, fields * size, fields * size)
     by_length = by_length + (matrix @ rate.reshape(k, -1, 1))[..., 0]
     by_start = model.load_per_length * by_load
+    work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
+    work = work + np.sum(by_load * rate.reshape(k, -1), axis=1)
 
     ends, bubbles = _parts(fields, size)
     kbb = matrix[:, bubbles[:, None], bubbles]
     columns = np.stack([gradient, by_length, by_start, by_load], axis=2)
     right = np.concatenate([matrix[:, bubbles[:, None], ends], columns[:, bubbles]], axis=2)
     back = np.linalg.solve(kbb, right)
+    works = -np.einsum("kb,kbv->kv", columns[:, bubbles, 3], back[:, :, ends.size :])
+    works[:, 1] += work
     whole = np.concatenate([matrix[:, ends[:, None], ends], columns[:, ends]], axis=2)
     whole = whole - matrix[:, ends[:, None], bubbles] @ back
     slope = np.ones((k, ends.size))
@@ -142,7 +160,7 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     whole[:, 1::2, ends.size + 1] += gradient[:, ends[1::2]]  # the slopes' own factor h
     condensed = Condensed(
         group, fields, RIM_SLOTS if fields == 1 else FREE_SLOTS, back, gradient[:, ends] * slope,
-        whole[:, :, : ends.size], whole[:, :, ends.size :], _negative(kbb),
+        whole[:, :, : ends.size], whole[:, :, ends.size :], works, _negative(kbb),
     )  # fmt: skip
     worst = float(np.max(np.abs(gradient[:, bubbles]), initial=0.0))
     return condensed, float(np.sum(weight * e)), float(np.sum(weight * e_load)), worst
@@ -189,6 +207,8 @@ def _add(out: Assembled, one: Condensed, to_polar: FloatArray, covector: FloatAr
         longer = (chain.shares[group + 1] - chain.shares[group])[:, None, :]
         change = vectors[:, end, :, 1, None] * longer + vectors[:, end, :, 2, None] * chain.shares[group][:, None, :]
         np.add.at(out.by_break, group + end, change)
+    longer = chain.shares[group + 1] - chain.shares[group]
+    out.work_by_break += one.work[:, 1] @ longer + one.work[:, 2] @ chain.shares[group]
     out.below[group] = block[:, 1, :, 0]
 
 

@@ -7,6 +7,7 @@ contact.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from rodwell.numerics.stretches.basis import reference_element
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.newton import Solved, fixed_load, solve
+from rodwell.numerics.stretches.newton import Row, Solved, solve
 from rodwell.quantities.arrays import FloatArray
 
 FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9
@@ -76,17 +77,17 @@ def _at_points(shape: Shape) -> FloatArray:
     return np.asarray(np.einsum("qi,kfi->fkq", reference_element(shape.chain.degree).table[0], a))
 
 
-def descended(model: Any, shape: Shape, stiffness: float) -> Solved | None:
+def descended(model: Any, shape: Shape, stiffness: float, row: Row, index: Callable[[Solved], int]) -> Solved | None:
     """The minimum of the energy behind a rim of this stiffness to which the flow leads from ``shape``, free everywhere.
 
-    None if the flow does not come to rest.
+    ``row`` is what is held on the way, and ``index`` the stability index where it is. None if the flow does not come to
+    rest.
     """
     rim, rate = SoftRim(model, stiffness), FIRST_RATE
-    row = fixed_load(shape.chain, shape.load)
     for _ in range(MOST_EULER_STEPS):
         pulled = replace(rim, rate=rate, before=_at_points(shape))
         after = solve(pulled, shape, row, FLOW_TOLERANCE, 8)[1]
-        if after is None or after.index > 0:
+        if after is None or index(after) > 0:
             rate *= 4.0
             if rate > HIGHEST_RATE:
                 return None
@@ -95,7 +96,7 @@ def descended(model: Any, shape: Shape, stiffness: float) -> Solved | None:
         rate *= 0.5
         if rate < LOWEST_RATE:
             rest = solve(rim, shape, row)[1]
-            if rest is not None and rest.index == 0:
+            if rest is not None and index(rest) == 0:
                 return rest
             rate *= 64.0
     return None

@@ -48,21 +48,30 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Row:
-    """A linear condition: nodes·N + breaks·B + load·λ = target, with weights of the same shapes as the unknowns."""
+    """A condition nodes·N + breaks·B + load·λ + work·∂E/∂λ = target, with weights of the same shapes as the unknowns.
+
+    It is linear but for the derivative of the energy by the load, what the load does its work on.
+    """
 
     nodes: FloatArray
     breaks: FloatArray
     load: float
     target: float
+    work: float = 0.0
 
     def of(self, nodes: FloatArray, breaks: FloatArray, load: float) -> float:
-        """Its left side."""
+        """Its left side without the work."""
         return float(np.sum(self.nodes * nodes) + self.breaks @ breaks + self.load * load)
 
 
 def fixed_load(chain: Chain, load: float) -> Row:
     """The row that prescribes the load."""
     return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), 1.0, load)
+
+
+def fixed_work(chain: Chain, work: float, load: float = 0.0) -> Row:
+    """The row that prescribes ∂E/∂λ + ``load`` · λ."""
+    return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), load, work, 1.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -116,6 +125,11 @@ class Solved:
         nodes, breaks, load = _solve(self.model, self.out, row, 1.0, residual=0.0)
         return nodes, breaks, load, bubbles_of(self.out, nodes, breaks, load, 0.0)
 
+    def work_rate(self, nodes: FloatArray, breaks: FloatArray, load: float) -> float:
+        """How fast the derivative of the energy by the load changes along the path."""
+        out = self.out
+        return float(np.sum(out.by_load * nodes) + out.work_by_break @ breaks + out.work_by_load * load)
+
 
 def gap_curvature(shape: Shape, element: int, xi: float) -> float:
     """−r″ of a free element at a place on the rim."""
@@ -157,6 +171,11 @@ def _solve(
 ) -> tuple[FloatArray, FloatArray, float]:
     """Increments of nodes, breaks and load: Newton's for ``residual`` 1, the tangent for 0."""
     chain = out.shape.chain
+    if row.work:
+        row = Row(
+            row.nodes + row.work * out.by_load, row.breaks + row.work * out.work_by_break,
+            row.load + row.work * out.work_by_load, row.target,
+        )  # fmt: skip
     n, m, reach = chain.elements + 1, chain.moving.size, WIDTH - 1
     free = (~chain.held).astype(float)
     columns = np.concatenate([residual * out.residual[..., None], out.by_break, out.by_load[..., None]], axis=2)
@@ -199,6 +218,7 @@ def solve(
             return Outcome.OUT_OF_RANGE, None, step
         try:
             target = row.target - row.of(shape.nodes, shape.breaks, shape.load)
+            target -= row.work * (out.energy_by_load + out.work_residual)
             nodes, breaks, load = _solve(model, out, row, target, residual=1.0)
         except np.linalg.LinAlgError:
             return Outcome.NOT_CONVERGED, None, step

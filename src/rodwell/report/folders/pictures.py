@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -86,20 +86,38 @@ def draw_curves(curves: Sequence[Curve], folder: Path) -> None:
 
 
 def write_picture(result: object, file: Path, field: str = "path") -> None:
-    """Write what a result's ``plot`` draws to a file, whole or not at all; its suffix, .png, .svg, .pdf, is the format.
+    """Write what a result's ``plot`` draws to a file, as :func:`write_drawing` does."""
+    write_drawing(lambda axes: plot(result, axes), file, field)
+
+
+def check_format(file: Path, field: str) -> str:
+    """Return the suffix of a picture's file, in small letters.
 
     Raises
     ------
     InputError
-        For another suffix, or if the file cannot be written; ``field`` is the name of the file's input.
+        If it is none of .png, .svg, .pdf; ``field`` is the name of the file's input.
     """
     suffix = file.suffix.lower()
     if suffix not in (".png", ".svg", ".pdf"):
         raise InputError(field, str(file), "must end in .png, .svg or .pdf")
+    return suffix
+
+
+def write_drawing(drawing: Callable[[Any], Any], file: Path, field: str) -> None:
+    """Write what ``drawing`` draws on axes to a file, whole or not at all; its suffix is the format.
+
+    Raises
+    ------
+    InputError
+        For a suffix that is none of .png, .svg, .pdf, or if the file cannot be written; ``field`` is the name of the
+        file's input.
+    """
+    suffix = check_format(file, field)
     with whole_folder(file.parent, field) as folder, mpl.rc_context(RC):
         undated: Any = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix)
         axes = new_axes()
-        plot(result, axes)
+        drawing(axes)
         axes.figure.savefig(folder / file.name, dpi=DPI, metadata=undated)
 
 

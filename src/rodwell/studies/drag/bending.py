@@ -63,7 +63,8 @@ def stiff_run(
 ) -> StiffRun:
     """Compute an operation of a stiff string, on two meshes; the error is ``CLAIMED`` times their difference.
 
-    Contact forces at nodes make an error of first order in the length of the elements.
+    Contact forces at nodes make an error of first order in the length of the elements. What locks up as a soft string
+    is told to lock up: bending is added to forces that are known, and there are none.
     """
     fine, left, settled, curvature = _on_mesh(cutter, operation, contact, rule, remembered, ELEMENT)
     rough, _, _, _ = _on_mesh(cutter, operation, contact, rule, remembered, 2.0 * ELEMENT)
@@ -87,6 +88,8 @@ def _on_mesh(
     table = one.pieces.table[piece]
     element = np.clip(np.searchsorted(depth, 0.5 * (one.pieces.top + one.pieces.bottom)) - 1, 0, len(middle) - 1)
     stiffness = cutter.stiffness[one.pieces.section[piece]]
+    if not one.arrived:  # compression beyond bounds: nothing lies anywhere, so what is known is the curve of the hole
+        return one, np.inf, True, _at_rows(one, element, np.linalg.norm(curvature, axis=1))
     start: FloatArray | None = None
     change, settled = np.inf, False
     for _ in range(MOST_TURNS):
@@ -102,7 +105,7 @@ def _on_mesh(
         straight = np.interp(middle, one.measured_depth[::-1], one.states[::-1].astype(float)) == STRAIGHT
         new = run(cutter, operation, contact, rule, remembered=remembered, bent=np.where(straight, more, 0.0)[element],
                   longest_piece=longest)  # fmt: skip
-        if not (one.arrived and new.arrived):
+        if not new.arrived:
             return new, np.inf, found.settled, _at_rows(new, element, found.curvature)
         change = abs(new.force - one.force) + abs(new.torque - one.torque)
         one, settled = new, found.settled

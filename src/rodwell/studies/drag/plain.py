@@ -70,9 +70,9 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "transfer": one.transfer,
         "neutral_points": list(run.neutral_points),
         "buckled": [{"from": high, "to": low, "state": NAMES[state]} for low, high, state in run.buckled],
-        "largest_contact_force": number(_largest(run.contacts)) if run.arrived else None,
-        "largest_von_mises": number(_largest(strength.von_mises)) if run.arrived else None,
-        "largest_used": number(_largest(strength.used)) if run.arrived else None,
+        "largest_contact_force": number(largest(run.contacts)) if run.arrived else None,
+        "largest_von_mises": number(largest(strength.von_mises)) if run.arrived else None,
+        "largest_used": number(largest(strength.used)) if run.arrived else None,
         "stretch": number(strength.stretch) if run.arrived else None,
         "twist": number(strength.twist) if run.arrived else None,
         "balance": number(one.balance),
@@ -139,7 +139,7 @@ def _reach(found: Reach) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _largest(values: FloatArray) -> Value | None:
+def largest(values: FloatArray) -> Value | None:
     """The largest along the string; its error is half of what it changes over the steps beside it."""
     if np.all(np.isnan(values)):
         return None

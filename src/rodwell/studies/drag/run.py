@@ -83,8 +83,12 @@ class Run:
 
     @property
     def contacts(self) -> FloatArray:
-        """Contact force per length in N/m, (m,), mean of the local state."""
-        return self.rows[:, 3]
+        """Contact force per length in N/m, (m,), mean of the local state.
+
+        What stiffness adds is one number on each piece, the soft string's contact varies along it: where a stiff string
+        is off the wall, the sum is 0 in the mean of the piece, and none of it is told as a pull.
+        """
+        return np.maximum(self.rows[:, 3], 0.0)
 
     @property
     def pressing(self) -> FloatArray:

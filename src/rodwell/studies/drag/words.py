@@ -78,22 +78,27 @@ def _verdict(found: Drag, worst: OperationResult) -> str:
     well, name = found.well, worst.operation.name
     level = level_of(found)
     if level == FAILS:
-        if worst.locked:
-            at = (
-                ""
-                if worst.run.locked_at is None
-                else f", its compression grows beyond bounds at {depth(well, worst.run.locked_at)}"
-            )
-            return f"{_capital(name)} is not possible: the string locks up{at}; no push at surface moves it."
-        if not worst.possible and worst.margin is not None:
-            lacking = force(well, worst.margin.times(-1.0))
-            return f"{_capital(name)} is not possible: {lacking} more push is needed at surface than there is."
-        used = 100.0 * float(np.nanmax(worst.strength.used))
-        return f"{_capital(name)} exceeds the yield strength: the largest von Mises stress is {used:.3g} % of it."
+        return f"{_capital(name)} {failure(well, worst)}."
     if level == BUCKLES:
         names = ", ".join(one.operation.name for one in found.operations if one.run.buckled)
         return f"Every operation is possible; the string buckles: {names}."
     return "Every operation is possible, and the string stays straight on the wall of its hole in all of them."
+
+
+def failure(well: Well, one: OperationResult) -> str:
+    """Why an operation fails: what follows its name in a sentence."""
+    if one.locked:
+        at = (
+            ""
+            if one.run.locked_at is None
+            else f", its compression grows beyond bounds at {depth(well, one.run.locked_at)}"
+        )
+        return f"is not possible: the string locks up{at}; no push at surface moves it"
+    if not one.possible and one.margin is not None:
+        lacking = force(well, one.margin.times(-1.0))
+        return f"is not possible: {lacking} more push is needed at surface than there is"
+    used = 100.0 * float(np.nanmax(one.strength.used))
+    return f"exceeds the yield strength: the largest von Mises stress is {used:.3g} % of it"
 
 
 def _capital(text: str) -> str:

@@ -13,9 +13,9 @@ from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
-from rodwell.studies.sweep.labels import label
 from rodwell.studies.sweep.points import StudyPoint, computed, computed_point, followed_to_loads
-from rodwell.studies.sweep.varied import LISTS, Varied, check_declared, may_vary, varied_inputs
+from rodwell.studies.sweep.varied import LISTS, check_declared, may_vary, varied_inputs
+from rodwell.studies.varied import Varied
 
 APPLIED = "load.applied"
 
@@ -70,7 +70,7 @@ class Study:
 
     def inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point in words."""
-        return ", ".join(f"{label(v.name)} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+        return ", ".join(f"{v.called} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
 
     @property
     def load_varies(self) -> bool:
@@ -80,7 +80,7 @@ class Study:
     def rod_inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point that change its critical load and lift-off, in words; may be empty."""
         pairs = zip(self.varied, point.at, strict=True)
-        return ", ".join(f"{label(v.name)} {v.text(i)}" for v, i in pairs if v.name != APPLIED)
+        return ", ".join(f"{v.called} {v.text(i)}" for v, i in pairs if v.name != APPLIED)
 
     @property
     def rods(self) -> tuple[StudyPoint, ...]:
@@ -200,7 +200,7 @@ def _case(
     """The case of one point, or what is wrong with it."""
     single: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in data.items()}
     for v, i in zip(varied, at, strict=True):
-        single[v.section][v.key] = v.values[i]
+        v.place.put(single, v.values[i])
     try:
         return Case.from_dict(single, source=source, folder=folder).in_units(units)
     except InputError as error:

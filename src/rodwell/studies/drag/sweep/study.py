@@ -1,0 +1,160 @@
+"""Parameter studies of torque and drag: the file of a well in which one or two inputs are lists or ranges."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rodwell.case.case import CaseError
+from rodwell.case.file import CaseText, printable_data, read_case
+from rodwell.errors import InputError, NotConvergedError
+from rodwell.faces import plain
+from rodwell.studies.drag.drag import drag
+from rodwell.studies.drag.sweep.points import OperationAt, WellPoint, operation_at
+from rodwell.studies.drag.sweep.varied import check_declared, is_study, varied_inputs
+from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import unbalanced
+from rodwell.studies.varied import Varied
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class DragStudy:
+    """What :func:`drag_study` found.
+
+    Attributes
+    ----------
+    well
+        The well of the first point that could be read: title, path, units.
+    given
+        The inputs as written.
+    varied
+        One or two inputs that vary.
+    points
+        All points; the last input varies fastest.
+    """
+
+    well: Well
+    given: Mapping[str, Any]
+    varied: tuple[Varied, ...]
+    points: tuple[WellPoint, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the operations, in the order of the file."""
+        return tuple(one.name for one in self.well.operations)
+
+    def inputs(self, point: WellPoint) -> str:
+        """The varied inputs of a point in words."""
+        return ", ".join(f"{v.called} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+
+    @property
+    def pushed(self) -> bool:
+        """Whether anything pushes at surface, at any point."""
+        return any(point.push > 0.0 for point in self.points)
+
+    def results(self, number: int) -> tuple[tuple[WellPoint, OperationAt], ...]:
+        """An operation, counted from 0, at every point that was computed."""
+        return tuple((point, point.operations[number]) for point in self.points if point.operations)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain data, for JSON."""
+        return plain(self)
+
+
+def is_well_study(well: CaseText) -> bool:
+    """Whether the file of a well has a range, or says that it is a study; False for what cannot be read."""
+    try:
+        return is_study(well.data)
+    except InputError:
+        return False
+
+
+def drag_study(
+    well: str | Path | CaseText | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None
+) -> DragStudy:
+    """Compute every operation of a well for every value, or pair of values, of what varies in its file.
+
+    Parameters
+    ----------
+    well
+        Path of the file of a well, or its content as a dictionary. A list holds values as the file would have them
+        (``["100 kN", "200 kN"]``, ``[0.2, 0.3]``); a range is a text ("0.1..0.4 in 7": 7 values, both ends included).
+        Two inputs make a grid. A file with lists must say ``study = true`` at its top. What may vary: keys of [hole]
+        but those of its path, of [[hole.section]], [mud], [pressure], [well] and [[well.operation]]. A road map is left
+        out.
+    progress
+        Called with what is being done and how much is done.
+    units
+        "si", "field" or "mm": the units in which results are shown; by default those of the file.
+
+    Raises
+    ------
+    InputError
+        If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
+        are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
+    """
+    read = _read(well)
+    try:
+        if not isinstance(well, Mapping):
+            check_declared(read.data)
+        varied = varied_inputs(read.data)
+    except InputError as error:
+        raise CaseError(read.source, [(error.field, error.value, error.reason)]) from None
+    if not varied:
+        what = 'has no input that varies: give one a list, or a range, friction = "0.1..0.4 in 7"'
+        raise CaseError(read.source, [("study", None, what)])
+    tell = progress or (lambda _what, _done: None)
+    grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
+    first: Well | None = None
+    points: list[WellPoint] = []
+    errors: list[InputError] = []
+    for number, at in enumerate(grid):
+        tell(f"point {number + 1} of {len(grid)}", number / len(grid))
+        try:
+            one = _well(read, varied, at, first).in_units(units)
+            first = first or one
+            points.append(_computed(number, at, one))
+        except InputError as error:
+            errors.append(error)
+            points.append(WellPoint(number, at, reason=str(error)))
+    if first is None or len(errors) == len(grid):
+        raise errors[0]
+    tell("done", 1.0)
+    given = {k: v for k, v in read.data.items() if k not in ("title", "study", "units")}
+    return DragStudy(first, given, varied, tuple(points))
+
+
+def _read(well: str | Path | CaseText | Mapping[str, Any]) -> CaseText:
+    if isinstance(well, CaseText):
+        return well
+    if isinstance(well, Mapping):
+        return CaseText(printable_data(well), "", "study", "study", Path.cwd())
+    if not isinstance(well, str | Path):
+        raise InputError("well", well, "must be the path of the file of a well, or its content as a dictionary")
+    return read_case(well)
+
+
+def _well(read: CaseText, varied: tuple[Varied, ...], at: tuple[int, ...], first: Well | None) -> Well:
+    """The well of one point, without a road map; the survey is read once."""
+    data = copy.deepcopy(dict(read.data))
+    for v, i in zip(varied, at, strict=True):
+        v.place.put(data, v.values[i])
+    survey = None if first is None else first.survey
+    well = Well.from_dict(data, survey=survey, source=read.source, text=read.text, folder=read.folder)
+    return replace(well, settings=well.settings.model_copy(update={"road_map": None}))
+
+
+def _computed(number: int, at: tuple[int, ...], well: Well) -> WellPoint:
+    """Results of one point; what could not be computed says why."""
+    try:
+        found = drag(well)
+    except NotConvergedError as error:
+        return WellPoint(number, at, reason=str(error))
+    operations = tuple(operation_at(well, one) for one in found.operations)
+    return WellPoint(number, at, operations, well.push, tuple(unbalanced(found)))
