@@ -27,7 +27,8 @@ def run(*words: str) -> str:
 
 def test_every_key_of_the_schema_is_explained() -> None:
     found = {key.full_name for key in KEYS}
-    fields = {f"{section}.{name}" for section, model in SECTIONS.items() for name in model.model_fields}
+    fields = {f"{section}.{field.alias or name}" for section, model in SECTIONS.items()
+              for name, field in model.model_fields.items()}  # fmt: skip
     assert found == fields | (set(schema.CaseFile.model_fields) - set(SECTIONS))
     for key in KEYS:
         assert key.meaning, key.full_name
@@ -51,7 +52,7 @@ def test_examples_and_defaults_are_what_the_schema_takes(key: Key) -> None:
 def test_examples_suit_their_keys() -> None:
     """A diameter is no 30 m: lengths of a section are below those of rods."""
     sizes = {key.full_name: to_si(json.loads(key.examples[0]), "length") for key in KEYS if key.kind == "length"}
-    for along in ("rod.length", "string.length", "string.joint_length"):
+    for along in ("rod.length", "string.length", "string.joint_length", "hole.from", "hole.to", "hole.tortuosity_step"):
         assert sizes.pop(along) > 5.0
     assert max(sizes.values()) < 1.0
 

@@ -223,10 +223,12 @@ def test_catalogues_of_users_are_looked_at_too(tmp_path: Path) -> None:
 def test_every_quantity_of_a_case_has_a_range() -> None:
     """A key added to the schema without a range is seen here."""
     from rodwell.case import schema
+    from rodwell.case.hole.schema import CylinderInput, Hole
 
-    sections = {"rod": schema.RodInput, "hole": schema.Hole, "cylinder": schema.CylinderInput, "mud": schema.Mud,
+    sections = {"rod": schema.RodInput, "hole": Hole, "cylinder": CylinderInput, "mud": schema.Mud,
                 "supports": schema.Supports, "pressure": schema.PressureAtEnd, "load": schema.LoadInput}  # fmt: skip
-    plain = {"rod.poisson", "hole.angle_from_vertical", "hole.angle_from_horizontal"}
+    plain = {"rod.poisson", "hole.angle_from_vertical", "hole.angle_from_horizontal", "hole.from_", "hole.to",
+             "hole.tortuosity"}  # fmt: skip
     for section, model in sections.items():
         for name, field in model.model_fields.items():
             text = repr(field)

@@ -162,7 +162,7 @@ class Case(Shown):
     ) -> Case:
         """Make a case from the content of a case file as a dictionary; errors as in :meth:`read`.
 
-        Catalogue files are sought from ``folder``.
+        Catalogue files and surveys are sought from ``folder``.
         """
         if not isinstance(data, Mapping):
             raise CaseError(source, [("case", data, "must be a dictionary of sections, as in a case file")])
@@ -193,7 +193,7 @@ class Case(Shown):
             string_rod = string_rod_of(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
-        return _assemble(parsed, data, source, text, catalogue, string_rod)
+        return _assemble(parsed, data, source, text, catalogue, string_rod, folder)
 
 
 def _uncertain(
@@ -224,6 +224,7 @@ def _assemble(
     text: str,
     catalogue: Catalogue,
     string_rod: schema.StringRod | None,
+    folder: Path,
 ) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
@@ -246,7 +247,7 @@ def _assemble(
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = _plausible(parsed, load, catalogue, data, source, string_rod)
+        found = _plausible(parsed, load, catalogue, data, source, string_rod, folder)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
@@ -268,10 +269,11 @@ def _plausible(
     data: Mapping[str, Any],
     source: str,
     string_rod: schema.StringRod | None,
+    folder: Path,
 ) -> Physical:
     """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
     try:
-        found = physical(parsed, load, catalogue, string_rod)
+        found = physical(parsed, load, catalogue, string_rod, folder)
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field, model_validator
 
-from rodwell.case.kinds import Density, ForcePerLength, Length, Name, Number, Stiffness, Stress
-from rodwell.case.schema import SectionInput
+from rodwell.case.kinds import Density, ForcePerLength, Length, Name, Number, SectionInput, Stiffness, Stress
 
 
 class Entry(SectionInput):

@@ -79,7 +79,7 @@ def keys_of(section: str) -> tuple[Key, ...]:
     """Return the keys of a section, in the order of the schema; of :data:`TOP`, those outside all sections."""
     model: type[BaseModel] = schema.CaseFile if section == TOP else SECTIONS[section]
     fields = {name: field for name, field in model.model_fields.items() if section != TOP or name not in SECTIONS}
-    return tuple(key_of_field(section, name, field) for name, field in fields.items())
+    return tuple(key_of_field(section, field.alias or name, field) for name, field in fields.items())
 
 
 def every_key() -> dict[str, tuple[Key, ...]]:

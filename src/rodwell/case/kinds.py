@@ -1,12 +1,15 @@
-"""Kinds of values that a case file holds: how each is read from what was written, and what is allowed in words."""
+"""Kinds of values that a case file holds: how each is read from what was written, and what is allowed in words.
+
+And what all its sections share: keys with their meaning and examples, unknown keys refused.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from rodwell.errors import InputError
 from rodwell.problem.ends import ENDS, checked_ends
@@ -107,6 +110,7 @@ MOST_LOADS = 12
 Length = Annotated[float, BeforeValidator(Quantity("length", above=0.0))]
 InnerLength = Annotated[float, BeforeValidator(Quantity("length", least=0.0))]
 Angle = Annotated[float, BeforeValidator(Quantity("angle"))]
+Curvature = Annotated[float, BeforeValidator(Quantity("curvature"))]
 Force = Annotated[float, BeforeValidator(Quantity("force"))]
 Moment = Annotated[float, BeforeValidator(Quantity("moment"))]
 PositiveForce = Annotated[float, BeforeValidator(Quantity("force", above=0.0))]
@@ -131,3 +135,21 @@ End = Annotated[Literal["top", "bottom"], BeforeValidator(OneOf(("top", "bottom"
 ForceKind = Annotated[Literal["effective", "real"], BeforeValidator(OneOf(("effective", "real")))]
 Motion = Annotated[Literal["none", "some", "all"], BeforeValidator(OneOf(("none", "some", "all")))]
 Units = Annotated[Literal["si", "field", "mm"], BeforeValidator(OneOf(SYSTEMS))]
+
+REQUIRED: Any = ...
+
+
+def _key(default: Any, meaning: str, *examples: object, allowed: str = "", **checks: Any) -> Any:
+    """A key with its default (REQUIRED: none), what it means, examples, and what is allowed beyond its kind.
+
+    ``alias`` among the checks is what it is called in the file where that is a word of Python.
+    """
+    return Field(
+        default, description=meaning, examples=list(examples), json_schema_extra={"allowed": allowed}, **checks
+    )
+
+
+class SectionInput(BaseModel):
+    """Base of all sections: unknown keys are refused, values are not changed after reading."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
+from rodwell.case.hole.lie import Lie, lie_of
+from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.case.sections import PhysicalString, check_length, clearance_of, string_of
 from rodwell.errors import InputError
@@ -35,11 +37,15 @@ class Physical:
 
 
 def physical(
-    parsed: schema.CaseFile, load: schema.LoadInput, catalogue: Catalogue, string_rod: schema.StringRod | None = None
+    parsed: schema.CaseFile,
+    load: schema.LoadInput,
+    catalogue: Catalogue,
+    string_rod: schema.StringRod | None = None,
+    folder: Path = Path(),
 ) -> Physical:
     """Return the dimensionless problem of a case with dimensions, and what it was made from.
 
-    ``string_rod`` is [rod] beside [[string]].
+    ``string_rod`` is [rod] beside [[string]]; surveys are sought from ``folder``.
 
     Raises
     ------
@@ -78,34 +84,40 @@ def physical(
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
     scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
-    problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string)
+    lie = lie_of(hole, rod.length, folder)
+    problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string, lie)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
     else:
         facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
-    facts.append(Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)))
+    facts += [Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)), *lie.facts]
     if parsed.packer is not None:
         facts.append(Fact("packer", "as given", note="changes of length and the packer's force: `rodwell packer`"))
     at_end = rod if string is None else string.at_end(load.at == "bottom")
-    until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids)
+    until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids,
+                                    lie.height)  # fmt: skip
     return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string)
 
 
 def _problem(
     ends: str,
     rod: PhysicalRod,
-    hole: schema.Hole,
+    hole: Hole,
     scales: Scales,
     weight: float,
     clearance: float,
     twist: float,
     string: PhysicalString | None,
+    lie: Lie,
 ) -> Problem:
     """The problem in units B = L = 1; errors in the names of the case file."""
     try:
         return Problem(
             weight=weight / scales.factor("force_per_length"),
-            alpha=_angle(hole),
+            alpha=90.0 if lie.axis else lie.alpha,
+            build=lie.build,
+            walk=lie.walk,
+            axis=lie.axis,
             clearance=clearance / rod.length,
             poisson=rod.poisson,
             torsion=rod.torsion,
@@ -125,6 +137,9 @@ def _problem(
             "twist": "load.twist",
             "ends": "rod.ends",
             "clearance": "hole.diameter" if hole.clearance is None else "hole.clearance",
+            "build": "hole.build",
+            "walk": "hole.walk",
+            "axis": "hole.centerline" if hole.survey is None else "hole.survey",
         }
         name = names.get(error.field, error.field)
         what = error.reason
@@ -145,11 +160,12 @@ def _end_force(
     scales: Scales,
     rod: PhysicalRod,
     fluids: Fluids,
+    height: float,
 ) -> tuple[float | None, tuple[AppliedLoad, ...], list[Fact]]:
     """Effective end forces at s = 1 in B/L² from load.until and load.applied, wherever and however they are measured.
 
     The real force becomes the effective one where it is measured; from the bottom to the top the effective force
-    grows by the buoyed weight along the axis, N(s) = F + γ cos α (s − 1).
+    grows by the buoyed weight over the height of the rod (in L), N(s) = F + γ cos α (s − 1) in a straight hole.
     """
     if load.until is None and load.applied is None:
         check_force_words(load)
@@ -162,7 +178,7 @@ def _end_force(
         raise InputError("load.kind", None, what + '"effective" one')
     assert parsed.hole is not None
     bottom, gravity = load.at == "bottom", parsed.hole.gravity
-    drop = rod.length * math.cos(math.radians(problem.alpha)) if bottom and problem.alpha < 90.0 else 0.0
+    drop = rod.length * height if bottom else 0.0
     less = fluids.effective_minus_real(rod, gravity, drop) if load.kind == "real" else 0.0
     where = "bottom, s = 0" if bottom else "top, s = 1"
     facts = []
@@ -200,11 +216,11 @@ def check_force_words(load: schema.LoadInput | schema.DimensionlessLoad) -> None
             )
 
 
-def _clearance_from(hole: schema.Hole) -> str:
+def _clearance_from(hole: Hole) -> str:
     return "as given" if hole.diameter is None else "half of hole.diameter less the rod's outer diameter"
 
 
-def _clearance(rod: PhysicalRod, hole: schema.Hole) -> float:
+def _clearance(rod: PhysicalRod, hole: Hole) -> float:
     if hole.clearance is not None:
         if hole.diameter is not None:
             raise InputError("hole.clearance", None, "contradicts hole.diameter: give only one of the two")
@@ -220,38 +236,3 @@ def _clearance(rod: PhysicalRod, hole: schema.Hole) -> float:
             f"must be above the rod's outer diameter of {rod.outer_diameter:g} m: the rod does not fit",
         )
     return 0.5 * (hole.diameter - rod.outer_diameter)
-
-
-def _angle(hole: schema.Hole) -> float:
-    angles = {
-        "angle_from_vertical": hole.angle_from_vertical,
-        "angle_from_horizontal": hole.angle_from_horizontal,
-    }
-    given = [(name, value) for name, value in angles.items() if value is not None]
-    if len(given) != 1:
-        raise InputError(
-            "hole.angle_from_vertical",
-            None,
-            "is missing: give it or hole.angle_from_horizontal"
-            if not given
-            else "contradicts hole.angle_from_horizontal: give only one of the two",
-        )
-    name, value = given[0]
-    degrees = round(math.degrees(value), 12)  # "90 deg" makes its way through radians
-    if not 0.0 <= degrees <= 90.0:
-        raise InputError(
-            f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"' + _turned(name, degrees)
-        )
-    return degrees if name == "angle_from_vertical" else 90.0 - degrees
-
-
-def _turned(name: str, degrees: float) -> str:
-    """What to do about a hole that climbs: an angle beyond horizontal."""
-    vertical = degrees if name == "angle_from_vertical" else 90.0 - degrees
-    if not 90.0 < vertical <= 180.0:
-        return ""
-    same = 180.0 - vertical if name == "angle_from_vertical" else vertical - 90.0
-    return (
-        f': s = 1 is the upper end. A hole that climbs is the same hole seen from its other end: write "{same:g} deg" '
-        "and turn the rod round, rod.ends in reverse order, load.at the other end"
-    )

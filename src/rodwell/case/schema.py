@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
+from pydantic import Field, StrictBool, model_validator
 
+from rodwell.case.hole.schema import CylinderInput, Hole
 from rodwell.case.kinds import (
-    Acceleration,
-    Angle,
+    REQUIRED,
     Density,
     End,
     Ends,
@@ -33,31 +33,17 @@ from rodwell.case.kinds import (
     PositiveForce,
     PositiveMoment,
     Pressure,
+    SectionInput,
     Stiffness,
     Stress,
     TemperatureChange,
     TorsionalStiffness,
     Units,
+    _key,
 )
 
 MOST_MODES = 12
 """Branches that one case may ask for."""
-
-REQUIRED: Any = ...
-
-
-def _key(default: Any, meaning: str, *examples: object, allowed: str = "", **checks: Any) -> Any:
-    """A key with its default (REQUIRED: none), what it means, examples, and what is allowed beyond its kind."""
-    return Field(
-        default, description=meaning, examples=list(examples), json_schema_extra={"allowed": allowed}, **checks
-    )
-
-
-class SectionInput(BaseModel):
-    """Base of all sections: unknown keys are refused, values are not changed after reading."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
 
 POISSON, RTOL = "above -1 and at most 0.5", "from 1e-11 to 0.01"
 
@@ -113,34 +99,6 @@ class StringInput(PipeInput):
     name: Name | None = _key(None, "for report and messages; that of the `pipe` if not given", "heavy-weight pipe")
     joints: int | None = _key(None, "how many, instead of `length`", 3, strict=True, ge=1, le=100_000)
     joint_length: Length | None = _key(None, "of one, with `joints`", "9.3 m", "30.5 ft")
-
-
-class Hole(SectionInput):
-    """[hole]: the borehole, vessel or pipe around it."""
-
-    diameter: Length | None = _key(
-        None, "inner diameter of the hole; with the rod's outer diameter gives the clearance", "8.5 in", "6 mm"
-    )
-    clearance: Length | None = _key(None, "Δ, from axis to axis, instead of `diameter`", "1.75 in", "2.5 mm")
-    angle_from_vertical: Angle | None = _key(
-        None, "inclination α, from vertical to horizontal", "30 deg", allowed='"0 deg" to "90 deg"'
-    )
-    angle_from_horizontal: Angle | None = _key(
-        None, "instead of `angle_from_vertical`; one of the two is required", "60 deg", allowed='"0 deg" to "90 deg"'
-    )
-    gravity: Acceleration = _key(9.80665, "used with `density`", "9.80665 m/s^2")
-
-
-class CylinderInput(SectionInput):
-    """[cylinder]: section and strength of the pipe around it, for the check of its capacity."""
-
-    outer_diameter: Length = _key(REQUIRED, "outer diameter of the cylinder", "9.625 in", "75 cm")
-    inner_diameter: Length | None = _key(
-        None, "inner diameter; that of the hole, if `hole.diameter` is given", "8.535 in"
-    )
-    yield_strength: Stress = _key(
-        REQUIRED, "strength against which the largest equivalent stress is set", "80000 psi", "300 MPa"
-    )
 
 
 class Supports(SectionInput):

@@ -11,6 +11,7 @@ from rodwell.case import schema
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, checked_weight, fluids_of
+from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.errors import InputError
 from rodwell.problem.rod import Section
@@ -133,7 +134,7 @@ def check_beside(rod: object, string: object) -> None:
 
 def string_of(
     given: Sequence[schema.StringInput],
-    hole: schema.Hole,
+    hole: Hole,
     mud: schema.Mud | None,
     pressure: schema.PressureAtEnd | None,
     catalogue: Catalogue,
@@ -183,7 +184,7 @@ def check_length(string: PhysicalString, length: float | None) -> None:
         raise InputError("rod.length", length, what)
 
 
-def clearance_of(string: PhysicalString, hole: schema.Hole, of_one: Callable[[PhysicalRod], float]) -> float:
+def clearance_of(string: PhysicalString, hole: Hole, of_one: Callable[[PhysicalRod], float]) -> float:
     """The clearance Δ in m, which all sections must share; ``of_one`` gives that of a section."""
     found = []
     for one in string.members:

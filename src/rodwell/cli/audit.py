@@ -19,6 +19,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit, minus, plain, signed
 
 if TYPE_CHECKING:
@@ -34,12 +35,30 @@ NAMES = {
 """Exact loads, where a case has none to be named."""
 
 
+def _renamed(context: click.Context, option: click.Parameter, given: float | None) -> None:
+    """Refuse what was once the angle in degrees: elsewhere the same word is a curvature in 1/L."""
+    if given is not None:
+        key = "build" if option.name == "build" else "walk"
+        raise InputError(
+            f"--{option.name}",
+            given,
+            f"is now --{option.name}-angle, degrees over the length of the rod: write --{option.name}-angle {given:g}; "
+            f"for exact loads of the curved hole give its curvature in the case, hole.{key}",
+        )
+
+
 @click.command(short_help="Hold the formulas of practice against a case's exact loads.")
 @click.argument("case", type=click.Path(path_type=Path))
 @click.option("--out", type=OutPath(), help="Folder for the results.  [default: results/NAME-OF-THE-CASE-audit]")
 @click.option("--friction", type=float, help="Coefficient of friction, for the formulas that take one.")
-@click.option("--build", type=float, help="Degrees that the hole builds over the rod's length, for curved holes.")
-@click.option("--turn", type=float, help="Degrees that the hole turns sideways over the rod's length.")
+@click.option(
+    "--build-angle",
+    type=float,
+    help="Degrees that the hole builds over the rod's length, for formulas beside a case in a straight hole.",
+)
+@click.option("--turn-angle", type=float, help="Degrees that the hole turns sideways over the rod's length.")
+@click.option("--build", type=float, hidden=True, callback=_renamed, expose_value=False)
+@click.option("--turn", type=float, hidden=True, callback=_renamed, expose_value=False)
 @click.option("--chart/--no-chart", default=True, show_default=True, help="Draw the error over weight and inclination.")
 @units_option
 @click.option("--details", is_flag=True, help="Print every formula, not the verdict only.")
@@ -48,8 +67,8 @@ def audit(
     case: Path,
     out: Path | None,
     friction: float | None,
-    build: float | None,
-    turn: float | None,
+    build_angle: float | None,
+    turn_angle: float | None,
     chart: bool,
     units: str | None,
     details: bool,
@@ -60,7 +79,8 @@ def audit(
     For every formula: its load, the exact load at the place where the formula's force is measured, the error in
     percent, safe (where the formula is valid for the rod) or unsafe. Formulas of pitch, contact, stress, shortening and
     lock-up are shown at the first critical load and at each load.applied. Compression is positive here. The exact loads
-    are those of a straight hole without friction. `rodwell keys` explains the keys of a case file.
+    are those of the case's hole, straight or curved (hole.build, hole.survey), without friction. `rodwell keys`
+    explains the keys of a case file.
     """
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.case.file import read_case  # noqa: PLC0415
@@ -70,7 +90,7 @@ def audit(
     read = Case.read(text).in_units(units)
     folder = results_folder(out, text.name, "-audit")
     check_writable(folder)
-    angles = {"build": build, "turn": turn}
+    angles = {"build": build_angle, "turn": turn_angle}
     extra = {name: math.radians(value) for name, value in angles.items() if value is not None}
     if friction is not None:
         extra["mu"] = friction
@@ -82,7 +102,8 @@ def audit(
     with progress_bar(not as_json, "exact loads") as tell:
         result = compute(read, extra=extra)
         report = lambda done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
-        errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart else None
+        straight = result.problem.hole is None  # the map turns the hole, which would be another one if it is curved
+        errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart and straight else None
         tell("figure and data", 1.0)
         write_audit(result, errors, folder, read.about, read.source)
     if as_json:

@@ -93,10 +93,18 @@ def diagram(
         )
         tell("figure and data", 1.0)
         write_diagram(result, out)
+    places = {} if problem.hole is None else {branch.name: branch[-1].place_errors for branch in result}
     if as_json:
-        print_json(result.as_dict())
+        print_json({**result.as_dict(), **({"place_errors_at_the_ends": places} if places else {})})
     else:
         _print_diagram(result)
+        for name, errors in places.items():
+            pressure, energy = (plain(errors[which], 2) for which in ("largest_pressure", "energy"))
+            wrapped(
+                "The hole is taken where the undeformed rod is. With every cross-section at its own place the last "
+                f"state of {name} has a largest contact pressure that differs by {pressure} B/L³, and an energy that "
+                f"differs by {energy} B/L."
+            )
         print_written(out)
     check_missed([what for branch in result for what in missed(branch)], rtol)
 

@@ -45,6 +45,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
     from rodwell.analysis.branch.symmetry import arms_differ  # noqa: PLC0415
+    from rodwell.analysis.state.own_places import lift_off_with_own_places  # noqa: PLC0415
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_data  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
@@ -67,6 +68,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         met = critical_loads(problem, 1, rtol=rtol).first_met
         load = Value(met.force, met.error)
     what = [line for one in (branch, other) if one is not None for line in missed(one)]
+    own = None if problem.hole is None else lift_off_with_own_places(problem, lift.solution.meshes, lift.solution.point)
     data = {
         "critical_load": buckling.force,
         "critical_load_error": buckling.error,
@@ -74,6 +76,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         "other_arm": _arm(other),
         "coincides_with_buckling": branch.lift_off_at_buckling,
         **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
+        **({} if own is None else {"lift_off_own_places": {"value": own.value, "error": own.error}}),
         "converged": not what,
         "unit": "B/L^2",
         "convention": "end force at s = 1, tension positive; " + ends_text(problem),
@@ -81,7 +84,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     if as_json:
         print_json(data)
     else:
-        _print_liftoff(branch, other, lift, load, tuple(places))
+        _print_liftoff(branch, other, lift, (load, own), tuple(places))
         if what:
             click.echo(f"Not every number meets the tolerance {plain(rtol)}.")
     keep(where, lambda: _liftoff_numbers(data, branch, other), quiet=as_json)
@@ -89,16 +92,26 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
 
 
 def _print_liftoff(
-    branch: Branch, other: Branch | None, lift: SpecialPoint, load: Value, places: tuple[float, ...]
+    branch: Branch,
+    other: Branch | None,
+    lift: SpecialPoint,
+    loads: tuple[Value, Value | None],
+    places: tuple[float, ...],
 ) -> None:
+    """The load with the wall's help, and of a curved hole that with every cross-section at its own place."""
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
-    problem, buckling = branch.problem, branch.mode
+    problem, buckling, (load, own) = branch.problem, branch.mode, loads
     assert buckling is not None
     click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {buckling.number}  {with_error(buckling.load)}")
     click.echo(f"  lift-off            {with_error(load)}{places_text(places)}")
+    if own is not None:
+        click.echo(f"  with own places     {with_error(own)}")
+        wrapped(
+            "The branch takes the hole where the undeformed rod is; the last load has every cross-section at its own."
+        )
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")

@@ -15,7 +15,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import NO_PULL, WALL, drawn, limits, palette, scene
-from rodwell.analysis.space.surfaces import straight_contact
+from rodwell.analysis.space.surfaces import straight_contact, wall_places, wall_rings
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
@@ -25,6 +25,9 @@ from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 
 ELEVATION, AZIMUTH = 20.0, -66.0
+FLAT = 0.26
+"""Height against length for which there is room: what is bent up and down is drawn smaller."""
+
 LIGHT = np.array([0.25, -0.55, 0.8]) / np.linalg.norm([0.25, -0.55, 0.8])
 PLACES, SIDES, LINES = 321, 20, 4
 """Places along the rod and around it; more would only cost time."""
@@ -50,35 +53,35 @@ def plot_rod(
     with mpl.rc_context(RC):
         if ax is None:
             ax = wide_axes()
-        length, width = draw_rod(ax, rod)
-        for place in (0.0, 1.0):
-            ax.text(
-                place * length,
-                0.0,
-                -max(1.55 * width, width + 0.05 * length),
-                f"s = {place:g}",
-                ha="center",
-                fontsize=9,
-            )
+        draw_rod(ax, rod)
+        low, high = _box(rod)
+        below = max(1.55 * _reach(rod), _reach(rod) + 0.05 * (high - low)[0])
+        for end, place in zip((0, 1), _axes_of(rod.axis[[0, -1]] - below * rod.across[[0, -1], 0]), strict=True):
+            ax.text(*place, f"s = {end}", ha="center", fontsize=9)
         _colour_bar(ax, rod, scales)
         ax.figure.text(0.02, 0.93, enlarged(rod), fontsize=9.5, fontweight="bold")
         ax.figure.text(0.02, 0.03, _caption(solution, rod, scales), fontsize=8.5, linespacing=1.5)
     return ax
 
 
-def draw_rod(ax: Any, rod: Geometry, zoom: float = 0.8) -> tuple[float, float]:
-    """Draw rod, rings and wall on axes in three dimensions, without words; return length and half width drawn."""
-    length, width = float(rod.centreline[-1, 2]), _reach(rod)
+def draw_rod(ax: Any, rod: Geometry, zoom: float = 0.8) -> None:
+    """Draw rod, rings and wall on axes in three dimensions, without words."""
+    low, high = _box(rod)
+    size = high - low
     ax.set_proj_type("persp", focal_length=2.0)
     ax.view_init(elev=ELEVATION, azim=AZIMUTH)
-    ax.set_box_aspect((length, 2.0 * width, 2.0 * width), zoom=zoom)
-    ax.set_xlim(0.0, length)
-    ax.set_ylim(-width, width)
-    ax.set_zlim(-width, width)
+    ax.set_box_aspect(tuple(size), zoom=zoom * min(1.0, FLAT * size[0] / size[2]) if rod.bent else zoom)
+    for limit, start, end in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), low, high, strict=True):
+        limit(start, end)
     ax.set_axis_off()
     _bodies(ax, rod)
     _wall(ax, rod)
-    return length, width
+
+
+def _box(rod: Geometry) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest coordinates (3,) of what is drawn, in the axes of the picture."""
+    axis, beside = _axes_of(rod.axis), np.array([0.0, _reach(rod), _reach(rod)])
+    return axis.min(axis=0) - beside, axis.max(axis=0) + beside
 
 
 def _axes_of(points: FloatArray) -> FloatArray:
@@ -112,14 +115,11 @@ def _bodies(ax: Any, rod: Geometry) -> None:
 
 def _wall(ax: Any, rod: Geometry) -> None:
     """The cylinder that the rod's surface touches, translucent, with the line where the straight rod lies."""
-    angle = np.linspace(0.0, 2.0 * np.pi, 61)
-    circle = rod.wall_radius * np.cos(angle), rod.wall_radius * np.sin(angle)
-    ends = rod.centreline[[0, -1], 2]
-    z, x = np.meshgrid(ends, circle[0])
-    y = np.broadcast_to(circle[1][:, None], z.shape)
-    ax.plot_surface(z, y, x, color=WALL, alpha=0.16, lw=0, shade=False)
-    for end in ends:
-        ax.plot(np.full_like(angle, end), circle[1], circle[0], color="#627d98", lw=0.9)
+    rings = _axes_of(wall_rings(rod, np.linspace(0.0, 2.0 * np.pi, 61), wall_places(rod)))
+    ax.plot_surface(*np.moveaxis(rings, 2, 0).transpose(0, 2, 1), color=WALL, alpha=0.16, lw=0, shade=False,
+                    rcount=61, ccount=len(rings))  # fmt: skip
+    for ring in rings[[0, -1]]:
+        ax.plot(*ring.T, color="#627d98", lw=0.9)
     line = _axes_of(straight_contact(rod))
     ax.plot(*line.T, color="#627d98", lw=0.8, ls=":")
 

@@ -64,34 +64,52 @@ class _View:
         self.hole = 0.5 * (true_width if self.true else WIDE)
         self.rod = self.hole * rod / hole
 
+        self.axis = case.problem.hole
+
     def __call__(self, along: float, across: float) -> FloatArray:
-        return np.asarray(along * self.along + across * self.high)
+        at, high = self._place(along)
+        return np.asarray(at + across * high)
+
+    def high_at(self, along: float) -> FloatArray:
+        """Direction of the high side at a place along the hole."""
+        return self._place(along)[1]
+
+    def line(self, start: float, stop: float, across: float) -> FloatArray:
+        """Points (n, 2) of a line along the hole."""
+        places = np.linspace(start, stop, 2 if self.axis is None else 61)
+        return np.array([self(float(place), across) for place in places])
+
+    def _place(self, along: float) -> tuple[FloatArray, FloatArray]:
+        """A point of the axis and the high side there; a bent hole is seen across the vertical plane in its middle."""
+        if self.axis is None:
+            return along * self.along, self.high
+        middle, place = np.array([0.5]), np.array([along / LONG])
+        turn, plane = self.axis.frame(middle)[0][[2, 0]], np.stack([self.along, self.high])
+        at = LONG * (turn @ (self.axis.points(place) - self.axis.points(middle))[0]) + np.array([0.5 * LONG, 0.0])
+        return at @ plane, (turn @ self.axis.frame(place)[0, 0]) @ plane
 
 
 def _side(ax: Any, case: Case) -> None:
     view = _View(case)
     beyond = 0.6
-    wall = [
-        view(-beyond, -view.hole),
-        view(LONG + beyond, -view.hole),
-        view(LONG + beyond, view.hole),
-        view(-beyond, view.hole),
-    ]
-    ax.add_patch(Polygon(wall, closed=True, fc=BUCKLES, alpha=0.09, ec="none"))
-    for edge in (-view.hole, view.hole):
-        ax.plot(*zip(view(-beyond, edge), view(LONG + beyond, edge), strict=True), color=GREY, lw=1.6)
+    edges = [view.line(-beyond, LONG + beyond, edge) for edge in (-view.hole, view.hole)]
+    ax.add_patch(Polygon(np.concatenate([edges[0], edges[1][::-1]]), closed=True, fc=BUCKLES, alpha=0.09, ec="none"))
+    for edge in edges:
+        ax.plot(*edge.T, color=GREY, lw=1.6)
     low = -view.hole
-    rod = [view(0.0, low), view(LONG, low), view(LONG, low + 2.0 * view.rod), view(0.0, low + 2.0 * view.rod)]
+    rod = np.concatenate([view.line(0.0, LONG, low), view.line(0.0, LONG, low + 2.0 * view.rod)[::-1]])
     ax.add_patch(Polygon(rod, closed=True, fc=ROD, ec=INK, lw=1.0))
     for end, place in enumerate((0.0, LONG)):
         _end(ax, view, place, case.problem.ends[end])
         where = ("bottom, " if end == 0 else "top, ") if case.problem.alpha < 90.0 else ""
         _say(ax, view, place, f"{where}s = {end}\n{case.problem.ends[end]}", low - 0.25, "low")
     _length(ax, view, case)
-    _inclination(ax, view, case)
+    if view.axis is None:
+        _inclination(ax, view, case)
     _loads(ax, view, case)
     _weight(ax, view, case)
     reach = [view(place, across) for place in (-2.3, LONG + 2.3) for across in (-view.hole - 1.1, view.hole + 0.6)]
+    reach += [view(0.5 * LONG, across) for across in (-view.hole - 1.1, view.hole + 1.6)]
     for low_edge, high_edge, limit in ((*_range(reach, 0), ax.set_xlim), (*_range(reach, 1), ax.set_ylim)):
         limit(low_edge - 0.6, high_edge + 0.6)
 
@@ -132,22 +150,40 @@ def _end(ax: Any, view: _View, place: float, held: str) -> None:
 
 def _say(ax: Any, view: _View, along: float, text: str, across: float, side: str) -> None:
     """Words beside the hole, on its low or high side, so that they do not lie on it."""
-    direction = view.high if side == "high" else -view.high
-    ha = "left" if direction[0] > 0.3 else "right" if direction[0] < -0.3 else "center"
+    direction = (1.0 if side == "high" else -1.0) * view.high_at(along)
+    aslant = 0.3 if view.axis is None else 0.55
+    ha = "left" if direction[0] > aslant else "right" if direction[0] < -aslant else "center"
     va = "bottom" if direction[1] > 0.7 else "top" if direction[1] < -0.7 else "center"
     ax.text(*view(along, across), text, ha=ha, va=va, fontsize=8.5, linespacing=1.25)
 
 
 def _length(ax: Any, view: _View, case: Case) -> None:
     at = view.hole + 0.45
+    if view.axis is not None:
+        ax.plot(*view.line(0.0, LONG, at).T, color=INK, lw=0.9)
     for start, stop in ((0.5 * LONG, 0.0), (0.5 * LONG, LONG)):
-        ax.annotate("", view(stop, at), view(start, at), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 0.9})
+        tail = start if view.axis is None else 0.95 * stop + 0.05 * start
+        ax.annotate("", view(stop, at), view(tail, at), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 0.9})
     text = "L" if case.scales is None else f"L = {case.scales.text(1.0, 'length')}"
-    text += {0.0: ", vertical", 90.0: ", horizontal"}.get(case.problem.alpha, "")
+    if view.axis is None:
+        text += {0.0: ", vertical", 90.0: ", horizontal"}.get(case.problem.alpha, "")
+    else:
+        text += f", α = {plain(case.problem.alpha, 4)}° at mid-length\n{bend_text(case)}"
     if not view.true:
         ratio = 1.0 / (2.0 * _radii(case)[0] * case.problem.clearance)
         text += f"\n({plain(ratio, 2)} widths of the hole:\nnot to scale)"
-    _say(ax, view, 0.5 * LONG, text, at + 0.4, "high")
+    _say(ax, view, 0.5 * LONG, text, at + (0.4 if view.axis is None else 0.8), "high")
+
+
+def bend_text(case: Case) -> str:
+    """How the hole of a case is bent, in a few words."""
+    hole = case.problem.hole
+    assert hole is not None
+    one = not hole.axis
+    turns = f"turns by {plain(np.degrees(hole.turning), 3)}°"
+    if case.scales is None:
+        return f"{turns}, {'' if one else 'least '}radius {plain(1.0 / hole.sharpest, 3)} L"
+    return f"{turns}, {'' if one else 'least '}radius {case.scales.text(1.0 / hole.sharpest, 'length')}"
 
 
 def _inclination(ax: Any, view: _View, case: Case) -> None:

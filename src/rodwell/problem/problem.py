@@ -12,6 +12,7 @@ from typing import Any
 from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
 from rodwell.problem.hole import Hole, Points, checked_points
+from rodwell.problem.lying import rise_of_lying_rod
 from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
 
 LARGEST_WEIGHT = 1e9
@@ -247,9 +248,11 @@ class Problem:
         """Stiffness and weight along s."""
         return Rod(self.sections or PLAIN)
 
-    @property
+    @cached_property
     def hung_weight(self) -> float:
-        """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one."""
+        """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one, γ times its rise in a curved hole."""
+        if self.hole is not None:
+            return self.weight * rise_of_lying_rod(self.hole, -self.clearance if self.on_top else self.clearance)
         return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
 
     @property

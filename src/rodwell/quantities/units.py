@@ -25,6 +25,7 @@ from rodwell.quantities.written import (
 KINDS: dict[str, tuple[str, str]] = {
     "length": ("m", '"30 m", "5 cm", "8.5 in"'),
     "angle": ("rad", '"15 deg"'),
+    "curvature": ("rad/m", '"3 deg/30 m", "2 deg/100 ft", "0.05 rad/mm"'),
     "force": ("N", '"-20 kN", "-5000 lbf"'),
     "moment": ("N*m", '"1.2 kN m", "800 ft lbf"'),
     "stress": ("Pa", '"200 GPa", "30e6 psi"'),

@@ -49,9 +49,10 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
     """
     s = np.linspace(0.0, 1.0, places)
     states = [solution.fields_with_errors(s) for solution in branch]
+    names = [name for name in FIELDS if name in states[0][0]]
     out = {
         "s": Variable(("s",), s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
-        "field": Variable(("field",), _text(FIELDS), {"long_name": "names of the fields"}),
+        "field": Variable(("field",), _text(names), {"long_name": "names of the fields"}),
         "force": Variable(("point",), branch.force, _about("force")),
         "parameter": Variable(("point",), branch.values, {"long_name": f"what varies: {branch.parameter}"}),
     }
@@ -62,9 +63,9 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
     for name in ENERGIES:
         out[name] = Variable(("point",), np.array([e[name].value for e in energies]), _about(name))
         out[f"{name}_error"] = Variable(("point",), np.array([e[name].error for e in energies]), _about_error(name))
-    for name in FIELDS:
+    for name in names:
         out[name] = Variable(("point", "s"), np.array([fields[name] for fields, _ in states]), _about(name))
-    errors = np.array([[error[name] for name in FIELDS] for _, error in states])
+    errors = np.array([[error[name] for name in names] for _, error in states])
     about = {"long_name": "error estimate of each field, largest over s, in the field's units"}
     out["field_error"] = Variable(("point", "field"), errors, about)
     about = {"long_name": "number of negative eigenvalues of the second variation; 0 is stable", "units": "1"}
@@ -154,8 +155,8 @@ def solution_dataset(
     unit = _Units.of(length, stiffness)
     s = np.linspace(0.0, 1.0, places)
     fields, errors = solution.fields_with_errors(s)
-    data = {name: unit.array(name, ("s",), fields[name], errors[name]) for name in FIELDS}
-    for name in VANISHING:
+    data = {name: unit.array(name, ("s",), fields[name], errors[name]) for name in FIELDS if name in fields}
+    for name in VANISHING if "cylinder_F1" in fields else ():
         data[name] = unit.array(name, ("s",), np.zeros(places), 0.0)
     for name, matrices in frames(fields["xi1"], fields["eta"], fields["xi2"]).items():
         about = {"long_name": f"frame, columns {', '.join(FRAMES[name])}", "equation": "(1)", "units": "1"}

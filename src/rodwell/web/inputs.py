@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 from rodwell.case import schema
 from rodwell.case.case import Case
+from rodwell.case.hole.schema import Hole
 from rodwell.errors import InputError
 from rodwell.quantities.written import number_and_rest
 
@@ -24,7 +25,7 @@ DEFAULT: dict[str, Any] = {
 """What is explored where no case file is given: the rod of the paper's Fig. 3(c)."""
 
 SECTIONS: dict[str, type[BaseModel]] = {
-    "dimensionless": schema.Dimensionless, "rod": schema.RodInput, "hole": schema.Hole, "mud": schema.Mud,
+    "dimensionless": schema.Dimensionless, "rod": schema.RodInput, "hole": Hole, "mud": schema.Mud,
     "pressure": schema.PressureAtEnd, "load": schema.LoadInput,
 }  # fmt: skip
 """Sections whose numbers can be moved; the load itself has a slider of its own."""

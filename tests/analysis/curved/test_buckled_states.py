@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rodwell import Branch, InputError, Problem, critical_loads, follow
+from rodwell import Branch, InputError, Problem, critical_loads, diagram, equilibrium, follow
 from rodwell.analysis.state import curved_certificate
+from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.physics.on_wall import curved
 
 
@@ -120,3 +121,85 @@ def test_other_parameters_and_what_is_refused(branch: Branch) -> None:
 
 def test_the_model_names_what_it_is_given() -> None:
     assert len(curved.GIVEN) == 2 + len(curved.FUNCTIONS) * curved.TERMS
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"build": 0.2, "walk": 0.3},
+        {"walk": -0.3, "ends": "pinned-free"},
+        {"build": 0.2, "twist": 2.0, "ends": "clamped-guided"},
+    ],
+)
+def test_rod_lies_beside_the_bottom_where_the_hole_leaves_the_vertical_plane(given: dict[str, object]) -> None:
+    """A solved state that moves with the end force; balance in space is the judge, with the hole's own frame."""
+    problem = Problem(15.0, 80.0, **given)  # type: ignore[arg-type]
+    state = equilibrium(problem, 0.0)
+    assert state.stable
+    assert state.converged, state.certificate.residuals
+    branch = follow(problem, start=state, until=-60.0)
+    assert branch.reached_end
+    assert branch[-1].converged, branch[-1].certificate.residuals
+    assert abs(branch[-1].largest("xi2").value - state.largest("xi2").value) > 1e-4
+
+
+def test_walk_to_the_other_side_is_the_mirror_image() -> None:
+    angles = [equilibrium(Problem(15.0, 80.0, build=0.2, walk=k), -40.0).fields(11)["xi2"] for k in (0.2, -0.2)]
+    np.testing.assert_allclose(angles[0], -angles[1], atol=1e-9)
+    assert angles[0][5] * 0.2 != 0.0
+
+
+def test_an_axis_through_points_is_the_arc_that_they_lie_on() -> None:
+    arc = Problem(15.0, 70.0, build=0.3)
+    assert arc.hole is not None
+    points = Problem(15.0, axis=tuple(map(tuple, arc.hole.points(np.linspace(0.0, 1.0, 41)))))
+    assert points.alpha == pytest.approx(70.0, abs=1e-8)
+    ours, known = (critical_loads(problem, 2).forces for problem in (points, arc))
+    np.testing.assert_allclose(ours, known, rtol=1e-6)
+
+
+def test_rod_that_lies_still_has_no_branch_in_the_end_force() -> None:
+    state = equilibrium(Problem(15.0, build=0.2), -50.0)
+    assert not np.any(state.fields(11)["xi2"])
+    assert state.certificate.passed, state.certificate.residuals
+    with pytest.raises(InputError, match="follow a mode"):
+        follow(state.problem, start=state, until=-100.0)
+
+
+def test_parts_of_the_energy_add_up_and_ends_bear_what_acts(branch: Branch) -> None:
+    state = branch[-1]
+    parts = {name: value.value for name, value in state.energies.items()}
+    whole = parts["bending_energy"] + parts["lateral_energy"] + parts["axial_energy"] - parts["end_work"]
+    assert whole == pytest.approx(state.number("energy").value, rel=1e-9)
+    own = state.own_places
+    (first, last) = own.reactions
+    assert (first.on, first.s, last.on, last.s) == ("rod", 0.0, "rod", 1.0)
+    kr = 0.2 / 1.002
+    assert last.force[2] == pytest.approx(-200.0 - kr**2, abs=1e-9)  # F, less what bending the rod with the hole takes
+    hole = state.problem.hole
+    assert hole is not None
+    places = np.array([first.s, own.fields(2)["z"][1]]) + 0.5 - 0.5 / 1.002
+    forces = [hole.frame(places[i : i + 1])[0].T @ r.force for i, r in enumerate((first, last))]
+    s = np.linspace(0.0, 1.0, 20001)
+    fields = own.fields(s)
+    angle, axes = fields["xi2"], hole.frame(places[0] + fields["z"])
+    d1 = np.cos(angle)[:, None] * axes[:, 0] - np.sin(angle)[:, None] * axes[:, 1]
+    wall = -np.trapezoid(fields["contact_pressure"][:, None] * d1, s, axis=0)
+    np.testing.assert_allclose(forces[0] + forces[1] + wall, [0.0, 0.0, 15.0], atol=1e-5)
+
+
+def test_diagram_follows_index_and_mirror_images() -> None:
+    result = diagram(Problem(15.0, build=0.2), modes=2, until=-225.0, secondary=False)
+    assert [branch.stability_index[-1] for branch in result] == [0, 0]
+    changes = [point for branch in result for point in branch.special_points if point.kind == "branch_point"]
+    assert [(p.index_before, p.index_after) for p in changes] == [(1, 0)]
+
+
+def test_lift_off_with_own_places() -> None:
+    problem = Problem(15.0, build=0.2)
+    lift = follow(problem, 1).lift_off
+    assert lift is not None
+    own = lift_off_with_own_places(problem, lift.solution.meshes, lift.solution.point)
+    again = follow(problem, 1, until=own.value)[-1].own_places
+    assert abs(again.highest_pressure[0]) < 1e-6
+    assert 0.0 < abs(own.value - lift.force) < 0.2 * abs(lift.force) * lift.solution.number("end_shortening").value

@@ -196,6 +196,11 @@ def from_state(problem: Problem, start: Solution, parameter: str, until: float |
         raise InputError("start", start, f"belongs to another problem ({differ}): follow it in what differs first")
     if until == start.value_of(parameter):
         raise InputError("until", until, "must differ from the value at the start")
+    if not start.point.fine.c.any() and parameter == "force":
+        reason = (
+            "is the rod that has not buckled, which stays so at any end force: follow a mode from its critical load"
+        )
+        raise InputError("start", start, reason)
     begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
     how.watched.tried(start)
     result = traced(

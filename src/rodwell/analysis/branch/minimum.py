@@ -34,15 +34,18 @@ STEEPEST_START = 0.9
 
 
 def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Solution:
-    """Stable state of a coiled rod (``problem.turns`` ≠ 0) at an end force, by minimising its energy.
+    """Stable state of a coiled rod, or of one in a curved hole, at an end force, by minimising its energy.
 
-    The search starts from the even winding y = 2πnΔ (s − sin 2πs/2π) and goes downhill: the state found is a
-    minimum under dead loads among states on the wall. Without turns, that is the straight rod.
+    Coiled (``problem.turns`` ≠ 0): the search starts from the even winding y = 2πnΔ (s − sin 2πs/2π) and goes downhill:
+    the state found is a minimum under dead loads among states on the wall. Without turns, in a straight hole, that is
+    the straight rod. In a curved hole the search starts from θ = 0, and finds how the rod lies where that is no
+    straight generator: in holes that leave the vertical plane.
 
     Parameters
     ----------
     problem
-        The rod; ``turns`` sets how often its end is carried around the cylinder.
+        The rod; ``turns`` sets how often its end is carried around the cylinder, ``build``, ``walk`` or ``axis`` how
+        the hole is curved.
     force
         End force F at s = 1 in B/L², tension positive.
     rtol
@@ -58,6 +61,8 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
     first_run.begin(problem)
     rtol = checked_rtol(rtol)
     force = checked_force("force", force)
+    if problem.hole is not None:
+        return _in_curved_hole(problem, force, rtol)
     if problem.turns == 0:
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     family, outcome, coarse = _odd_or_any(problem, force)
@@ -72,6 +77,22 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
             f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}"
         )
     return Solution(problem, meshes.at(point, force) or point, meshes)
+
+
+def _in_curved_hole(problem: Problem, force: float, rtol: float) -> Solution:
+    """The minimum downhill from the rod at θ = 0, or that rod itself where it is one."""
+    space = first_space(problem, min(force, 0.0), max(force, 0.0))
+    scale = max(abs(force), 4.0 * np.pi**2)
+    family = equilibria(problem, space, parity=0, wavenumber=2.0 * np.pi, scale=scale)
+    outcome, c = minimise(family, np.zeros(space.size), force)
+    coarse = None
+    if outcome is Outcome.CONVERGED:
+        outcome, coarse, _ = family.at(c, force)
+    if coarse is not None:
+        outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+        if point is not None:
+            return Solution(problem, meshes.at(point, force) or point, meshes)
+    raise NotConvergedError(f"no stable state found at F = {force:g} B/L²: {family.advice(outcome)}")
 
 
 def _from_lighter(problem: Problem, force: float, rtol: float) -> Solution | None:

@@ -23,6 +23,7 @@ from rodwell.analysis.discrete.choices import (
 from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.physics.on_wall.curved import TERMS
 from rodwell.problem.hole import Hole
+from rodwell.problem.lying import places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -111,26 +112,7 @@ def hole_at(problem: Problem, places: FloatArray) -> tuple[FloatArray, FloatArra
 
 def undeformed_place(problem: Problem, s: FloatArray) -> FloatArray:
     """S₀ (m,) on the hole's axis at places ``s`` (m,) of the rod that lies on the generator θ = 0."""
-    hole, reach = _hole(problem), problem.clearance * wall_side(problem)
-    if not hole.axis:
-        return np.asarray(0.5 + (s - 0.5) / (1.0 + reach * hole.curvatures(np.array([0.5]))[0, 0]))
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    grid = np.linspace(-0.05, 1.05, 10 * PLACES + 1)
-    half = 0.5 * np.diff(grid)[:, None]
-
-    def stretch(places: FloatArray) -> FloatArray:
-        return 1.0 + reach * hole.curvatures(places.ravel())[:, 0].reshape(places.shape)
-
-    lengths = (stretch(grid[:-1, None] + half * (nodes + 1.0)) @ weights) * half[:, 0]
-    along = np.concatenate([[0.0], np.cumsum(lengths)])
-    along += 0.5 - np.interp(0.5, grid, along)
-    found = np.interp(s, along, grid)
-    for _ in range(3):  # Newton's method, with the integral from the nearest grid point below
-        below = np.clip(np.searchsorted(grid, found, side="right") - 1, 0, grid.size - 2)
-        step = 0.5 * (found - grid[below])
-        part = (stretch(grid[below][:, None] + step[:, None] * (nodes + 1.0)) @ weights) * step
-        found = found - (along[below] + part - s) / stretch(found)
-    return np.asarray(found)
+    return places_of_lying_rod(_hole(problem), problem.clearance * wall_side(problem), s)
 
 
 @lru_cache(maxsize=64)

@@ -5,6 +5,9 @@ straight rod at x = −Δ (at x = Δ if it lies on top). The centreline is r₁ 
 braid frame {t₁, d₁, u₁} of Section 2 of the paper: d₁ points from the rod to the cylinder's axis. The cross-section of
 the rod carries the material frame {t₁, d₀, v₁}; (1) with R₁₁ = R₀₁ R₁(ξ₁) makes d₁ = cos ξ₁ d₀ + sin ξ₁ v₁, so the
 material frame is the braid frame turned about t₁ by −ξ₁. Its rate of turning is ω̃₁ = ω₁ − ξ₁' = −T₁/C about t₁.
+
+In a curved hole all this holds with N1, N2, T of the hole beside the rod in place of i, j, k, and i, j, k are those in
+the middle of the hole, at S = ½, where the hole is as far along k as if it were straight.
 """
 
 from __future__ import annotations
@@ -13,9 +16,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import undeformed_place
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.physics.on_wall.frames import frames
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 DISPLAY_RADIUS = 0.2
@@ -26,6 +31,9 @@ PROPORTION = 5.0
 
 STEEPEST_DRAWN = 2.0
 """Largest slope of the drawn centreline against the cylinder's axis in a readable picture."""
+
+INNERMOST = 0.5
+"""Largest part of the radius of a bend that a readable picture of its hole reaches inwards."""
 
 LARGEST_SCALE = 1e7
 FEWEST_PLACES, MOST_PLACES = 2, 100_000
@@ -67,6 +75,9 @@ class Geometry:
         How many times everything across the axis is enlarged; 1 is true scale.
     outside
         The rod lies on the outside of the cylinder.
+    axis, across
+        Points (m, 3) of the cylinder's axis beside the rod, and unit vectors (m, 2, 3) across it there: i, j of a
+        straight cylinder, N1, N2 of a curved hole. Not enlarged.
     lift_off
         Places s at which the rod is lifting off: where the wall pushes no longer. Beyond lift-off, where it would have
         to pull most. Empty where contact is complete.
@@ -86,6 +97,8 @@ class Geometry:
     rod_radius: float
     radial_scale: float
     outside: bool
+    axis: FloatArray
+    across: FloatArray
     lift_off: tuple[float, ...]
 
     @property
@@ -103,6 +116,11 @@ class Geometry:
         return (self.clearance + side * self.rod_radius) * self.radial_scale
 
     @property
+    def bent(self) -> bool:
+        """Whether the cylinder is a curved hole."""
+        return bool(np.any(self.across != self.across[0]))
+
+    @property
     def pull(self) -> FloatArray:
         """Contact pressure (m,) in B/L³ with the sign that makes it negative in contact, inside and outside."""
         p = self.fields["contact_pressure"]
@@ -117,37 +135,53 @@ def geometry(
     radial_scale: float | None = 1.0,
 ) -> Geometry:
     """Return the rod of ``solution`` in space; arguments and errors as in :meth:`rodwell.Solution.geometry`."""
-    solution.problem.refuse_curved("shapes in space are built")
     problem = solution.problem
     count = _places(solution, places)
     s = np.linspace(0.0, 1.0, count)
     fields = solution.fields(s)
     radius = checked_radius(solution, rod_radius, fields)
-    scale = _scale(fields, problem.clearance + radius, radial_scale)
+    sharpest = 0.0 if problem.hole is None else problem.hole.sharpest
+    scale = _scale(fields, problem.clearance + radius, radial_scale, sharpest)
     sin_eta, cos_eta = np.sin(fields["eta"]), np.cos(fields["eta"])
     drawn = np.arctan2(scale * sin_eta, cos_eta)
     # (32) with the drawn angle: ω₁ of the drawn frame is −ξ₂' cos η, per length of the rod
     angle = fields["xi1"] + _running((cos_eta - np.cos(drawn)) * sin_eta / problem.clearance, s)
     axes = frames(angle, drawn, fields["xi2"])
     (t1, d1, u1), (_, d0, v1) = (np.moveaxis(axes[name], 2, 0).copy() for name in ("R11", "R01"))
-    centreline = -scale * problem.clearance * d1
-    centreline[:, 2] = fields["z"]
+    axis, across = _beside(problem, fields["z"])
+    along = np.cross(across[:, 0], across[:, 1])
+    there = np.concatenate([across, along[:, None]], axis=1)
+    t1, d1, u1, d0, v1 = (np.einsum("mi,mic->mc", vectors, there) for vectors in (t1, d1, u1, d0, v1))
+    centreline = axis - scale * problem.clearance * d1
     braid, material = (
         np.stack([fields[f"{name}{i}"] for i in (1, 2, 3)], axis=-1) for name in ("omega", "material_omega")
     )
     return Geometry(
         s, centreline, t1, d1, u1, d0, v1, braid, material, fields, problem.clearance, radius, scale,
-        problem.outside, _lift_off(solution, fields),
+        problem.outside, axis, across, _lift_off(solution, fields),
     )  # fmt: skip
 
 
-def readable_scale(fields: dict[str, FloatArray], reach: float) -> float:
+def _beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Axis (m, 3) and unit vectors across it (m, 2, 3) at distances z (m,) along it from the end s = 0."""
+    if problem.hole is None:
+        axis = np.stack([0.0 * z, 0.0 * z, z], axis=1)
+        return axis, np.tile(np.eye(3)[:2], (z.size, 1, 1))
+    places = float(undeformed_place(problem, np.array([0.0]))[0]) + z
+    middle = np.array([0.5])
+    turn = problem.hole.frame(middle)[0]
+    axis = (problem.hole.points(places) - problem.hole.points(middle)) @ turn.T + np.array([0.0, 0.0, 0.5])
+    return axis, problem.hole.frame(places)[:, :2] @ turn.T
+
+
+def readable_scale(fields: dict[str, FloatArray], reach: float, sharpest: float = 0.0) -> float:
     """Enlargement across the axis with which a picture can be read, two digits, at least 1.
 
-    ``reach`` is the largest distance from the axis, in L. The picture becomes five times as long as wide, longer where
-    the centreline would become steeper than 2.
+    ``reach`` is the largest distance from the axis, in L, ``sharpest`` the largest curvature of the axis. The picture
+    becomes five times as long as wide, longer where the centreline would become steeper than 2, or where the inside of
+    the bend would come closer than half to its centre.
     """
-    by_width = 1.0 / (2.0 * reach * PROPORTION)
+    by_width = 1.0 / (reach * max(2.0 * PROPORTION, sharpest / INNERMOST))
     steepest = float(np.max(np.abs(np.tan(fields["eta"]))))
     scale = min(by_width, STEEPEST_DRAWN / max(steepest, 1e-300))
     if scale <= 1.0:
@@ -179,10 +213,14 @@ def _places(solution: Equilibrium, places: int | None) -> int:
     return min(max(USUAL_PLACES[0], 4 * elements + 1), USUAL_PLACES[1])
 
 
-def _scale(fields: dict[str, FloatArray], reach: float, given: float | None) -> float:
+def _scale(fields: dict[str, FloatArray], reach: float, given: float | None, sharpest: float) -> float:
     if given is None:
-        return readable_scale(fields, reach)
-    return checked_number("radial_scale", given, 1.0, LARGEST_SCALE, f"from 1 (true scale) to {LARGEST_SCALE:g}")
+        return readable_scale(fields, reach, sharpest)
+    most = min(LARGEST_SCALE, max(1.0, 1.0 / (reach * sharpest))) if sharpest > 0.0 else LARGEST_SCALE
+    allowed = f"from 1 (true scale) to {most:.4g}"
+    if most < LARGEST_SCALE:
+        allowed += ", at which the wall reaches the centre of the hole's bend"
+    return checked_number("radial_scale", given, 1.0, most, allowed)
 
 
 def _running(rate: FloatArray, s: FloatArray) -> FloatArray:

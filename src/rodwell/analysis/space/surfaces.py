@@ -26,6 +26,10 @@ RING = (1.35, 0.22)
 """Radii of a ring around the rod, and of its own cross-section, against the rod's radius; the wall flattens it."""
 
 
+BENT_RINGS = 161
+"""Rings that make the wall of a curved hole."""
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Triangles in space.
@@ -80,10 +84,11 @@ def material_lines(geometry: Geometry, count: int = 2, width: float = LINE_WIDTH
     out = []
     for middle in 2.0 * np.pi * np.arange(count) / count:
         phi = middle + np.array([-width, 0.0, width])
-        vertices = within_wall(geometry, _around(geometry, phi, RAISED * geometry.drawn_radius).reshape(-1, 3))
-        places = np.arange(geometry.s.size)
-        triangles = _grid(places.size, phi.size, closed=False)
-        out.append(Mesh(vertices, triangles, np.repeat(places, phi.size), np.tile(phi, places.size)))
+        count_ = geometry.s.size
+        places = np.repeat(np.arange(count_), phi.size)
+        raised = _around(geometry, phi, RAISED * geometry.drawn_radius).reshape(-1, 3)
+        triangles = _grid(count_, phi.size, closed=False)
+        out.append(Mesh(within_wall(geometry, raised, places), triangles, places, np.tile(phi, count_)))
     return out
 
 
@@ -99,33 +104,47 @@ def ring(geometry: Geometry, s: float, sides: int = 32, around: int = 10) -> Mes
     index = np.arange(sides * around).reshape(sides, around)
     i, j = np.roll(index, -1, axis=0), np.roll(index, -1, axis=1)
     triangles = _split(index, i, np.roll(i, -1, axis=1), j)
-    flat = within_wall(geometry, vertices.reshape(-1, 3))
-    return Mesh(flat, triangles, np.full(sides * around, nearest), np.zeros(sides * around))
+    places = np.full(sides * around, nearest)
+    return Mesh(within_wall(geometry, vertices.reshape(-1, 3), places), triangles, places, np.zeros(sides * around))
 
 
-def within_wall(geometry: Geometry, points: FloatArray) -> FloatArray:
-    """The points (n, 3), those beyond the wall that the rod touches put back onto it: nothing pierces the cylinder."""
-    away = np.hypot(points[:, 0], points[:, 1])
+def within_wall(geometry: Geometry, points: FloatArray, places: IntArray) -> FloatArray:
+    """The points (n, 3), those beyond the wall that the rod touches put back onto it: nothing pierces the cylinder.
+
+    ``places`` (n,) are the numbers of the places along the rod that they belong to.
+    """
+    across = geometry.across[places]
+    off = np.einsum("nic,nc->ni", across, points - geometry.axis[places])
+    away = np.hypot(off[:, 0], off[:, 1])
     beyond = away < geometry.wall_radius if geometry.outside else away > geometry.wall_radius
-    back = np.where(beyond, geometry.wall_radius / np.maximum(away, 1e-300), 1.0)
-    return np.column_stack([points[:, 0] * back, points[:, 1] * back, points[:, 2]])
+    back = np.where(beyond, geometry.wall_radius / np.maximum(away, 1e-300), 1.0) - 1.0
+    return np.asarray(points + np.einsum("ni,nic->nc", off * back[:, None], across))
+
+
+def wall_places(geometry: Geometry) -> IntArray:
+    """Places along the rod at which rings make the wall: both ends, and more between where it is bent."""
+    count = geometry.s.size
+    return np.unique(np.linspace(0, count - 1, min(count, BENT_RINGS) if geometry.bent else 2).round().astype(int))
+
+
+def wall_rings(geometry: Geometry, phi: FloatArray, places: IntArray) -> FloatArray:
+    """Points (k, len(phi), 3) of the wall around the axis at ``places`` (k,), at angles ``phi`` from i towards j."""
+    circle = geometry.wall_radius * np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+    return np.asarray(geometry.axis[places][:, None] + np.einsum("pi,kic->kpc", circle, geometry.across[places]))
 
 
 def cylinder(geometry: Geometry, sides: int = 96) -> Mesh:
     """The wall that the rod's surface touches, an open tube from the rod's first to its last cross-section."""
-    ends = geometry.centreline[[0, -1], 2]
-    phi = 2.0 * np.pi * np.arange(sides) / sides
-    circle = geometry.wall_radius * np.stack([np.cos(phi), np.sin(phi)], axis=-1)
-    vertices = np.concatenate([np.column_stack([circle, np.full(sides, z)]) for z in ends])
-    places = np.repeat([0, geometry.s.size - 1], sides)
-    return Mesh(vertices, _grid(2, sides, closed=True), places, np.zeros(2 * sides))
+    phi, places = 2.0 * np.pi * np.arange(sides) / sides, wall_places(geometry)
+    vertices = wall_rings(geometry, phi, places).reshape(-1, 3)
+    of_vertices = np.repeat(places, sides)
+    return Mesh(vertices, _grid(places.size, sides, closed=True), of_vertices, np.zeros(of_vertices.size))
 
 
 def straight_contact(geometry: Geometry) -> FloatArray:
-    """Ends of the line on the wall along which the straight rod touches it, (2, 3)."""
+    """Line on the wall along which the straight-lying rod touches it, (k, 3): its ends; between too where bent."""
     angle = geometry.fields["xi2"][0] - geometry.fields["y"][0] / geometry.clearance  # 0, or π for a rod on top
-    x, y = -geometry.wall_radius * np.cos(angle), geometry.wall_radius * np.sin(angle)
-    return np.array([[x, y, z] for z in geometry.centreline[[0, -1], 2]])
+    return wall_rings(geometry, np.array([np.pi - angle]), wall_places(geometry))[:, 0]
 
 
 def _around(geometry: Geometry, phi: FloatArray, radius: float) -> FloatArray:

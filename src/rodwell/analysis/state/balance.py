@@ -10,6 +10,7 @@ from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
+from rodwell.analysis.state.in_hole import InHole
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -35,7 +36,9 @@ class Reaction:
         0.0 or 1.0.
     force, moment
         Components along i (up across the cylinder), j, k (along its axis, from s = 0 to s = 1), (3,) each, in B/L² and
-        B/L. The moment is about the axis of the rod, or of the cylinder, at that end.
+        B/L. The moment is about the axis of the rod, or of the cylinder, at that end. In a curved hole along its N₁,
+        N₂, T there, and of the rod only; the collar that takes F bends the rod with the hole, too: at s = 1 the force
+        along T is F less what that moment drives, F − M·(κₙu₂ − κₜd₁)/h.
     force_error, moment_error
         Error estimates, (3,).
     """
@@ -50,12 +53,13 @@ class Reaction:
 
 def energies(solution: Equilibrium) -> dict[str, Value]:
     """Energies in B/L relative to the straight, equally twisted rod, each with its error estimate; see ``ENERGIES``."""
-    solution.problem.refuse_curved("parts of the energy are computed")
     coarse, fine = (_energies(solution.problem, f, state) for f, state in solution.levels)
     return {k: compared(coarse[k], fine[k]) for k in ENERGIES}
 
 
 def _energies(problem: Problem, family: Family, state: State) -> dict[str, float]:
+    if problem.hole is not None:
+        return InHole(problem, family, state).energies()
     space, p = state.space, family.parameters(state.lam)
     s, w = space.points, space.weights
     y, y1, y2 = shape(family, state, s, 3)
@@ -110,6 +114,8 @@ def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:
 def _reactions(
     problem: Problem, family: Family, state: State
 ) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
+    if problem.hole is not None:
+        return InHole(problem, family, state).end_loads()
     return end_loads(fields_at(problem, family, state, np.array([0.0, 1.0])))
 
 

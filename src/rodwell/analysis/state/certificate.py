@@ -18,7 +18,7 @@ from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.curved_certificate import residuals
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import element_fields, gauss_calculus, gauss_places
-from rodwell.analysis.state.own_places import with_own_places
+from rodwell.analysis.state.own_places import near_by
 from rodwell.physics.on_wall import equations
 from rodwell.physics.on_wall.equations import NAMES, NUMBERS, Fifteen, Load
 from rodwell.quantities.arrays import FloatArray
@@ -139,7 +139,7 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
     problem = solution.problem
     if problem.hole is not None:
-        own = with_own_places(problem, solution.meshes, solution.point)
+        own = near_by(problem, solution.meshes, solution.point)
         return Certificate(residuals(problem, *own), max(LIMIT, SLACK * solution.meshes.rtol))
     half, fields = element_fields(problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]

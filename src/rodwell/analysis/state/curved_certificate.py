@@ -36,35 +36,38 @@ def residuals(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> dict[s
         by_element = values.reshape(half.size, -1, 3)
         return np.asarray(np.einsum("pq,eqi->epi", derivative, by_element) / half[:, None, None]).reshape(-1, 3)
 
-    def integral(values: FloatArray) -> FloatArray:
-        """From s = 0."""
+    def integral(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """From s = 0 to each place, and to s = 1."""
         by_element = values.reshape(half.size, -1, 3)
         pieces = np.einsum("q,eqi->ei", whole, by_element) * half[:, None]
         before = np.concatenate([np.zeros((1, 3)), np.cumsum(pieces, axis=0)[:-1]])
         part = np.einsum("pq,eqi->epi", running, by_element) * half[:, None, None]
-        return np.asarray(before[:, None] + part).reshape(-1, 3)
+        return np.asarray(before[:, None] + part).reshape(-1, 3), np.sum(pieces, axis=0)
 
-    def left(*terms: FloatArray) -> float:
-        size = max(float(np.max(np.linalg.norm(term, axis=1))) for term in terms)
-        return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / max(size, _TINY)
+    def left(*terms: FloatArray, least: float = _TINY) -> float:
+        size = max(least, *(float(np.max(np.linalg.norm(term, axis=1))) for term in terms))
+        return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / size
 
     fields = rod.fields(s)
     centre, frame = rod.frames(s)
     tangent, d1, u1 = frame.transpose(1, 0, 2)
 
     force, moment = (_vector(fields, kind, frame) for kind in ("F", "M"))
-    ends = np.array([0.0])
-    first = _vector(rod.fields(ends), "F", rod.frames(ends)[1])
+    largest = float(np.max(np.linalg.norm(force, axis=1)))  # a rod that lies still has no shear
     weight = np.zeros_like(force)
     weight[:, 2] = rod.parameters[AXIAL_WEIGHT]
     bent = fields["omega3"][:, None] * d1 - fields["omega2"][:, None] * u1
+    loads = weight + fields["contact_pressure"][:, None] * d1
+    gained, whole_gain = integral(loads)
+    middle = s.size // 2  # where third derivatives of a spline are known best
+    first = force[middle] - gained[middle]
     out = {
         "r′ = t": left(rate(centre), -tangent),
         "t′ = M × t": left(rate(tangent), -bent),
-        "force balance": left(force - first, -integral(weight), -integral(fields["contact_pressure"][:, None] * d1)),
-        "moment balance": left(rate(moment), np.cross(tangent, force)),
+        "force balance": left(force - first, -gained, least=max(float(np.max(np.abs(weight))), _TINY)),
+        "moment balance": left(rate(moment), np.cross(tangent, force), least=largest),
     }
-    return out | _ends(problem, rod)
+    return out | _ends(problem, rod, np.array([first, first + whole_gain]))
 
 
 def _vector(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> FloatArray:
@@ -72,24 +75,26 @@ def _vector(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> Floa
     return np.asarray(sum(fields[f"rod_{kind}{i + 1}"][:, None] * frame[:, i] for i in range(3)))
 
 
-def _ends(problem: Problem, rod: InHole) -> dict[str, float]:
-    """What ends hold, and the moment and the force around the hole that they leave free, relative to the largest value.
+def _ends(problem: Problem, rod: InHole, forces: FloatArray) -> dict[str, float]:
+    """What ends hold, and the moment and the force around the hole that they leave free, relative to the largest.
 
-    The force that goes with y is n·u₂ + (ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
+    ``forces`` (2, 3) are those at s = 0 and s = 1 by the balance of the whole. The force that goes with y is n·u₂ +
+    (ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
     """
     everywhere = np.concatenate([[0.0, 1.0], np.linspace(0.0, 1.0, 201)])
     (y, y1), fields = rod.shape(everywhere, 2), rod.fields(everywhere)
     cos = np.sqrt(1.0 - y1**2)
-    normal = fields["omega3"] * y1 / rod.clearance
-    torque = rod.parameters[TWIST] * (cos - 1.0) / rod.clearance
-    parts = fields["rod_F1"] * y1, fields["rod_F3"] * cos, normal, torque
-    size = max(float(np.max(np.abs(part))) for part in parts)
+    tangent, _, u1 = rod.frames(everywhere[:2])[1].transpose(1, 0, 2)
+    u2 = y1[:2, None] * tangent + cos[:2, None] * u1
+    around = np.sum(forces * u2, axis=1)
+    around += (fields["omega3"] * y1 + rod.parameters[TWIST] * (cos - 1.0))[:2] / rod.clearance
+    size = float(np.max(np.linalg.norm([fields[f"rod_F{i}"] for i in (1, 2, 3)], axis=0)))
     out: dict[str, float] = {}
     for k, end in enumerate(problem.ends):
         if end in HOLD_ANGLE:
             out[f"y({k})"] = abs(float(y[k])) / max(float(np.max(np.abs(y))), _TINY)
         else:
-            out[f"force around ({k})"] = abs(float(sum(part[k] for part in parts))) / max(size, _TINY)
+            out[f"force around ({k})"] = abs(float(around[k])) / max(size, _TINY)
         if end in ("clamped", "guided"):
             out[f"y′({k})"] = abs(float(y1[k])) / max(float(np.max(np.abs(y1))), _TINY)
         else:

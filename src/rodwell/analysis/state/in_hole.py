@@ -120,6 +120,42 @@ class InHole:
 
         return np.asarray(total(s) - total(np.array([1.0])))
 
+    def end_loads(self) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
+        """Force and moment of the supports on the rod along N₁, N₂, T of the hole at that end, by ("rod", s)."""
+        ends = np.array([0.0, 1.0])
+        fields, frame = self.fields(ends), self.frames(ends)[1]
+        hole = self.problem.hole
+        assert hole is not None
+        out = {}
+        for k, sign in ((0, -1.0), (1, 1.0)):
+            axes = hole.frame(self.place(ends[k : k + 1]))[0]
+            force, moment = (
+                sum(fields[f"rod_{kind}{i + 1}"][k] * frame[k, i] for i in range(3)) for kind in ("F", "M")
+            )
+            out["rod", float(ends[k])] = (sign * axes @ force, sign * axes @ moment)
+        return out
+
+    def energies(self) -> dict[str, float]:
+        """Parts of the energy relative to θ = 0, by name, with the hole as it was tabulated."""
+        space, p, d = self.state.space, self.parameters, self.clearance
+        s, w = space.points, space.weights
+        y, y1, y2 = space.at_points(self.state.c)
+        k1, k2, g1, g2, lift, offset = tabulated(s, self.given(s))
+        angle = y / d
+        normal, geodesic, cos, inwards, h = curvature(angle, y1, y2, k1, k2, d)
+        lying = 1.0 + d * k1
+        versine, sine = 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)
+        lagging = (lying * y1**2 / (1.0 + cos) - d * (k1 * versine + k2 * sine)) / h  # (1 + Δk₁) (S₀′ − S′)
+        bending = 0.5 * (normal**2 - (k1 / lying) ** 2 + geodesic**2 - (k2 / lying) ** 2)
+        twisted = y1 * (y1**2 / (1.0 + cos) / d + cos * inwards / h)
+        return {
+            "bending_energy": float(w @ (bending + offset * lagging)),
+            "twist_energy": float(0.5 * p[TWIST] ** 2 / self.problem.torsional_stiffness),
+            "lateral_energy": float(p[AXIAL_WEIGHT] * d * (w @ (g1 * versine + g2 * sine))),
+            "axial_energy": float(-p[AXIAL_WEIGHT] * (w @ (lift * lagging))),
+            "end_work": float(-p[FORCE] * (w @ lagging) + p[TWIST] * (w @ twisted)),
+        }
+
     def energy(self) -> float:
         """Bending, height and torque less the work of the end force from S₀(1) on, at the rod's own places, in B/L."""
         space, p = self.state.space, self.parameters

@@ -18,7 +18,7 @@ import numpy as np
 
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.curved import HoleAlong, along_rod, hole_along, hole_at, lifted
-from rodwell.analysis.discrete.measures import measured_meshes
+from rodwell.analysis.discrete.measures import Measured, measured_meshes
 from rodwell.analysis.state.in_hole import InHole, curvature
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.family import Family
@@ -27,6 +27,7 @@ from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, FORCE, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Value
 
 MOST_ROUNDS = 40
 
@@ -72,10 +73,13 @@ def tables_of(shape: InHole) -> HoleAlong:
     return hole_along(breaks, functions)
 
 
-def with_own_places(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> tuple[TwoMeshes, MeshedState]:
+def with_own_places(
+    problem: Problem, meshes: TwoMeshes, point: MeshedState, *, near: bool = False
+) -> tuple[TwoMeshes, MeshedState]:
     """Solve a state of a curved hole with every cross-section at its own place; its energy is that of the rod there.
 
-    The stability index counts directions in which the places stay.
+    The stability index counts directions in which the places stay. ``near``: not at the same end force, but on the
+    plane through the state normal to its branch, which exists next to a critical load, too.
 
     Raises
     ------
@@ -87,11 +91,13 @@ def with_own_places(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> 
     if problem.hole is None:
         raise InputError("build", problem.build, "must not be 0: along a straight hole every place is like another")
     family, state = meshes.fine, point.fine
+    if not state.c.any():  # the rod on θ = 0 lies where the tables have it
+        return meshes, point
     change = np.inf
     for _ in range(MOST_ROUNDS):
         tables = tables_of(InHole(problem, family, state))
         family = _given(family, tables)
-        solved = _solved(family, state)
+        solved = _solved(family, state, near)
         change = float(np.max(np.abs(solved.c - state.c))) / family.scale_c
         state = solved
         if change <= SETTLED:
@@ -102,9 +108,32 @@ def with_own_places(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> 
             "the curvature is too large for this shortening"
         )
     own = measured_meshes(_given(meshes.coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
-    both = ((own.coarse, _solved(own.coarse, point.coarse)), (own.fine, state))
+    both = ((own.coarse, _solved(own.coarse, point.coarse, near)), (own.fine, state))
     coarse, fine = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
     return own, own.point(coarse, fine)
+
+
+def near_by(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> tuple[TwoMeshes, MeshedState]:
+    """Solve for own places near a state of a branch, a little further on where the state is a branch point.
+
+    There it is singular, and the places, which know no symmetry, leave nothing of it in its vicinity.
+
+    Raises
+    ------
+    NotConvergedError
+        As :func:`with_own_places` does.
+    """
+    try:
+        return with_own_places(problem, meshes, point, near=True)
+    except NotConvergedError:
+        coarse, fine = meshes.coarse.step(point.coarse, FURTHER), meshes.fine.step(point.fine, FURTHER)
+        if coarse is None or fine is None:
+            raise
+        return with_own_places(problem, meshes, meshes.point(coarse, fine), near=True)
+
+
+FURTHER = 0.02
+"""How far along a branch from its branch point, in radians around the hole, about."""
 
 
 def _given(family: Family, tables: HoleAlong) -> Family:
@@ -112,8 +141,11 @@ def _given(family: Family, tables: HoleAlong) -> Family:
     return replace(family, given=tables, parity=0, reflections=())
 
 
-def _solved(family: Family, state: State) -> State:
-    outcome, solved, _ = family.at(state.c, state.lam)
+def _solved(family: Family, state: State, near: bool) -> State:
+    """The equilibrium next to a state, at its end force or on the plane normal to its branch."""
+    target = float(state.row @ state.c) + state.row_lam * state.lam
+    plane = (state.row, state.row_lam, target) if near else (np.zeros_like(state.c), 1.0, state.lam)
+    outcome, solved, _ = family.correct(state.c, state.lam, *plane)
     if solved is None:
         reason = family.advice(outcome)
         raise NotConvergedError(f"the state could not be solved at its own places in the hole: {reason}")
@@ -125,3 +157,39 @@ def _energy(problem: Problem, family: Family, state: State) -> float:
     still = replace(state, c=np.zeros_like(state.c))
     resting = replace(family, given=along_rod(problem))
     return InHole(problem, family, state).energy() - InHole(problem, resting, still).energy()
+
+
+def lift_off_with_own_places(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> Value:
+    """End force of lift-off with every cross-section at its own place, by the secant rule on the contact pressure.
+
+    ``point`` is a state of the branch at or near its lift-off. The error is that of the contact pressure on the two
+    meshes, and the last step.
+
+    Raises
+    ------
+    NotConvergedError
+        If it is not found near that state.
+    """
+
+    def highest(force: float) -> tuple[float, float]:
+        there = meshes.at(point, force)
+        if there is None:
+            raise NotConvergedError(f"no state at F = {force:.8g} B/L² on the branch: lift-off lies beyond its end")
+        own = with_own_places(problem, meshes, there)[1]
+        return float(own.values[Measured.P_MAX]), float(own.error[Measured.P_MAX])
+
+    before, after = point.lam, point.lam * (1.0 + FIRST_CHANGE) + FIRST_CHANGE
+    (p_before, _), (p_after, error) = highest(before), highest(after)
+    for _ in range(MOST_ROUNDS):
+        slope = (p_after - p_before) / (after - before)
+        if slope == 0.0 or not np.isfinite(slope):
+            break
+        before, p_before, after = after, p_after, after - p_after / slope
+        p_after, error = highest(after)
+        if abs(after - before) <= CLOSE * abs(after):
+            return Value(after, abs(after - before) + error / abs(slope))
+    raise NotConvergedError("lift-off with every cross-section at its own place was not found near that of the branch")
+
+
+FIRST_CHANGE, CLOSE = 1e-6, 1e-10
+"""Parts of the load: the first step of the secant rule, and the last."""

@@ -31,8 +31,8 @@ def refuse_spatial(problem: Problem) -> None:
         raise InputError(
             name,
             f"{len(problem.axis)} points" if problem.axis else problem.walk,
-            "bends the hole sideways, where the rod lies on no straight generator: states and loads are computed of "
-            "holes whose axis lies in a vertical plane (walk = 0)",
+            "bends the hole sideways, where the rod lies on no straight generator and has no critical load: it moves "
+            "with every change of the end force; ask for the state at a force (rodwell.equilibrium) and follow that",
         )
     if hole is not None and problem.twist != 0.0 and problem.ends != ("clamped", "clamped"):
         raise InputError(

@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from rodwell.answers.comparison.exact_loads import PLACES, ExactLoad
 from rodwell.case.case import Case
 from rodwell.errors import InputError, checked_number
@@ -133,13 +135,26 @@ def load_rows(
     """Hold every formula of a load against exact ones that are known: the first critical load first."""
     rod = _known_rod(case, extra or {})
     order = [f for kind in AGAINST for f in FORMULAS.values() if f.kind == kind]
-    return tuple(_row(formula, rod, loads) for formula in order)
+    problem = case.problem if isinstance(case, Case) else case
+    return tuple(_row(formula, rod, loads, problem.hole is not None) for formula in order)
 
 
 def _known_rod(case: Case | Problem, extra: Mapping[str, float]) -> FormulaInputs:
     """The rod with all that the case and ``extra`` tell of it."""
-    known = {"build": 0.0, "turn": 0.0} | _section(case) | _extra(extra)
-    return rod_of(case.problem if isinstance(case, Case) else case, tuple(known.items()))
+    problem = case.problem if isinstance(case, Case) else case
+    known = _bends(problem, extra) | _section(case) | _extra(extra)
+    return rod_of(problem, tuple(known.items()))
+
+
+def _bends(problem: Problem, extra: Mapping[str, float]) -> dict[str, float]:
+    """Build and turn in 1/L of the hole at mid-length, 0 of a straight one."""
+    if problem.hole is None:
+        return {"build": 0.0, "turn": 0.0}
+    for name in ("build", "turn"):
+        if name in extra:
+            raise InputError(name, extra[name], "is given twice: the hole of the problem is curved; leave it out")
+    k1, k2 = problem.hole.curvatures(np.array([0.5]))[0]
+    return {"build": float(k1), "turn": -float(k2)}
 
 
 def rod_of(problem: Problem, more: tuple[tuple[str, float], ...] = ()) -> FormulaInputs:
@@ -181,12 +196,15 @@ def _value(formula: Formula, rod: FormulaInputs, missing: tuple[str, ...]) -> fl
     return value if math.isfinite(value) else None
 
 
-def _row(formula: Formula, rod: FormulaInputs, loads: tuple[ExactLoad, ...]) -> FormulaRow:
+def _row(formula: Formula, rod: FormulaInputs, loads: tuple[ExactLoad, ...], curved: bool) -> FormulaRow:
     missing, reasons = formula.missing(rod), list(formula.violations(rod))
     value = _value(formula, rod, missing)
-    bent = {"build", "turn"} & set(formula.takes) and any(dict(rod.more).get(name) for name in ("build", "turn"))
+    takes = bool({"build", "turn"} & set(formula.takes))
+    bent = not curved and takes and any(dict(rod.more).get(name) for name in ("build", "turn"))
     if bent:
         reasons.append("the exact loads are those of a straight hole: not compared")
+    if curved and not takes:
+        reasons.append("for straight holes, and this one is curved")
     names = [load.name for load in loads]
     wanted = (MEANT.get(formula.key, ""), *AGAINST[formula.kind])
     against = next(name for name in wanted if name in names)

@@ -80,15 +80,16 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     NotConvergedError
         If the first critical load cannot be computed.
     """
-    problem.refuse_curved("formulas are held against exact loads")
     loads, notes = [critical(problem, rtol)], []
-    if problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed:
+    if problem.hole is None and (problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed):
         notes.append("lift-off: no lateral weight presses the rod to the wall")
     else:
         untwisted = problem.but(twist=0.0)
         _add(loads, notes, "lift-off", lambda: [_lift_off(follow(untwisted, 1, rtol=rtol))])
     holds = problem.ends[0] in HOLD_ANGLE and problem.ends[1] in HOLD_ANGLE
-    if problem.alpha != 90.0 or not holds or not problem.pressed:
+    if problem.hole is not None:
+        notes.append("load of equal energy: coils are computed in straight holes only")
+    elif problem.alpha != 90.0 or not holds or not problem.pressed:
         notes.append("load of equal energy: only for a horizontal rod pressed to the wall whose ends hold the angle")
     else:
         _add(loads, notes, "load of equal energy", lambda: _coil(problem, partial(coil, rtol=rtol)))

@@ -23,7 +23,7 @@ from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
-from rodwell.errors import NotConvergedError
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.value import Value
 
 
@@ -136,6 +136,21 @@ class Computed:
         return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
 
 
+def _refuse_curved(case: Case) -> None:
+    """Raise for a curved hole: stress without the hole's part of the bending would be on the unsafe side."""
+    if case.problem.hole is None:
+        return
+    given = case.given.get("hole", {})
+    key = next((name for name in ("survey", "centerline", "build", "walk") if name in given), "build")
+    raise InputError(
+        f"hole.{key}",
+        given.get(key),
+        "makes the hole curved, and reports with strength are those of straight holes: `rodwell audit` takes this case "
+        "(critical load, lift-off, formulas beside them), a range of values as a study too, and in Python its problem "
+        "does, rodwell.critical_loads(case.problem), rodwell.follow(case.problem)",
+    )
+
+
 def compute(case: Case, progress: Progress | None = None) -> Computed:
     """Compute a case: critical loads, the branch of each mode, lift-off of the first.
 
@@ -148,12 +163,15 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
 
     Raises
     ------
+    InputError
+        For a curved hole, whose bending of the rod the assessment of strength does not have.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
         ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
+    _refuse_curved(case)
     first_run.begin(case.problem)
     tell("critical loads", 0.0)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)

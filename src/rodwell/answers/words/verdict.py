@@ -54,7 +54,8 @@ def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
     fluids = ", effective forces" if case.with_fluids else ""
     held = ", its slope held at steps of its stiffness" if has_steps(case.problem) else ""
-    return f"frictionless, elastic, straight hole, {ends_text(case.problem)}{held}{fluids}"
+    hole = "straight hole" if case.problem.hole is None else "curved hole"
+    return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{held}{fluids}"
 
 
 def _range(a: Assessment) -> str:

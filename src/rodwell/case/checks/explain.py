@@ -9,13 +9,14 @@ from pydantic import BaseModel, ValidationError
 
 from rodwell.case import schema
 from rodwell.case.checks.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
+from rodwell.case.hole.schema import CylinderInput, Hole
 from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.RodInput,
     "string": schema.StringInput,
-    "hole": schema.Hole,
-    "cylinder": schema.CylinderInput,
+    "hole": Hole,
+    "cylinder": CylinderInput,
     "supports": schema.Supports,
     "dimensionless": schema.Dimensionless,
     "load": schema.LoadInput,
@@ -76,7 +77,7 @@ def explain(
             out.append((where, None, "is missing; add it"))
         else:
             location = (*within, *item["loc"])
-            what = _reason(item["type"], item["msg"], where) + _several(location, item["input"], declared)
+            what = _reason(item["type"], item["msg"], where, location) + _several(location, item["input"], declared)
             out.append((where, item["input"], what))
     return out
 
@@ -88,7 +89,7 @@ def _where(location: tuple[int | str, ...]) -> str:
     return ".".join(str(part) or "''" for part in location)
 
 
-_WHOLE = f"must be a whole number from 1 to {schema.MOST_MODES}"
+_WHOLE = "must be a whole number{bounds}"
 _SECTION = "must be a section: write [{where}] with its keys below it"
 REASONS = {
     "model_type": _SECTION,
@@ -107,12 +108,23 @@ REASONS = {
 """What is wrong with a value, by the beginning of the kind of pydantic's error."""
 
 
-def _reason(kind: str, text: str, where: str) -> str:
+def _reason(kind: str, text: str, where: str, location: tuple[int | str, ...]) -> str:
     """What is wrong with a value, by the kind of pydantic's error; its own words for kinds that are not known."""
     if kind == "value_error":
         return text.removeprefix("Value error, ")
     known = next((words for start, words in REASONS.items() if kind.startswith(start)), None)
-    return text[:1].lower() + text[1:] if known is None else known.format(where=where)
+    if known is None:
+        return text[:1].lower() + text[1:]
+    return known.format(where=where, bounds=_bounds(location))
+
+
+def _bounds(location: tuple[int | str, ...]) -> str:
+    """From where to where a whole number may go: " from 1 to 12"; nothing for a key that is not known."""
+    model = SECTIONS.get(str(location[0]))
+    field = None if model is None else model.model_fields.get(str(location[-1]))
+    found = {type(one).__name__: one for one in (field.metadata if field is not None else ())}
+    least, most = getattr(found.get("Ge"), "ge", None), getattr(found.get("Le"), "le", None)
+    return "" if least is None or most is None else f" from {least} to {most}"
 
 
 def _several(location: tuple[int | str, ...], value: object, declared: bool) -> str:
@@ -148,7 +160,7 @@ def _unknown_section(key: str) -> str:
 def _unknown_key(section: str, key: str) -> str:
     if section not in SECTIONS:
         return _unknown_section(section)
-    known = list(SECTIONS[section].model_fields)
+    known = [field.alias or name for name, field in SECTIONS[section].model_fields.items()]
     if key in known:
         return "needs [rod] and [hole]: it has no meaning beside [dimensionless]"
     elsewhere = KEYS_ELSEWHERE.get("rod" if section == "string" else section, {})

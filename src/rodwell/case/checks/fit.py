@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from rodwell.case import schema
+from rodwell.case.hole.schema import Hole
 from rodwell.case.physical import Physical
 from rodwell.quantities.text import minus, plain
 
@@ -57,7 +58,7 @@ def misfits(parsed: schema.CaseFile, load: schema.LoadInput, found: Physical) ->
     yield from _loads(load, found)
 
 
-def _of_rod(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+def _of_rod(rod: schema.PipeInput, hole: Hole, found: Physical) -> Iterator[Misfit]:
     """What does not go together in a rod, or in a section of a string."""
     yield from _weight(rod, hole, found)
     yield from _material(rod, found)
@@ -65,7 +66,7 @@ def _of_rod(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterat
     yield from _torsion(rod, found)
 
 
-def _weight(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+def _weight(rod: schema.PipeInput, hole: Hole, found: Physical) -> Iterator[Misfit]:
     """Weight, gravity, density and section."""
     one, gravity = found.rod, found.gravity
     key = "rod.weight_per_length" if rod.weight_per_length is not None else "rod.pipe"
@@ -106,7 +107,7 @@ def _material(rod: schema.PipeInput, found: Physical) -> Iterator[Misfit]:
         yield "rod.yield_strength", f"{what}: materials bear {LEAST_YIELD:g} of it and more; check the unit"
 
 
-def _sizes(rod: schema.PipeInput, hole: schema.Hole, found: Physical) -> Iterator[Misfit]:
+def _sizes(rod: schema.PipeInput, hole: Hole, found: Physical) -> Iterator[Misfit]:
     """Diameters and stiffness."""
     outer = found.rod.outer_diameter
     if outer is None:

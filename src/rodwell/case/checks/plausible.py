@@ -65,6 +65,7 @@ _PRESSURE = Range(0.0, 4e8, "pressure", "pressures reach 400 MPa", (1e5, 2e8), o
 _FORCE = Range(0.0, 3e8, "force", "loads reach 300 MN (legs of platforms)", (1e-3, 5e6), or_zero=True)
 _MOMENT = Range(0.0, 1e8, "moment", "torques reach 100 MN m", (1e-6, 1e5), or_zero=True)
 
+_BEND = Range(0.0, 1e4, "curvature", "holes bend by up to 1e4 rad/m (a radius of 0.1 mm)", (1e-6, 100.0), or_zero=True)
 _STROKE = Range(0.0, 500.0, "length", "seals slide up to 500 m", (0.01, 100.0), or_zero=True)
 
 _STIFFNESS = Range(
@@ -94,6 +95,9 @@ RANGES: dict[str, Range] = {
         0.5, 30.0, "acceleration", "gravity is from 0.5 m/s² (small moons) to 30 m/s² (Jupiter), or 0", (9.7, 9.9),
         or_zero=True,
     ),
+    "hole.build": _BEND,
+    "hole.walk": _BEND,
+    "hole.tortuosity_step": Range(1e-6, 1e3, "length", "courses of a survey are up to 1 km long", (1e-3, 100.0)),
     "cylinder.outer_diameter": _HOLE,
     "cylinder.inner_diameter": _HOLE,
     "cylinder.yield_strength": _YIELD,
@@ -140,6 +144,7 @@ UNITS: dict[str, tuple[str, ...]] = {
     "force per length": ("N/m", "lbf/ft", "mN/m", "N/mm"),
     "bending stiffness": ("N m^2", "N mm^2", "lbf in^2", "kN m^2", "N cm^2"),
     "acceleration": ("m/s^2", "ft/s^2", "cm/s^2"),
+    "curvature": ("deg/30 m", "deg/100 ft", "rad/m", "deg/mm"),
     "temperature change": ("K", "°F", "°C"),
     "thermal expansion": ("/K", "/°F", "/°C"),
 }

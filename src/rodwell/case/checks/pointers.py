@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 TAPER = "is not taken: write one [[string]] for each section, from the bottom up, with its own diameters and length"
-STRAIGHT_HOLE = "is out of scope in this version: the hole of a case is straight"
 
 SECTIONS_ELSEWHERE = {
     "friction": "is out of scope in this version: the wall is frictionless; leave it out",
     "temperature": "is out of scope in this version: thermal strain is not treated; leave it out and give "
     "rod.youngs_modulus and the load as they are at that temperature",
     "thermal": "is out of scope in this version: thermal strain is not treated; leave it out",
-    "well": "is out of scope in this version: a case is one rod in a straight hole; for a whole well take "
+    "well": "is out of scope in this version: a case is one rod in one piece of a hole; for a whole well take "
     "`rodwell screen SURVEY --case CASE`, for torque and drag `rodwell drag WELL`",
-    "survey": "is not part of a case file: give it on the command line, `rodwell screen SURVEY --case CASE`",
+    "survey": "is not a section: name the file as hole.survey, or give it on the command line, `rodwell screen SURVEY "
+    "--case CASE`",
     "torque": "is not a section; the end twisting moment is load.twist",
     "force": "is not a section; the end force is load.applied, compression negative",
     "fluid": "is not a section; fluids stand in [mud], as density, or inside and outside",
@@ -39,6 +39,9 @@ _TOOL_JOINT = (
 )
 _FRICTION = "is out of scope in this version: the wall is frictionless; leave it out"
 _FORCE = "is not known; the end force is `applied`, tension positive, compression with a minus sign"
+_CENTERLINE = "is not known; write centerline, a file of points x, y, z, or survey"
+_BEND = 'is not known; write build (and walk sideways) as a curvature, for example build = "3 deg/30 m"'
+_DEPTHS = "is not known; write from and to, measured depths of the rod's ends in the survey"
 _ANGLE = "is not known; write angle_from_vertical or angle_from_horizontal"
 
 KEYS_ELSEWHERE: dict[str, dict[str, str]] = {
@@ -87,16 +90,29 @@ KEYS_ELSEWHERE: dict[str, dict[str, str]] = {
         "angle": _ANGLE,
         "alpha": _ANGLE,
         "deviation": "is not known; write angle_from_vertical",
-        "azimuth": "is not taken: in a straight hole it has no effect; leave it out",
+        "azimuth": "is not taken: it has no effect, but its change has: write walk, or a survey",
         "section": "is out of scope in this version: the hole of a case has one diameter; leave "
         "[[hole.section]] out and give hole.diameter",
         "sections": "is out of scope in this version: the hole of a case has one diameter",
-        "build": STRAIGHT_HOLE,
-        "walk": STRAIGHT_HOLE,
-        "axis": STRAIGHT_HOLE,
-        "curvature": STRAIGHT_HOLE,
-        "dogleg": STRAIGHT_HOLE,
-        "survey": f"{STRAIGHT_HOLE}; a survey goes with `rodwell screen SURVEY --case CASE`",
+        "axis": _CENTERLINE,
+        "centreline": _CENTERLINE,
+        "path": _CENTERLINE,
+        "points": _CENTERLINE,
+        "curvature": _BEND,
+        "dogleg": _BEND,
+        "dls": _BEND,
+        "dogleg_severity": _BEND,
+        "build_rate": _BEND,
+        "turn": _BEND,
+        "turn_rate": _BEND,
+        "turn_angle": _BEND,
+        "radius_of_curvature": 'is not taken: write build, the curvature, for example "3 deg/30 m"',
+        "top": _DEPTHS,
+        "bottom": _DEPTHS,
+        "start": _DEPTHS,
+        "end": _DEPTHS,
+        "measured_depth": _DEPTHS,
+        "md": _DEPTHS,
         "wall_stiffness": "is out of scope in this version: the wall is rigid",
         "friction": _FRICTION,
         "friction_factor": _FRICTION,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rodwell.case import schema
+from rodwell.case.hole.schema import CylinderInput, Hole
 from rodwell.errors import InputError
 
 
@@ -23,7 +23,7 @@ class Cylinder:
         return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
 
 
-def cylinder_of(given: schema.CylinderInput, hole: schema.Hole) -> Cylinder:
+def cylinder_of(given: CylinderInput, hole: Hole) -> Cylinder:
     """Return the cylinder of a case.
 
     Raises

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from pydantic import ConfigDict, Field
 
-from rodwell.case.kinds import InnerLength, Length, Name, Number
-from rodwell.case.schema import SectionInput
+from rodwell.case.kinds import InnerLength, Length, Name, Number, SectionInput
 from rodwell.errors import InputError
 
 LARGEST_FRICTION = 1.0

@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, StrictBool
 
+from rodwell.case.hole.schema import DepthUnit
 from rodwell.case.kinds import (
+    REQUIRED,
     Acceleration,
     Force,
     InnerLength,
@@ -15,26 +17,18 @@ from rodwell.case.kinds import (
     Number,
     OneOf,
     Quantity,
+    SectionInput,
     Several,
     Units,
-)
-from rodwell.case.schema import (
-    REQUIRED,
-    CatalogueFiles,
-    Mud,
-    PressureAtEnd,
-    ReportInput,
-    SectionInput,
-    StringInput,
     _key,
 )
+from rodwell.case.schema import CatalogueFiles, Mud, PressureAtEnd, ReportInput, StringInput
 from rodwell.case.well.hole_sections import ALLOWED_FRICTION, HolePart
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")
 CONTACTS = ("exact", "correlation", "straight")
 STRINGS = ("soft", "stiff")
 STATE_RULES = ("history", "equal-energy", "late", "early")
-DEPTH_UNITS = ("m", "ft")
 
 MOST_OPERATIONS, MOST_DEPTHS, MOST_FACTORS = 40, 400, 12
 
@@ -45,7 +39,6 @@ Operation = Annotated[str, BeforeValidator(OneOf(KINDS_OF_OPERATION))]
 Contact = Annotated[Literal["exact", "correlation", "straight"], BeforeValidator(OneOf(CONTACTS))]
 Model = Annotated[Literal["soft", "stiff"], BeforeValidator(OneOf(STRINGS))]
 StateRule = Annotated[Literal["history", "equal-energy", "late", "early"], BeforeValidator(OneOf(STATE_RULES))]
-DepthUnit = Annotated[str, BeforeValidator(OneOf(DEPTH_UNITS))]
 Operations = Annotated[tuple[Operation, ...], BeforeValidator(Several(len(KINDS_OF_OPERATION)))]
 Factors = Annotated[tuple[Number, ...], BeforeValidator(Several(MOST_FACTORS))]
 

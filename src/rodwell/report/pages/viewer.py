@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.space.geometry import Geometry
+from rodwell.analysis.space.geometry import Geometry, geometry
 from rodwell.analysis.space.scene import STOPS, Part, drawn, limits, scene
-from rodwell.analysis.space.surfaces import straight_contact
+from rodwell.analysis.space.surfaces import straight_contact, wall_rings
 from rodwell.plots.rod3d import enlarged
 from rodwell.plots.units import axis
 from rodwell.quantities.arrays import FloatArray
@@ -75,9 +75,11 @@ def view(
     if rod is None:
         elements = solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    data = _data(solution, rod, scales, sides)
+    data = _data(solution, rod, sides)
     if readings:
         data["along"] = _along(solution, rod, scales)
+    if rod.bent and rod.radial_scale != 1.0:  # what is bent cannot be set back by scaling the picture
+        data["true_scale"] = _true_scale(solution, rod, sides)
     return View(data, _bar(rod, scales), caption(solution, rod, scales))
 
 
@@ -124,46 +126,57 @@ def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
     )
 
 
-def _data(solution: Solution, rod: Geometry, scales: Scales | None, sides: int) -> dict[str, Any]:
+def _data(solution: Solution, rod: Geometry, sides: int) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
-    middle = 0.5 * float(rod.centreline[-1, 2])
 
     def shift(points: FloatArray) -> FloatArray:
-        return np.asarray(_view(points) - np.array([middle, 0.0, 0.0]))
+        return np.asarray(_view(points) - _middle(rod))
 
     angle = np.radians(solution.problem.alpha)
     reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
-    ends = _view(rod.centreline[[0, -1]])[:, 0] - middle
+    ends, axis = shift(rod.axis[[0, -1]]), shift(rod.axis)
+    above = ends[1] + np.array([0.0, reach + 0.1, 0.0])
     return {
         "parts": [_part(part, shift(part.mesh.vertices)) for part in scene(rod, sides)],
         "lines": [
             *({"group": "wall", "points": _rounded(shift(circle))} for circle in _rims(rod)),
             {"group": "wall", "points": _rounded(shift(straight_contact(rod)))},
         ],
-        "labels": [{"text": f"s = {s}", "at": [float(x), -1.1 * reach, 0.0]} for s, x in zip((0, 1), ends, strict=True)]
-        + (
-            [{"text": "gravity", "at": [float(ends[1]), reach + 0.1, 0.0], "above": True}]
-            if solution.problem.weight > 0.0
-            else []
-        ),
+        "labels": [
+            {"text": f"s = {s}", "at": (end - np.array([0.0, 1.1 * reach, 0.0])).tolist()}
+            for s, end in zip((0, 1), ends, strict=True)
+        ]
+        + ([{"text": "gravity", "at": above.tolist(), "above": True}] if solution.problem.weight > 0.0 else []),
         "gravity": _rounded(_view(np.array([-np.sin(angle), 0.0, -np.cos(angle)]))),
-        "arrow": [float(ends[1]), reach + 0.1, 0.0],
+        "arrow": above.tolist(),
         "weight": solution.problem.weight,
-        "height": 2.0 * reach,
+        "height": 2.0 * reach + float(np.ptp(axis[:, 1])),
         "sides": sides,
         "enlarged": rod.radial_scale,
         "says": enlarged(rod),
     }
 
 
+OF_SCALE = ("parts", "lines", "labels", "arrow", "height")
+"""What of a scene is another in true scale."""
+
 READINGS = 401
 """Places along the rod at which the pointer reads numbers."""
+
+
+def _true_scale(solution: Solution, rod: Geometry, sides: int) -> dict[str, Any]:
+    """What is another in true scale: places of all that has its triangles and colours already."""
+    true = geometry(solution, rod.s.size, rod_radius=rod.rod_radius, radial_scale=1.0)
+    data = _data(solution, true, sides)
+    for part in data["parts"]:
+        del part["triangles"], part["colours"]
+    return {key: data[key] for key in OF_SCALE}
 
 
 def _along(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str, Any]:
     """What stands under the pointer, place by place: where it is in the picture, and the numbers there in words."""
     pick = np.unique(np.linspace(0, rod.s.size - 1, min(READINGS, rod.s.size)).round().astype(int))
-    points = _view(rod.centreline[pick]) - np.array([0.5 * float(rod.centreline[-1, 2]), 0.0, 0.0])
+    points = _view(rod.centreline[pick]) - _middle(rod)
     push = (1.0 if rod.outside else -1.0) * rod.fields["contact_pressure"][pick]
     says = []
     for s, p, y in zip(rod.s[pick], push, rod.fields["y"][pick], strict=True):
@@ -181,11 +194,15 @@ def _view(points: FloatArray) -> FloatArray:
     return np.asarray(points[..., [2, 0, 1]])
 
 
-def _rims(rod: Geometry) -> list[FloatArray]:
+def _middle(rod: Geometry) -> FloatArray:
+    """Middle of what the axis takes up, in the view."""
+    axis = _view(rod.axis)
+    return np.asarray(0.5 * (axis.min(axis=0) + axis.max(axis=0)))
+
+
+def _rims(rod: Geometry) -> FloatArray:
     """Circles at both ends of the wall."""
-    phi = np.linspace(0.0, 2.0 * np.pi, 97)
-    circle = np.stack([rod.wall_radius * np.cos(phi), rod.wall_radius * np.sin(phi), np.zeros_like(phi)], axis=-1)
-    return [circle + np.array([0.0, 0.0, z]) for z in rod.centreline[[0, -1], 2]]
+    return wall_rings(rod, np.linspace(0.0, 2.0 * np.pi, 97), np.array([0, rod.s.size - 1]))
 
 
 def _part(part: Part, points: FloatArray) -> dict[str, Any]:

@@ -99,7 +99,8 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         depends on the unit of length (by 0.4 % between metres and inches).
     extra
         Quantities that some formulas take and a case does not hold, in units B = L = 1: "mu"; "build" and "turn" (angle
-        over the length of the rod), "sigma_y". Exact loads are those of a straight hole without friction.
+        over the length of the rod, of formulas beside a straight hole), "sigma_y". Exact loads are those of the case's
+        hole, straight or curved, without friction.
     rtol
         Relative tolerance of the exact loads; that of the case, or 1e-8.
 

@@ -164,8 +164,10 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
     mode, first = shared.critical[0], Computed(case, shared.critical, (), 0.0).buckling
     reasons: dict[str, str] = {}
-    alone, other = loads_without_wall(case.problem).modes[0], None if shared.other is None else shared.other.lift_off
     out = replace(out, critical=first, half_waves=mode.wavenumber / math.pi)
+    if case.problem.hole is not None:
+        return _in_curved_hole(out, case, shared, first)
+    alone, other = loads_without_wall(case.problem).modes[0], None if shared.other is None else shared.other.lift_off
     out = replace(out, without_wall=Value(alone.force, alone.error), other_arm=None if other is None else other.load)
     try:
         if shared.branch is None:
@@ -182,6 +184,15 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     if amiss:
         reasons["applied"] = amiss
     return replace(out, reasons=reasons or None)
+
+
+def _in_curved_hole(out: StudyPoint, case: Case, shared: SharedResults, first: Value) -> StudyPoint:
+    """Buckling, lift-off and contact there; stress of a rod that the hole bends is not assessed."""
+    reasons = {"applied": "loads that act are assessed in straight holes only"} if case.applied else {}
+    if shared.branch is None:
+        return replace(out, reasons={"lift_off": shared.why, "contact": "no lift-off"} | reasons)
+    lift_off, places, contact = _at_lift_off(case, shared.branch, first, reasons)
+    return replace(out, lift_off=lift_off, places=places, contact=contact, reasons=reasons or None)
 
 
 def _used(case: Case, branch: Branch) -> dict[str, Value]:
@@ -209,4 +220,4 @@ def _at_lift_off(
         reasons["lift_off"] = (
             "the branch to it does not meet the tolerance everywhere: its error says how well it is known"
         )
-    return lift.load, lift.s, lift.solution.wall.contact
+    return lift.load, lift.s, lift.solution.largest("contact_pressure")

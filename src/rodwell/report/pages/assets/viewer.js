@@ -27,6 +27,7 @@ function rodwellViewer(element, data) {
   const mark = readingMark();
   all.add(mark);
   const known = new Map(); // parts by name, kept from scene to scene
+  let given = data; // as it came, where data is its true scale
   let rest = []; // lines and arrow, made anew
   let calm = 0, shownAt = -1e9; // when scenes have come to rest, and when the last one came
   let labels = [];
@@ -168,8 +169,10 @@ function rodwellViewer(element, data) {
   const trueScale = element.querySelector("[data-show=true-scale]");
   function scaled() {
     const really = Boolean(trueScale) && trueScale.checked;
-    const across = really ? 1 / data.enlarged : 1;
+    const across = really && !given.true_scale ? 1 / data.enlarged : 1;
     all.scale.set(1, across, across);
+    const shown = really && given.true_scale ? { ...given, ...given.true_scale } : given;
+    if (shown !== data && given.true_scale) { data = shown; fill(); } // a bent hole has a scene of its own
     scale.textContent = really ? "true scale" : data.says;
   }
   if (trueScale) trueScale.onchange = () => { scaled(); draw(); };
@@ -186,7 +189,7 @@ function rodwellViewer(element, data) {
       if (renderer.getPixelRatio() !== sharp) calm = setTimeout(() => { pixels(sharp); draw(); }, 250);
     }
     const taller = Math.abs(other.height / data.height - 1) > 0.02;
-    data = other;
+    given = data = other;
     fill();
     scaled();
     if (taller) home();

@@ -1,0 +1,71 @@
+"""Commands in a curved hole: loads of both signs in words and JSON, lift-off with its own places, what is refused."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from rodwell import InputError
+from rodwell.cli.main import cli
+
+
+def run(*words: str) -> tuple[int, str]:
+    result = CliRunner().invoke(cli, words)
+    return result.exit_code, result.output
+
+
+def test_critical_says_which_side_and_where_the_wall_would_have_to_pull() -> None:
+    code, text = run("critical", "--weight", "15", "--alpha", "90", "--build", "0.2", "--modes", "2")
+    text = " ".join(text.split())
+    assert code == 0
+    assert "lies on the low side of a curved hole (build 0.2/L, α = 90° at mid-length)" in text
+    assert "−177.3205402" in text
+    assert "in tension, 1 +235.8340576" in text
+    assert "the wall would have to pull, 32.1 B/L³ at s/L = 0" in text
+    assert "below 74.8159 B/L²" in text
+
+
+def test_critical_as_json() -> None:
+    code, text = run("critical", "--weight", "15", "--alpha", "90", "--build", "-0.2", "--modes", "2", "--json")
+    data = json.loads(text)
+    assert code == 0
+    assert data["tensile_loads"] == []
+    assert data["without_wall"] is None
+    assert data["lying"]["highest_force"] is None
+    assert data["lying"]["lowest_force"]["value"] == pytest.approx(-74.4344023, rel=1e-8)  # w cos(κᵣ/2)/κᵣ + κᵣ²
+    assert [peak["value"] > 0.0 for peak in data["lying"]["least_contact"]] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (("critical", "--walk", "0.2"), "bends the hole sideways"),
+        (("critical", "--build", "150"), "must be above the clearance"),
+        (("critical", "--build", "7"), "makes the hole run into itself"),
+        (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
+        (("critical", "--build", "0.2", "--sections", "0.5:1,0.5:2"), "are computed in straight holes"),
+        (("certify", "--build", "0.2"), "in straight holes only"),
+        (("sensitivity", "--build", "0.2"), "in straight holes only"),
+        (("twist", "--build", "0.2"), "in straight holes only"),
+        (("path", "--build", "0.2", "--until", "-200"), "in straight holes only"),
+        (
+            ("curve", "critical", "--over", "twist", "--from", "0", "--to", "1", "--build", "0.2"),
+            "in straight holes only",
+        ),
+    ],
+)
+def test_what_is_refused_says_why(words: tuple[str, ...], why: str) -> None:
+    result = CliRunner().invoke(cli, (*words, "--weight", "15", "--alpha", "90"))
+    assert isinstance(result.exception, InputError)
+    assert why in str(result.exception)
+
+
+def test_lift_off_with_and_without_own_places() -> None:
+    code, text = run("liftoff", "--weight", "15", "--alpha", "90", "--build", "0.2", "--json")
+    data = json.loads(text)
+    assert code == 0
+    own = data["lift_off_own_places"]
+    assert abs(own["value"] - data["lift_off"]["force"]) < 1e-2
+    assert own["error"] < 1e-6

@@ -1,0 +1,52 @@
+"""A problem in a curved hole: what may be given together, and what a straight one is."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rodwell import InputError, Problem
+from rodwell.problem.hole import Hole
+
+POINTS = tuple(map(tuple, Hole.arc(70.0, 0.3).points(np.linspace(0.0, 1.0, 31))))
+
+
+@pytest.mark.parametrize(
+    ("given", "field", "why"),
+    [
+        ({"build": float("nan")}, "build", "finite"),
+        ({"build": 200.0}, "build", "above the clearance"),
+        ({"build": 6.4}, "build", "run into itself"),
+        ({"walk": 0.1, "alpha": 0.0}, "walk", "no high side"),
+        ({"build": 0.1, "turns": 1}, "turns", "must be 0 in a curved hole"),
+        ({"build": 0.1, "sections": ((0.5, 1.0), (0.5, 2.0))}, "sections", "straight holes"),
+        ({"build": 0.1, "ends": "loose-clamped"}, "ends", "leaves the wall"),
+        ({"axis": POINTS, "build": 0.1}, "build", "left out"),
+        ({"axis": POINTS, "alpha": 60.0}, "alpha", "left out"),
+        ({"axis": POINTS[:2]}, "axis", "points"),
+    ],
+)
+def test_bad_input_is_explained(given: dict[str, Any], field: str, why: str) -> None:
+    with pytest.raises(InputError, match=why) as error:
+        Problem(15.0, **given)
+    assert error.value.field == field
+
+
+def test_a_straight_hole_stays_one() -> None:
+    assert Problem(15.0).hole is None
+    assert Problem(15.0, build=0.0) == Problem(15.0)
+    line = Problem(15.0, axis=tuple((s, 0.0, 0.2 * s) for s in np.linspace(0.0, 1.0, 9) / np.hypot(1.0, 0.2)))
+    assert line.hole is None
+    assert line.alpha == pytest.approx(np.degrees(np.arctan2(1.0, 0.2)), abs=1e-9)
+
+
+def test_axis_gives_the_inclination_and_survives_a_change() -> None:
+    problem = Problem(15.0, axis=POINTS)
+    assert problem.alpha == pytest.approx(70.0, abs=1e-8)
+    assert problem.but(weight=20.0).axis == problem.axis
+    assert not problem.symmetric
+    assert Problem(15.0, build=0.3).symmetric
+    assert not Problem(15.0, 80.0, build=0.3).symmetric
+    assert not Problem(15.0, build=0.3, walk=0.1).symmetric
