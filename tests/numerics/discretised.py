@@ -11,7 +11,7 @@ from numba.core.caching import NullCache
 
 from rodwell.numerics.continuation.softest import softest
 from rodwell.numerics.equilibria.maxima import maxima
-from rodwell.numerics.equilibria.newton import inverse_iteration, keep_within, newton, solve_both_within, solve_within
+from rodwell.numerics.equilibria.newton import inverse_iteration, newton
 from rodwell.numerics.splines.assembly import assemble, variation
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -24,7 +24,7 @@ def discretised(model: Any, space: SplineSpace) -> Discretisation:
 
 
 OF_MODELS = (
-    *(assemble, variation, newton, solve_within, solve_both_within, keep_within),
+    *(assemble, variation, newton),
     *(inverse_iteration, maxima, softest),
 )
 """The kernels that are compiled for each model."""

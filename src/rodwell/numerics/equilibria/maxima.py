@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import formula, kernel
+from rodwell.compiling.kernels import inlined, kernel
+from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.splines.basis import AT_ONCE, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.products import dots
@@ -37,7 +38,7 @@ _observed = on_lanes(_observing)
 """What is observed, at places side by side, from rows of place, field, three derivatives, and what is given."""
 
 
-@formula
+@inlined
 def _sample(mesh, grid, table, c, parameters, sample):
     """Write what is observed at all places of a grid."""
     m = grid.size
@@ -57,7 +58,7 @@ def _sample(mesh, grid, table, c, parameters, sample):
             sample[start + i] = values[0, i]
 
 
-@formula
+@inlined
 def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     """Write to ``f`` (1, 8) what is observed around a place, ``delta`` apart, in the first five.
 
@@ -85,7 +86,7 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), f)
 
 
-@kernel
+@inlined
 def _vertex(x, f):
     """Place of the maximum of the parabola through three points, the middle one the highest."""
     before, after = (f[1] - f[0]) / (x[1] - x[0]), (f[2] - f[1]) / (x[2] - x[1])
@@ -112,7 +113,9 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
     m = grid.size
     sample = np.empty(m)
     _sample(mesh, grid, table, c, parameters, sample)
-    highest, lowest = np.max(sample), np.min(sample)
+    highest, lowest = sample[0], sample[0]
+    for value in sample:
+        highest, lowest = larger(highest, value), -larger(-lowest, -value)
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
