@@ -71,7 +71,7 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     for k in range(5):
         span = find_span(knots, local - 1, known[0, k])
         if span != last:  # mostly, all five lie on one
-            side_by_side(mesh.local, knots, span, known[:1], basis)
+            side_by_side(mesh.local, knots, span, known, basis)
             last = span
         for d in range(4):
             total = 0.0
@@ -87,12 +87,13 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
 
 
 @inlined
-def _vertex(x, f):
-    """Place of the maximum of the parabola through three points, the middle one the highest."""
-    before, after = (f[1] - f[0]) / (x[1] - x[0]), (f[2] - f[1]) / (x[2] - x[1])
-    bend = (after - before) / (x[2] - x[0])
-    slope = before + bend * (x[1] - x[0])
-    return x[1] if bend >= 0.0 else min(max(x[1] - 0.5 * slope / bend, x[0]), x[2])
+def _vertex(x, f, j):
+    """Place of the maximum of the parabola through three points of many, the middle one, number ``j``, the highest."""
+    low, place, high = x[j - 1], x[j], x[j + 1]
+    before, after = (f[j] - f[j - 1]) / (place - low), (f[j + 1] - f[j]) / (high - place)
+    bend = (after - before) / (high - low)
+    slope = before + bend * (place - low)
+    return place if bend >= 0.0 else min(max(place - 0.5 * slope / bend, low), high)
 
 
 @kernel
@@ -133,7 +134,7 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
         place, value = grid[j], sample[j]
         delta = 0.05 * (high - low)
         if 0 < j < m - 1:
-            place = _vertex(grid[j - 1 : j + 2], sample[j - 1 : j + 2])
+            place = _vertex(grid, sample, j)
         for step_number in range(MOST_STEPS + 1):
             settled = step_number == MOST_STEPS  # enough of it: the value there
             _around(mesh, knots, c, parameters, place, 0.0 if settled else delta, known, basis, f)

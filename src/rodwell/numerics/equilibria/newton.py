@@ -221,21 +221,22 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
 
 
 @kernel
-def inverse_iteration(mesh, factors, iterations, vector):
+def inverse_iteration(gram, held, follows, factors, iterations, vector):
     """Turn ``vector`` (n,), in place, towards the H v = μ G v with μ nearest to zero; its largest entry becomes 1.
 
-    ``factors`` are those of H, G are the integrals of u′v′.
+    ``factors`` are those of H, ``gram`` is the band of G, the integrals of u′v′; what is ``held`` and ``follows`` what
+    is that of a :class:`rodwell.numerics.splines.records.Discretisation`.
     """
     for _ in range(iterations):
-        new = multiply(mesh.gram, vector)
-        gather(new, mesh.held, mesh.follows)
+        new = multiply(gram, vector)
+        gather(new, held, follows)
         solve(factors, new)
         largest = 0.0
         for i in range(new.size):
             largest = max(largest, abs(new[i]))
         for i in range(new.size):
             vector[i] = new[i] / largest
-        spread(vector, mesh.held, mesh.follows)
+        spread(vector, held, follows)
 
 
 @kernel

@@ -93,9 +93,10 @@ _apply = on_lanes(_side_by_side, flags=())
 
 @kernel
 def side_by_side(local_tag, knots, span, places, out):
-    """Write to ``out`` (4, p+1, 8) values and three derivatives at ``places`` (1, 8) of the functions on a knot span.
+    """Write to ``out`` (4, p+1, 8) values and three derivatives at places of the functions on a knot span.
 
-    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows.
+    The first row of ``places`` (≥ 1, 8) has these; ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler
+    knows.
     """
     window = knots[span - len(local_tag) + 1 : span + len(local_tag) + 1]
     _apply(local_tag, LANES, places, (window,), out)
