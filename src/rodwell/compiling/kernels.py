@@ -19,14 +19,15 @@ from rodwell.compiling.cache import keep
 def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
 
-    ``options`` are those of ``numba.njit``.
+    ``options`` are those of ``numba.njit``. It has no entry for C: nobody calls it from there, and it takes a tenth of
+    the time of compilation.
 
     Where it cannot be kept (a full disk, a read-only installation without a home folder), the function is compiled
     anew in each process instead: see :mod:`rodwell.compiling.cache`.
     """
     if function is None:
         return partial(kernel, **options)
-    return keep(numba.njit(error_model="numpy", **options)(function))
+    return keep(numba.njit(error_model="numpy", no_cfunc_wrapper=True, **options)(function))
 
 
 def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
@@ -37,7 +38,17 @@ def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """
     if function is None:
         return partial(formula, **options)
-    return register_jitable(error_model="numpy", forceinline=True, **options)(function)
+    return register_jitable(error_model="numpy", no_cfunc_wrapper=True, forceinline=True, **options)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Mark a part of one kernel that is written into it, as if it stood there; Python can call it as it stands.
+
+    What a kernel calls is compiled, optimised and made machine code by itself, and then once more as a part of the
+    kernel, and a record of arrays takes a hundred instructions to hand over. So what is called at one place only, and
+    stands apart so that people can read it, is marked so.
+    """
+    return numba.njit(error_model="numpy", no_cfunc_wrapper=True, inline="always")(function)
 
 
 def direct(kernel: Any) -> Callable[..., Any]:
