@@ -211,7 +211,8 @@ def _in_curved_hole(family: Family, state: State, found: tuple[FloatArray, Float
     known = curved_measures.totals(family, state)
     probed, left = curved_measures.pressures(family, state, np.array([*PROBES, *places]))
     bends = curved_measures.curvatures_at(family, state, np.array([0.0, 1.0]))[1]
-    _, turns_0, _, turns_1 = free_ends(family.mesh)
+    mesh = family.mesh
+    _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = np.max(values), HALF * max(abs(np.max(values)), abs(lowest))
     noise[Measured.P_MAX] = np.max(left[len(PROBES) :])
     numbers[Measured.ENERGY], scales[Measured.ENERGY] = state.energy, max(abs(state.energy), known["bending"])
