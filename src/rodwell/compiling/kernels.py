@@ -15,19 +15,21 @@ from numba.extending import register_jitable
 
 from rodwell.compiling.cache import keep
 
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
+"""Options of all. There is no entry for C: nobody calls from there, and it is a tenth of what would be compiled."""
+
 
 def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
 
-    ``options`` are those of ``numba.njit``. It has no entry for C: nobody calls it from there, and it takes a tenth of
-    the time of compilation.
+    ``options`` are those of ``numba.njit``.
 
     Where it cannot be kept (a full disk, a read-only installation without a home folder), the function is compiled
     anew in each process instead: see :mod:`rodwell.compiling.cache`.
     """
     if function is None:
         return partial(kernel, **options)
-    return keep(numba.njit(error_model="numpy", no_cfunc_wrapper=True, **options)(function))
+    return keep(numba.njit(**OPTIONS, **options)(function))
 
 
 def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
@@ -38,7 +40,7 @@ def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """
     if function is None:
         return partial(formula, **options)
-    return register_jitable(error_model="numpy", no_cfunc_wrapper=True, forceinline=True, **options)(function)
+    return register_jitable(**OPTIONS, forceinline=True, **options)(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -48,7 +50,7 @@ def inlined(function: Callable[..., Any]) -> Any:
     kernel, and a record of arrays takes a hundred instructions to hand over. So what is called at one place only, and
     stands apart so that people can read it, is marked so.
     """
-    return numba.njit(error_model="numpy", no_cfunc_wrapper=True, inline="always")(function)
+    return numba.njit(**OPTIONS, inline="always")(function)
 
 
 def direct(kernel: Any) -> Callable[..., Any]:

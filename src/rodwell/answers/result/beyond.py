@@ -24,7 +24,7 @@ BACK = 0.6
 SAME_LOAD = 1e-7
 """Part of a load by which the last state before a snap may differ from it."""
 
-PATIENCE = 120.0
+PATIENCE = 45.0
 """Processor time in s after which a path is given up."""
 
 

@@ -52,7 +52,9 @@ def _sample(mesh, grid, table, c, parameters, sample):
             dots(mesh.model, mesh.local, ORDERS, table, 4 * j, 1, c, mesh.starts[element], u, 0)
             for k in range(mesh.given.shape[1]):
                 known[5 + k, i] = mesh.given[element * len(mesh.per_element), k]
-            known[0, i], known[1, i], known[2, i], known[3, i], known[4, i] = grid[j], u[0], u[1], u[2], u[3]
+            known[0, i] = grid[j]
+            for d in range(4):
+                known[1 + d, i] = u[d]
         _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), values)
         for i in range(min(count, m - start)):
             sample[start + i] = values[0, i]
@@ -123,15 +125,16 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
     known, f = np.empty((5 + mesh.given.shape[1], AT_ONCE)), np.empty((1, AT_ONCE))
     basis = np.empty((4, len(mesh.local), AT_ONCE))
     for j in range(m):
+        before, after = max(j - 1, 0), min(j + 1, m - 1)
+        place, value = grid[j], sample[j]
         if (
-            sample[j] < threshold
-            or (j > 0 and sample[j - 1] > sample[j])
-            or (j < m - 1 and sample[j + 1] >= sample[j])
+            value < threshold
+            or (j > before and sample[before] > value)
+            or (j < after and sample[after] >= value)
             or count == MOST_MAXIMA
         ):
             continue
-        low, high = grid[max(j - 1, 0)], grid[min(j + 1, m - 1)]
-        place, value = grid[j], sample[j]
+        low, high = grid[before], grid[after]
         delta = 0.05 * (high - low)
         if 0 < j < m - 1:
             place = _vertex(grid, sample, j)
@@ -141,8 +144,9 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
             refined = f[0, 2]
             if settled:
                 break
-            slope = (8.0 * (f[0, 3] - f[0, 1]) - (f[0, 4] - f[0, 0])) / (12.0 * delta)
-            bend = (16.0 * (f[0, 3] + f[0, 1]) - 30.0 * f[0, 2] - (f[0, 4] + f[0, 0])) / (12.0 * delta * delta)
+            two_down, down, up, two_up = f[0, 0], f[0, 1], f[0, 3], f[0, 4]
+            slope = (8.0 * (up - down) - (two_up - two_down)) / (12.0 * delta)
+            bend = (16.0 * (up + down) - 30.0 * refined - (two_up + two_down)) / (12.0 * delta * delta)
             uphill = high if slope > 0.0 else low
             target = place - slope / bend if bend < 0.0 else uphill
             step = min(max(target, low), high) - place

@@ -17,7 +17,7 @@ FILES = {
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
-"""Files in the folder of a case, pictures aside."""
+"""Files in the folder of a case, pictures aside; that of the load path only where it was followed."""
 
 CONVENTION_OF_DATA = (
     "Data files (JSON, CSV, XLSX, NetCDF) keep tension positive, end forces at s = 1, and say so where they stand."
