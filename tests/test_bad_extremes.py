@@ -169,7 +169,7 @@ def test_text_that_looks_like_markup(
     place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (place / "case.toml").write_text('title = "a [bold] c"\n' + CASE, encoding="utf-8")
-    assert exit_code(monkeypatch, "run", "case.toml", "--out", "x[b]") == 0
+    assert exit_code(monkeypatch, "run", "case.toml", "--no-path", "--out", "x[b]") == 0
     printed = capsys.readouterr().out
     assert "a [bold] c" in printed
     assert "x[b]" in printed
@@ -180,7 +180,7 @@ def test_a_folder_in_the_way_leaves_everything_as_it_was(
 ) -> None:
     (place / "results" / "answer.json").mkdir(parents=True)
     (place / "results" / "report.html").write_text("old", encoding="utf-8")
-    assert exit_code(monkeypatch, "run", "case.toml", "--out", "results") == 2
+    assert exit_code(monkeypatch, "run", "case.toml", "--no-path", "--out", "results") == 2
     assert "holds a folder 'answer.json'" in capsys.readouterr().err
     assert sorted(file.name for file in (place / "results").iterdir()) == ["answer.json", "report.html"]
     assert (place / "results" / "report.html").read_text(encoding="utf-8") == "old"
@@ -191,5 +191,5 @@ def test_nothing_is_made_if_nothing_is_written(place: Path, monkeypatch: pytest.
         raise KeyboardInterrupt
 
     monkeypatch.setattr("rodwell.report.pages.pdf.render", stopped)
-    assert exit_code(monkeypatch, "run", "case.toml") == 130
+    assert exit_code(monkeypatch, "run", "case.toml", "--no-path") == 130
     assert [file.name for file in place.iterdir()] == ["case.toml"]

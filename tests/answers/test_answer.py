@@ -91,14 +91,14 @@ def test_run_writes_everything(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "deep" / "results"
-    text = run(capsys, monkeypatch, "run", str(EXAMPLE), "--out", str(out))
+    text = run(capsys, monkeypatch, "run", str(EXAMPLE), "--no-path", "--out", str(out))
     assert "124.6 kN" in text
     assert f"Report: {out / 'report.html'}" in text.replace("\n", "")
     pictures = {
         f"{name}.png" for name in ("sketch", "bifurcation", "modes", "wall-loads", "cylinder", "rod-3d", "along-rod")
     }
     drawn = {name.replace("png", "svg") for name in pictures} - {"rod-3d.svg"}
-    assert {file.name for file in out.iterdir()} == set(FILES) | pictures | drawn
+    assert {file.name for file in out.iterdir()} == set(FILES) - {"load-path.csv"} | pictures | drawn
     assert list(out.parent.iterdir()) == [out]
     assert (out / "case.toml").read_text(encoding="utf-8") == EXAMPLE.read_text(encoding="utf-8")
     page = (out / "report.html").read_text(encoding="utf-8")
@@ -144,7 +144,7 @@ def _check_sheets(out: Path) -> None:
 def test_run_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     case = tmp_path / "case.toml"
     case.write_text("[dimensionless]\nweight = 15.0\n[load]\nuntil = -150.0\n", encoding="utf-8")
-    data = json.loads(run(capsys, monkeypatch, "run", str(case), "--out", str(tmp_path / "r"), "--json"))
+    data = json.loads(run(capsys, monkeypatch, "run", str(case), "--no-path", "--out", str(tmp_path / "r"), "--json"))
     assert data["critical_loads"][:2] == pytest.approx([-111.2334402, -127.2577803], abs=5e-8)
     assert data["lift_off"]["force"] == pytest.approx(-123.173074, abs=5e-7)
     assert data["figures"]["support_torque"]["value"] == 0.0
@@ -156,7 +156,7 @@ def test_quiet_prints_nothing(
 ) -> None:
     case = tmp_path / "case.toml"
     case.write_text("[dimensionless]\nweight = 15.0\n[analysis]\nmodes = 1\n", encoding="utf-8")
-    assert run(capsys, monkeypatch, "run", str(case), "--out", str(tmp_path / "r"), "--quiet") == ""
+    assert run(capsys, monkeypatch, "run", str(case), "--no-path", "--out", str(tmp_path / "r"), "--quiet") == ""
 
 
 def test_critical_and_liftoff_as_json(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

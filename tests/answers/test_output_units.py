@@ -159,7 +159,7 @@ def test_commands_show_the_units_asked_for(
     """The case's own units by default, --units over them; summary, report, JSON, export and audit."""
     file = tmp_path / "tubing.toml"
     file.write_text(QUICK, encoding="utf-8")
-    text = command(monkeypatch, capsys, "run", str(file), "--details", "--out", str(tmp_path / "a"))
+    text = command(monkeypatch, capsys, "run", str(file), "--no-path", "--details", "--out", str(tmp_path / "a"))
     assert re.search(r"until the compression reaches [\d.]+ lbf", text)
     assert "buoyed weight per length mg" in text
     assert not re.search(r"\d k?N\b", text)
@@ -169,8 +169,8 @@ def test_commands_show_the_units_asked_for(
     assert re.search(r"buoyed weight per length mg</td><td>[\d.]+\u00a0lbf/ft</td>", body)
     assert "lbf/ft" in body
     assert not re.search(r"\d k?N\b", body)
-    data = json.loads(command(monkeypatch, capsys, "run", str(file), "--units", "mm", "--out", str(tmp_path / "b"),
-                              "--json"))  # fmt: skip
+    data = json.loads(command(monkeypatch, capsys, "run", str(file), "--no-path", "--units", "mm",
+                              "--out", str(tmp_path / "b"), "--json"))  # fmt: skip
     assert data["figures"]["end_shortening"]["mm"]["unit"] == "mm"
     assert "field" not in data["figures"]["end_shortening"]
     assert {fact["label"] for fact in data["conversions"]} >= {"pipe", "buoyed weight per length mg"}

@@ -88,7 +88,6 @@ NO_KEYS = [
     ("pressure.surface", "both at s = 1"),
     ("analysis.tolerance", "write rtol"),
     ("analysis.mesh", "chosen by the tolerance rtol"),
-    ("analysis.off_wall", "kept on the wall up to lift-off"),
     ("supports.twist", "write torque"),
     ("supports.bending", "write moment"),
     ("cylinder.yield", "did you mean 'yield_strength'?"),

@@ -21,7 +21,7 @@ from rodwell.cli.main import main
 from rodwell.errors import InputError
 from rodwell.store.folder import whole_folder
 
-GOOD = "[dimensionless]\nweight = 16.5\n\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
+GOOD = "[dimensionless]\nweight = 16.5\n\n[analysis]\nmodes = 1\nrtol = 1e-4\noff_wall = false\n"
 BEYOND_RANGE = "[load]\nuntil = -65.0\n\n" + GOOD.replace("16.5", "16.5\nclearance = 0.3")
 
 INPUT_ERROR, COMPUTATION_ERROR, TOLERANCE_MISSED, INTERRUPTED = 2, 1, 3, 130

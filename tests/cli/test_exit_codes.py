@@ -24,7 +24,7 @@ from rodwell.studies.well import screening
 
 ROOT = Path(__file__).parents[2]
 ROD = ["--weight", "15", "--alpha", "90", "--rtol", "1e-4"]
-CASE = "[dimensionless]\nweight = 15\nalpha = 90\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
+CASE = "[dimensionless]\nweight = 15\nalpha = 90\n[analysis]\nmodes = 1\nrtol = 1e-4\noff_wall = false\n"
 ROD_AND_TOLERANCE = {"dimensionless": {"weight": 15, "alpha": 90}, "analysis": {"modes": 1, "rtol": 1e-4}}
 STUDY = "study = true\n" + CASE.replace("alpha = 90", "alpha = [89, 90]")
 

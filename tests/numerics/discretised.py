@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numba.core.caching import NullCache
 
-from rodwell.numerics.continuation.softest import softest
 from rodwell.numerics.equilibria.maxima import maxima
-from rodwell.numerics.equilibria.newton import inverse_iteration, keep_within, newton, solve_both_within, solve_within
+from rodwell.numerics.equilibria.newton import newton
 from rodwell.numerics.splines.assembly import assemble, variation
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -23,10 +22,7 @@ def discretised(model: Any, space: SplineSpace) -> Discretisation:
     return Discretisation(model, *space.tags, *quadrature, *nothing, space.starts, np.empty((space.points.size, 0)), 0)
 
 
-OF_MODELS = (
-    *(assemble, variation, newton, solve_within, solve_both_within, keep_within),
-    *(inverse_iteration, maxima, softest),
-)
+OF_MODELS = (assemble, variation, newton, maxima)
 """The kernels that are compiled for each model."""
 
 

@@ -84,6 +84,8 @@ class Case(Shown):
         In m/s².
     about
         For whom the report is, by whom, and its logo.
+    off_wall
+        Whether ``rodwell run`` follows the rod beyond lift-off.
     string
         The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
         and the whole length. None of a uniform rod.
@@ -108,6 +110,7 @@ class Case(Shown):
     gravity: float = 9.80665
     about: About = NOBODY
     string: PhysicalString | None = None
+    off_wall: bool = True
 
     @property
     def yield_strength(self) -> float | None:
@@ -238,6 +241,7 @@ def _assemble(
         "title": parsed.title or (Path(source).stem if text else "Rod in a hole"),
         "modes": parsed.analysis.modes,
         "rtol": named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
+        "off_wall": parsed.analysis.off_wall,
         "given": _given(data),
         "source": source,
         "text": text,

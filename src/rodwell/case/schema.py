@@ -238,6 +238,9 @@ class Analysis(SectionInput):
 
     modes: int = _key(4, "how many buckling modes", 3, strict=True, ge=1, le=MOST_MODES)
     rtol: Number = _key(1e-8, "relative tolerance of every number", 1e-6, allowed=RTOL)
+    off_wall: StrictBool = _key(
+        True, "`false` leaves the load path out: what happens beyond lift-off, and on the way back", False
+    )
 
 
 class CaseFile(SectionInput):

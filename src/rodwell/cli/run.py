@@ -33,9 +33,22 @@ if TYPE_CHECKING:
 @click.option("--pdf", "with_pdf", is_flag=True, help="Write the report as PDF too; needs rodwell[pdf].")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON instead of the summary.")
 @click.option("--details", is_flag=True, help="Print the key figures with their errors too, not the verdict only.")
+@click.option(
+    "--path/--no-path",
+    default=None,
+    help="Follow the rod beyond lift-off and back, or leave that out."
+    "  [default: analysis.off_wall of the case, or yes]",
+)
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
 def run(
-    case: Path, out: Path | None, units: str | None, with_pdf: bool, as_json: bool, details: bool, quiet: bool
+    case: Path,
+    out: Path | None,
+    units: str | None,
+    with_pdf: bool,
+    as_json: bool,
+    details: bool,
+    path: bool | None,
+    quiet: bool,
 ) -> None:
     """Compute CASE, a TOML file, and write report, figures and data.
 
@@ -69,13 +82,18 @@ def run(
         result = answer(read, tell)
     if not quiet and not as_json:
         _verdict(result)
+    from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
     from rodwell.answers.result.missed import missed  # noqa: PLC0415
     from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
-    write_results(result, folder, with_pdf=with_pdf)  # without a bar: its thread would keep figures in this process
+    follows = read.off_wall if path is None else path
+    # without a bar: its thread would keep figures in this process
+    write_results(result, folder, with_pdf=with_pdf, path=follows)
     if as_json:
-        print_json(result.as_dict(), indent=2)
+        print_json(answer_dict(result, path=follows), indent=2)
     elif not quiet:
+        if follows:
+            _beyond(result)
         if details:
             _details(result)
         print_written(folder, "report.html", with_pdf)
@@ -97,6 +115,19 @@ def _verdict(answer: Answer) -> None:
     console.print(Panel(body, title=escape(answer.case.title), title_align="left", border_style="blue"))
     if not answer.converged:
         console.print(f"[bold red]Not every number meets the tolerance {plain(answer.case.rtol)}.[/bold red]")
+
+
+def _beyond(answer: Answer) -> None:
+    """What happens beyond lift-off: told after the verdict, for it takes longer."""
+    from rich.console import Console  # noqa: PLC0415
+    from rich.markup import escape  # noqa: PLC0415
+    from rich.panel import Panel  # noqa: PLC0415
+
+    from rodwell.answers.words.beyond import beyond_sentences  # noqa: PLC0415
+
+    text = beyond_sentences(answer.case, answer.beyond)
+    body = "\n".join(f"• {escape(line)}" for line in text)
+    Console(highlight=False).print(Panel(body, title="Beyond lift-off", title_align="left", border_style="blue"))
 
 
 def _details(answer: Answer) -> None:

@@ -15,6 +15,9 @@ from numba.extending import register_jitable
 
 from rodwell.compiling.cache import keep
 
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
+"""Options of all. There is no entry for C: nobody calls from there, and it is a tenth of what would be compiled."""
+
 
 def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """Compile ``function`` with Numba and keep the machine code on disk for the next start.
@@ -26,7 +29,7 @@ def kernel(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """
     if function is None:
         return partial(kernel, **options)
-    return keep(numba.njit(error_model="numpy", **options)(function))
+    return keep(numba.njit(**OPTIONS, **options)(function))
 
 
 def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
@@ -37,7 +40,17 @@ def formula(function: Callable[..., Any] | None = None, **options: Any) -> Any:
     """
     if function is None:
         return partial(formula, **options)
-    return register_jitable(error_model="numpy", forceinline=True, **options)(function)
+    return register_jitable(**OPTIONS, forceinline=True, **options)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Mark a part of one kernel that is written into it, as if it stood there; Python can call it as it stands.
+
+    What a kernel calls is compiled, optimised and made machine code by itself, and then once more as a part of the
+    kernel, and a record of arrays takes a hundred instructions to hand over. So what is called at one place only, and
+    stands apart so that people can read it, is marked so.
+    """
+    return numba.njit(**OPTIONS, inline="always")(function)
 
 
 def direct(kernel: Any) -> Callable[..., Any]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rodwell.analysis.off_wall.state import STRAIGHT
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, SNAP, UNLOADING, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.answers.words.wording import forces_of
+from rodwell.case.case import Case
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
+from rodwell.plots.units import axis
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.text import minus
 
@@ -19,15 +23,38 @@ MARKS = {CRITICAL: ("o", INK, "buckles"), LIFT_OFF: ("^", MODES[1], "lifts off")
 LOADED, UNLOADED = MODES[0], MODES[2]
 
 
-def plot_path(result: LoadPath, ax: Any = None) -> Any:
-    """Draw compression at s = 1 against shortening; snaps are arrows. Returns the axes."""
+class Units(NamedTuple):
+    """From units B = L = 1 to those of the axes: shortening and load, with their words."""
+
+    shortening: float
+    load: Callable[[float], float]
+    across: str
+    up: str
+
+
+def units_of(result: LoadPath, case: Case | None) -> Units:
+    """Compression at s = 1 in B/L² over 10⁻³ L; of a case with dimensions as its pages say forces, in its units."""
+    if case is None or case.scales is None:
+        return Units(1e3, lambda force: -force, "10⁻³ L", "end compression −F at s = 1  [B/L²]")
+    said, curve = forces_of(case), result.curve
+    x, length = axis("z", case.scales, float(np.max(curve["shortening"])))
+    y, force = axis("force", case.scales, float(np.max(np.abs(said.drawn(curve["force"])))))
+    return Units(x, lambda load: y * float(said.drawn(load)), length, f"{said.axis}  [{force}]")
+
+
+def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any:
+    """Draw compression against shortening; snaps are arrows. Returns the axes.
+
+    Without a case compression at s = 1 in B/L²; with one in its units, at the end at which it says forces.
+    """
     ax = new_axes() if ax is None else ax
-    curve, names = result.curve, _legs(result)
+    curve, names, units = result.curve, _legs(result), units_of(result, case)
     for run in np.unique(curve["run"]):
         here = curve["run"] == run
         unloading = names[int(run)] == UNLOADING if int(run) < len(names) else True
+        loads = [units.load(force) for force in curve["force"][here]]
         ax.plot(
-            1e3 * curve["shortening"][here], -curve["force"][here], color=UNLOADED if unloading else LOADED,
+            units.shortening * curve["shortening"][here], loads, color=UNLOADED if unloading else LOADED,
             lw=1.8, ls="--" if unloading else "-",
         )  # fmt: skip
     ax.plot([], [], color=LOADED, lw=1.8, label="load grows")
@@ -35,10 +62,10 @@ def plot_path(result: LoadPath, ax: Any = None) -> Any:
         ax.plot([], [], color=UNLOADED, lw=1.8, ls="--", label="load is taken off")
     seen: set[str] = set()
     for event in result.events:
-        _mark(ax, event, seen)
-    _snaps(ax, result)
-    ax.set_xlabel("shortening of the rod's span  [10⁻³ L]")
-    ax.set_ylabel("end compression −F at s = 1  [B/L²]")
+        _mark(ax, event, seen, units)
+    _snaps(ax, result, units)
+    ax.set_xlabel(f"shortening of the rod's span  [{units.across}]")
+    ax.set_ylabel(units.up)
     problem = result.problem
     twist = f", T₁ = {problem.twist:g} B/L" if problem.twist else ""
     title = f"γ = {problem.weight:g}, α = {problem.alpha:g}°, Δ/L = {problem.clearance:g}{twist}, {ends_text(problem)}"
@@ -53,7 +80,7 @@ def _legs(result: LoadPath) -> list[str]:
     return [leg.name for leg in result.legs for _ in leg.runs]
 
 
-def _mark(ax: Any, event: PathPoint, seen: set[str]) -> None:
+def _mark(ax: Any, event: PathPoint, seen: set[str], units: Units) -> None:
     if event.kind == SNAP:
         return
     shortening = 0.0 if event.state is None else event.state.shortening.value
@@ -63,12 +90,18 @@ def _mark(ax: Any, event: PathPoint, seen: set[str]) -> None:
     label = word if word not in seen else None
     seen.add(word)
     ax.plot(
-        1e3 * shortening, -event.force.value, marker, color=colour, ms=6 if marker != "." else 7, zorder=5, label=label
+        units.shortening * shortening,
+        units.load(event.force.value),
+        marker,
+        color=colour,
+        ms=6 if marker != "." else 7,
+        zorder=5,
+        label=label,
     )
 
 
-def _snaps(ax: Any, result: LoadPath) -> None:
-    """An arrow from where the rod gives way to where it comes to rest, at the same load."""
+def _snaps(ax: Any, result: LoadPath, units: Units) -> None:
+    """An arrow from where the rod gives way to where it comes to rest: at the same load, or as driven."""
     runs = [run for leg in result.legs for run in leg.runs]
     square = result.problem.clearance**2
     lasts = {run[-1].load: run[-1].solved.out.energy_by_load * square for run in runs if run}
@@ -76,14 +109,14 @@ def _snaps(ax: Any, result: LoadPath) -> None:
         if event.state is None or event.to is None or not lasts:
             continue
         start = lasts[min(lasts, key=lambda load: abs(load - event.force.value))]
-        end, load = event.state.shortening.value, -event.force.value
+        end, load, rests = event.state.shortening.value, *map(units.load, (event.force.value, event.to.force.value))
         ax.annotate(
-            "", xy=(1e3 * end, load), xytext=(1e3 * start, load),
+            "", xy=(units.shortening * end, rests), xytext=(units.shortening * start, load),
             arrowprops={"arrowstyle": "-|>", "color": WARN, "lw": 1.3, "shrinkA": 3, "shrinkB": 0},
         )  # fmt: skip
         turns = f", {abs(event.to.turns)} turn{'s' if abs(event.to.turns) > 1 else ''}" if event.to.turns else ""
         name = "falls back" if event.to.kind == STRAIGHT else f"snaps: {event.to.kind}{turns}"
         ax.annotate(
-            name, xy=(1e3 * 0.5 * (start + end), load), xytext=(0, 4), textcoords="offset points",
-            ha="center", fontsize=8.5, color=WARN,
+            name, xy=(units.shortening * 0.5 * (start + end), 0.5 * (load + rests)), xytext=(0, 4),
+            textcoords="offset points", ha="center", fontsize=8.5, color=WARN,
         )  # fmt: skip

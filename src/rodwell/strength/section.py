@@ -15,6 +15,7 @@ from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.value import Peak, Value
 from rodwell.strength.loaded import Fields, LoadedRod
+from rodwell.strength.off_wall import RodOffWall
 from rodwell.strength.stress import PLACES, Loading, Section, Stresses, section_of, stresses
 
 
@@ -105,7 +106,7 @@ class RodSection:
             return np.ones(f["s"].shape, dtype=np.bool_)
         return np.asarray(self.number_at(f["s"]) == self.number)
 
-    def largest(self, state: LoadedRod) -> RodStress:
+    def largest(self, state: LoadedRod | RodOffWall) -> RodStress:
         """Largest von Mises stress along the rod, or along this section of a string, in a state."""
         peak = state.largest(lambda f: np.where(self.inside(f), self.von_mises(f), 0.0))
         there = self.stresses(state.fields(np.array([peak.s])))
@@ -177,11 +178,11 @@ class StringSections:
         """Part of its own yield strength that the stress uses up, (m,); nought where that is not known."""
         return self._each(f, RodSection.used)
 
-    def largest_each(self, state: LoadedRod) -> tuple[RodStress, ...]:
+    def largest_each(self, state: LoadedRod | RodOffWall) -> tuple[RodStress, ...]:
         """Largest von Mises stress in each section, from the bottom up."""
         return tuple(member.largest(state) for member in self.members)
 
-    def largest(self, state: LoadedRod) -> RodStress:
+    def largest(self, state: LoadedRod | RodOffWall) -> RodStress:
         """Largest von Mises stress of all sections; the safety factor is the least of all, each to its own strength."""
         each = self.largest_each(state)
         factors = [stress.safety for stress in each if stress.safety is not None]

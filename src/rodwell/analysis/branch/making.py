@@ -74,7 +74,8 @@ class _Finding:
             point, number = trace.points[-1], len(trace.points) - 1
             last = self._solution(point, trace.meshes[-1])
             index = trace.found[-1].index_after if met else last.stability_index
-            out.append(SpecialPoint(END, last.force, Value(point.lam), (), index, index, last, number, self.parameter))
+            reached = Value(point.lam, out[-1].error if met else 0.0)
+            out.append(SpecialPoint(END, last.force, reached, (), index, index, last, number, self.parameter))
         return tuple(out)
 
     def _solution(self, point: MeshedState, meshes: TwoMeshes) -> Solution:

@@ -22,6 +22,7 @@ from rodwell.physics.on_wall.model import RodOnCylinder
 from rodwell.problem.problem import Problem
 
 _VECTOR = types.Array(types.float64, 1, "C")
+_POSITIONS = types.Array(types.int64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
 _TABLE = types.Array(types.float64, 3, "C")
 
@@ -49,7 +50,7 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
             *(_VECTOR, _VECTOR, _VECTOR, types.float64, _VECTOR, _VECTOR),  # frozen, covector, c, lam, tangent, new_row
         ),
     ),
-    (softest, (_MESH, _MATRIX, types.boolean, types.int64, _MATRIX)),
+    (softest, (_MATRIX, _POSITIONS, _POSITIONS, _MATRIX, types.boolean, types.int64, _MATRIX)),
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 

@@ -21,6 +21,7 @@ from rodwell.analysis.discrete.pressures import (
 from rodwell.compiling.kernels import direct, kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.errors import unknown_name
+from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.state import State
@@ -119,14 +120,17 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
     tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
     balanced(mesh, knots, c, parameters, shear, tables, values, left)
     balanced(mesh, knots, c, parameters, shear, probes, at_probes, unused)
-    highest = np.max(values)
+    highest = as_field = -np.inf
+    unsure = 0.0
+    for i in range(count):
+        highest, as_field, unsure = larger(highest, values[i]), larger(as_field, sizes[i]), larger(unsure, left[i])
     u = np.empty((3, 3))  # place, derivative
     for i in range(3):
         combine(mesh.local, landmarks, i, c, marks[i], u[i])
         u[i, 1] += ramp
     out = np.zeros((3, PROBED + len(PROBES)))
     numbers, scales, noise = out
-    _, turns_0, _, turns_1 = free_ends(mesh)
+    _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
         bend, size = derivative(landmarks[i], 2, c, marks[i])
         # no moment where the end turns freely: what the spline has there tells how far it is off
@@ -144,10 +148,10 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
     for k in range(STEEPEST):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
-    numbers[AS_FIELD], scales[AS_FIELD] = np.max(sizes), scales[Measured.P_MAX]
+    numbers[AS_FIELD], scales[AS_FIELD] = as_field, scales[Measured.P_MAX]
     for k in range(len(PROBES)):
         numbers[PROBED + k], scales[PROBED + k] = at_probes[k], np.inf
-    noise[Measured.P_MAX] = np.max(left)
+    noise[Measured.P_MAX] = unsure
     for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
         noise[which] = SOFT * scales[which]
     return out
@@ -207,7 +211,8 @@ def _in_curved_hole(family: Family, state: State, found: tuple[FloatArray, Float
     known = curved_measures.totals(family, state)
     probed, left = curved_measures.pressures(family, state, np.array([*PROBES, *places]))
     bends = curved_measures.curvatures_at(family, state, np.array([0.0, 1.0]))[1]
-    _, turns_0, _, turns_1 = free_ends(family.mesh)
+    mesh = family.mesh
+    _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = np.max(values), HALF * max(abs(np.max(values)), abs(lowest))
     noise[Measured.P_MAX] = np.max(left[len(PROBES) :])
     numbers[Measured.ENERGY], scales[Measured.ENERGY] = state.energy, max(abs(state.energy), known["bending"])

@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import direct, formula, kernel
+from rodwell.compiling.kernels import direct, formula, inlined, kernel
+from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import AT_ONCE, MOST_ORDERS, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
@@ -31,7 +32,8 @@ COEFFICIENT_NOISE = 2.0 * float(np.finfo(float).eps)
 """Round-off in derivatives of a spline, relative to the sum of the sizes of their terms: some units in the last
 place."""
 
-TOTALS = 9
+TOTALS, SUMS = 9, 6
+"""Numbers gathered over the points, and how many of them, the first, are sums; the others are largest values."""
 
 STIFFNESS, WEIGHT = 0, 1
 """Columns of what is given of a string of sections: constant in each element."""
@@ -65,7 +67,7 @@ def _adding(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
     )  # fmt: skip
     sizes = omega2, y / clearance, y1
     added = [total + weight * x for total, x in zip(totals, sums, strict=False)]
-    return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[6:], sizes, strict=True))]
+    return [*added, *(np.maximum(total, np.absolute(x)) for total, x in zip(totals[SUMS:], sizes, strict=True))]
 
 
 _add = on_lanes(lambda model: lambda rows, parameters: _adding(model, rows, parameters))
@@ -84,12 +86,14 @@ _pressure = on_lanes(lambda model: lambda rows, parameters: _pressed(model, rows
 
 
 @formula
-def free_ends(mesh):
-    """Whether y, and whether y′, is free at s = 0, and the same at s = 1."""
-    last = mesh.starts[mesh.starts.size - 1] + len(mesh.local) - 1
+def free_ends(last, held, follows):
+    """Whether y, and whether y′, is free at s = 0, and the same at s = 1; ``last`` is the number of the last function.
+
+    What is ``held`` (h,), and what ``follows`` what, is that of a :class:`Discretisation`.
+    """
     loose_0 = turns_0 = loose_1 = turns_1 = True
-    for k in range(mesh.held.size):
-        i, tied = mesh.held[k], mesh.follows[k] != mesh.held[k]
+    for k in range(held.size):
+        i, tied = held[k], follows[k] != held[k]
         if i == 0:
             loose_0, turns_0 = tied, turns_0 and not tied
         elif i == last:
@@ -101,14 +105,14 @@ def free_ends(mesh):
     return loose_0, turns_0, loose_1, turns_1
 
 
-@formula
-def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
+@inlined
+def _balance(mesh, knots, ends, c, ramp, push, lever, shear):
     """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there.
 
     ``push`` is ∫∂e/∂y′, ``lever`` ∫(1 − s) ∂e/∂y.
     """
-    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
     count, local = shear.size, len(mesh.local)
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh.starts[-1] + local - 1, mesh.held, mesh.follows)
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
         for i in range(count):
@@ -120,16 +124,14 @@ def _balance(mesh, knots, ends, c, parameters, push, lever, shear):
         start = -whole
     elif not loose_0:
         start = push - lever
-        for basis, first, turns, sign in (
-            (ends[0], mesh.starts[0], turns_0, 1.0), (ends[-1], mesh.starts[-1], turns_1, -1.0),
-        ):  # fmt: skip
+        for end, turns, sign in ((0, turns_0, 1.0), (-1, turns_1, -1.0)):
             if not turns:
-                slope, bend = parameters[RAMP], 0.0
+                slope, bend = ramp, 0.0
                 for a in range(local):
-                    slope += basis[1, a] * c[first + a]
-                    bend += basis[2, a] * c[first + a]
+                    slope += ends[end, 1, a] * c[mesh.starts[end] + a]
+                    bend += ends[end, 2, a] * c[mesh.starts[end] + a]
                 if mesh.given.shape[1] > 0:
-                    bend *= mesh.given[0 if sign > 0.0 else mesh.given.shape[0] - 1, STIFFNESS]
+                    bend *= mesh.given[end, STIFFNESS]
                 start += sign * bend / (1.0 - slope * slope)
     for i in range(count):
         shear[i] += start
@@ -147,17 +149,23 @@ def totals(mesh, knots, ends, c, parameters, shear):
     """
     known = SHARED + 3 + mesh.given.shape[1]
     rows = np.zeros((known + TOTALS, len(mesh.per_element)))
-    found = rows[known:]
-    uniforms = (parameters,)
+    found, gathered = rows[known:], np.zeros(TOTALS)
+    uniforms, clearance = (parameters,), parameters[CLEARANCE]
     shear[0] = 0.0
     for element in range(mesh.starts.size):
         at_points(mesh, c, element, rows)
         _add(mesh.model, mesh.per_element, rows, uniforms, found)
-        shear[element + 1] = -found[1].sum() / parameters[CLEARANCE]
-    _balance(mesh, knots, ends, c, parameters, found[4].sum(), found[5].sum(), shear)
+        pushed = 0.0
+        for i in range(found.shape[1]):
+            pushed += found[1, i]
+        shear[element + 1] = -pushed / clearance
+    for k in range(TOTALS):
+        for i in range(found.shape[1]):
+            gathered[k] = gathered[k] + found[k, i] if k < SUMS else larger(gathered[k], found[k, i])
+    _balance(mesh, knots, ends, c, parameters[RAMP], gathered[4], gathered[5], shear)
     return (
-        found[0].sum(), found[1].sum(), found[2].sum(), found[3].sum(),
-        found[6].max(), found[7].max(), found[8].max(),
+        gathered[0], gathered[1], gathered[2], gathered[3],
+        gathered[6], gathered[7], gathered[8],
     )  # fmt: skip
 
 
@@ -202,7 +210,7 @@ def tabulated(local_tag, knots, starts, points, places):
     return places, elements, shares, basis, inner
 
 
-@formula
+@inlined
 def _shear_at(mesh, knots, c, parameters, shear, element, share, inner):
     """V at a place: ∂e/∂y is integrated from the last mesh point, over a part ``share`` of the element."""
     degree, count = len(mesh.local) - 1, len(mesh.per_element)
@@ -241,7 +249,7 @@ def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
     """
     known, out = np.empty((5 + mesh.given.shape[1], len(CHANGED))), np.empty((1, len(CHANGED)))
     places, elements, shares, basis, inner = tables
-    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh)
+    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     for i in range(places.size):
         s, first = places[i], mesh.starts[elements[i]]
         force = _shear_at(mesh, knots, c, parameters, shear, elements[i], shares[i], inner[i])

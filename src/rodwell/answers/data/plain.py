@@ -7,6 +7,7 @@ from typing import Any
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
 from rodwell.answers.comparison.beside import FormulaRow
+from rodwell.answers.data.beyond import beyond_dict
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
 from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
@@ -127,8 +128,8 @@ def _formula(scales: Scales | None, row: FormulaRow) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def answer_dict(answer: Answer) -> dict[str, Any]:
-    """Return the answer as plain data, for JSON."""
+def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
+    """Return the answer as plain data, for JSON; with ``path``, what happens beyond lift-off too."""
     case, problem = answer.case, answer.case.problem
     lift, load, assessment = answer.lift_off, answer.lift_off_load, assessment_dict(answer.assessment)
     return {
@@ -171,6 +172,7 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         "converged": answer.converged,
         "certificate": answer.worst_certificate.as_dict(),
         "rtol": case.rtol,
+        **({"beyond_lift_off": beyond_dict(case, answer.beyond)} if path else {}),
     }
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.assessment_numbers import assessment_numbers
+from rodwell.answers.result.beyond import Beyond, beyond
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.answers.result.key_numbers import (
@@ -51,6 +52,11 @@ class Answer(Computed, Shown):
     def assessment(self) -> Assessment:
         """Stress and safety, the safe window and its limits, the loads that act, formulas beside the exact loads."""
         return Assessment(self)
+
+    @cached_property
+    def beyond(self) -> Beyond:
+        """What happens beyond lift-off, and as the load is taken off again: computed when first asked for, seconds."""
+        return beyond(self)
 
     @cached_property
     def key_numbers(self) -> dict[str, KeyNumber]:

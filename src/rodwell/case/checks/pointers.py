@@ -166,7 +166,6 @@ KEYS_ELSEWHERE: dict[str, dict[str, str]] = {
         "mesh": "is not taken: meshes are chosen by the tolerance rtol",
         "elements": "is not taken: meshes are chosen by the tolerance rtol",
         "friction": _FRICTION,
-        "off_wall": "is out of scope in this version: the rod is kept on the wall up to lift-off",
     },
     "supports": {
         "twist": "is not known; write torque, the largest twisting moment that a support can bear",

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.compiling.kernels import direct, kernel
+from rodwell.compiling.kernels import kernel
 from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.continuation.location import LocationError, Segment
 from rodwell.numerics.equilibria.family import Family
@@ -73,15 +73,17 @@ class SoftestEigenvalues:
             factors = family.held.restrict(family.assemble(state.c, state.lam)[2])
             factorise(factors)
         wait_for("softest")
-        even, odd = _softest_of(family.mesh, factors, space.symmetric, iterations, self.vectors)
+        gram, held, follows = family.mesh.gram, family.mesh.held, family.mesh.follows
+        even, odd = softest(gram, held, follows, factors, space.symmetric, iterations, self.vectors)
         return float(even), float(odd)
 
 
 @kernel
-def softest(mesh, factors, symmetric, iterations, vectors):
+def softest(gram, held, follows, factors, symmetric, iterations, vectors):
     """Eigenvalues (2,) of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vectors`` (2, n).
 
-    ``factors`` are those of H. On a ``symmetric`` mesh the first value is that of
+    ``factors`` are those of H, ``gram`` is the band of G; what is ``held`` and ``follows`` what is that of a
+    :class:`rodwell.numerics.splines.records.Discretisation`. On a ``symmetric`` mesh the first value is that of
     even vectors and the second that of odd ones; otherwise the second vector is kept normal to the first. ``vectors``
     become the eigenvectors, of length one.
     """
@@ -89,27 +91,24 @@ def softest(mesh, factors, symmetric, iterations, vectors):
     values = np.zeros(2)
     for _ in range(iterations):
         for k in range(2):
-            new = multiply(mesh.gram, vectors[k])
+            new = multiply(gram, vectors[k])
             length = np.sqrt(dot(vectors[k], new))
-            gather(new, mesh.held, mesh.follows)
+            gather(new, held, follows)
             for i in range(n):
                 new[i] /= length
             solve(factors, new)
-            spread(new, mesh.held, mesh.follows)
+            spread(new, held, follows)
             if symmetric:
                 symmetrise(new, 1 - 2 * k)
             elif k == 1:
-                part = dot(vectors[0], multiply(mesh.gram, new))
+                part = dot(vectors[0], multiply(gram, new))
                 for i in range(n):
                     new[i] -= part * vectors[0, i]
-            values[k] = length / dot(multiply(mesh.gram, vectors[k]), new)
-            size = np.sqrt(dot(new, multiply(mesh.gram, new)))
+            values[k] = length / dot(multiply(gram, vectors[k]), new)
+            size = np.sqrt(dot(new, multiply(gram, new)))
             for i in range(n):
                 vectors[k, i] = new[i] / size
     return values[0], values[1]
-
-
-_softest_of = direct(softest)
 
 
 def _dip(place: Sequence[float], values: Sequence[float]) -> float | None:

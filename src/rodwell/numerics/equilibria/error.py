@@ -18,6 +18,12 @@ NUMBER_NOISE = 5e-13
 
 
 @formula
+def larger(a: Any, b: Any) -> Any:
+    """The larger of two numbers; none if one of them is none."""
+    return b if b > a or np.isnan(b) else a
+
+
+@formula
 def estimated_error(fine: Any, coarse: Any) -> Any:
     """Error estimate of numbers known on both meshes, arrays or single ones."""
     return np.abs(fine - coarse) / CLAIMED_GAIN + NUMBER_NOISE * np.abs(fine)

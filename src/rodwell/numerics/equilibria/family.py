@@ -41,7 +41,7 @@ ALL_REFLECTIONS = MIRROR, (1, True), (-1, True)
 """u → −u(s), u(1 − s), −u(1 − s)."""
 
 _NOTHING = np.empty(0)
-_newton, _inverse_iteration = direct(newton.newton), direct(newton.inverse_iteration)
+_newton = direct(newton.newton)
 _assemble, _variation = direct(assembly.assemble), direct(assembly.variation)
 
 
@@ -227,8 +227,9 @@ class Family:
         """
         factors = self.held.restrict(self.assemble(state.c, state.lam)[2])
         banded.factorise(factors)
-        _inverse_iteration(self.mesh, factors, iterations, vector)
-        above, size, below = _variation(self.mesh, state.c, *self._on_path(state.lam), vector)
+        mesh = self.mesh
+        newton.inverse_iteration(mesh.gram, mesh.held, mesh.follows, factors, iterations, vector)
+        above, size, below = _variation(mesh, state.c, *self._on_path(state.lam), vector)
         return float(above / below), float(EIGENVALUE_NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:

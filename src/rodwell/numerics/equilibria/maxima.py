@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import formula, kernel
+from rodwell.compiling.kernels import inlined, kernel
+from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.splines.basis import AT_ONCE, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.products import dots
@@ -37,7 +38,7 @@ _observed = on_lanes(_observing)
 """What is observed, at places side by side, from rows of place, field, three derivatives, and what is given."""
 
 
-@formula
+@inlined
 def _sample(mesh, grid, table, c, parameters, sample):
     """Write what is observed at all places of a grid."""
     m = grid.size
@@ -51,13 +52,15 @@ def _sample(mesh, grid, table, c, parameters, sample):
             dots(mesh.model, mesh.local, ORDERS, table, 4 * j, 1, c, mesh.starts[element], u, 0)
             for k in range(mesh.given.shape[1]):
                 known[5 + k, i] = mesh.given[element * len(mesh.per_element), k]
-            known[0, i], known[1, i], known[2, i], known[3, i], known[4, i] = grid[j], u[0], u[1], u[2], u[3]
+            known[0, i] = grid[j]
+            for d in range(4):
+                known[1 + d, i] = u[d]
         _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), values)
         for i in range(min(count, m - start)):
             sample[start + i] = values[0, i]
 
 
-@formula
+@inlined
 def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     """Write to ``f`` (1, 8) what is observed around a place, ``delta`` apart, in the first five.
 
@@ -70,7 +73,7 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     for k in range(5):
         span = find_span(knots, local - 1, known[0, k])
         if span != last:  # mostly, all five lie on one
-            side_by_side(mesh.local, knots, span, known[:1], basis)
+            side_by_side(mesh.local, knots, span, known, basis)
             last = span
         for d in range(4):
             total = 0.0
@@ -85,13 +88,14 @@ def _around(mesh, knots, c, parameters, place, delta, known, basis, f):
     _observed(mesh.model, SIDE_BY_SIDE, known, (parameters,), f)
 
 
-@kernel
-def _vertex(x, f):
-    """Place of the maximum of the parabola through three points, the middle one the highest."""
-    before, after = (f[1] - f[0]) / (x[1] - x[0]), (f[2] - f[1]) / (x[2] - x[1])
-    bend = (after - before) / (x[2] - x[0])
-    slope = before + bend * (x[1] - x[0])
-    return x[1] if bend >= 0.0 else min(max(x[1] - 0.5 * slope / bend, x[0]), x[2])
+@inlined
+def _vertex(x, f, j):
+    """Place of the maximum of the parabola through three points of many, the middle one, number ``j``, the highest."""
+    low, place, high = x[j - 1], x[j], x[j + 1]
+    before, after = (f[j] - f[j - 1]) / (place - low), (f[j + 1] - f[j]) / (high - place)
+    bend = (after - before) / (high - low)
+    slope = before + bend * (place - low)
+    return place if bend >= 0.0 else min(max(place - 0.5 * slope / bend, low), high)
 
 
 @kernel
@@ -112,33 +116,37 @@ def maxima(mesh, knots, grid, table, c, parameters, margin):
     m = grid.size
     sample = np.empty(m)
     _sample(mesh, grid, table, c, parameters, sample)
-    highest, lowest = np.max(sample), np.min(sample)
+    highest, lowest = sample[0], sample[0]
+    for value in sample:
+        highest, lowest = larger(highest, value), -larger(-lowest, -value)
     threshold = highest - margin * (highest - lowest)
     places, values = np.empty(MOST_MAXIMA), np.empty(MOST_MAXIMA)
     count = 0
     known, f = np.empty((5 + mesh.given.shape[1], AT_ONCE)), np.empty((1, AT_ONCE))
     basis = np.empty((4, len(mesh.local), AT_ONCE))
     for j in range(m):
+        before, after = max(j - 1, 0), min(j + 1, m - 1)
+        place, value = grid[j], sample[j]
         if (
-            sample[j] < threshold
-            or (j > 0 and sample[j - 1] > sample[j])
-            or (j < m - 1 and sample[j + 1] >= sample[j])
+            value < threshold
+            or (j > before and sample[before] > value)
+            or (j < after and sample[after] >= value)
             or count == MOST_MAXIMA
         ):
             continue
-        low, high = grid[max(j - 1, 0)], grid[min(j + 1, m - 1)]
-        place, value = grid[j], sample[j]
+        low, high = grid[before], grid[after]
         delta = 0.05 * (high - low)
         if 0 < j < m - 1:
-            place = _vertex(grid[j - 1 : j + 2], sample[j - 1 : j + 2])
+            place = _vertex(grid, sample, j)
         for step_number in range(MOST_STEPS + 1):
             settled = step_number == MOST_STEPS  # enough of it: the value there
             _around(mesh, knots, c, parameters, place, 0.0 if settled else delta, known, basis, f)
             refined = f[0, 2]
             if settled:
                 break
-            slope = (8.0 * (f[0, 3] - f[0, 1]) - (f[0, 4] - f[0, 0])) / (12.0 * delta)
-            bend = (16.0 * (f[0, 3] + f[0, 1]) - 30.0 * f[0, 2] - (f[0, 4] + f[0, 0])) / (12.0 * delta * delta)
+            two_down, down, up, two_up = f[0, 0], f[0, 1], f[0, 3], f[0, 4]
+            slope = (8.0 * (up - down) - (two_up - two_down)) / (12.0 * delta)
+            bend = (16.0 * (up + down) - 30.0 * refined - (two_up + two_down)) / (12.0 * delta * delta)
             uphill = high if slope > 0.0 else low
             target = place - slope / bend if bend < 0.0 else uphill
             step = min(max(target, low), high) - place

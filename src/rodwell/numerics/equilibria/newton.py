@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.compiling.kernels import kernel
+from rodwell.compiling.kernels import inlined, kernel
 from rodwell.numerics.splines.assembly import assemble
 from rodwell.numerics.splines.banded import factorise, multiply, solve, solve_both
 from rodwell.numerics.splines.held import gather, restrict, spread
@@ -76,33 +76,33 @@ def dot(x, y):
     return total
 
 
-@kernel
-def solve_within(mesh, factors, x, frozen, covector):
+@inlined
+def _solve_within(mesh, factors, x, frozen, covector):
     """Solve H x = b in place for the unknowns of ``x`` (n,), within the symmetry and off the frozen direction."""
     deflate(x, covector, frozen)  # what H would blow up is kept out of the right-hand side ...
     solve(factors, x)
-    keep_within(mesh, x, frozen, covector)  # ... and out of the solution
+    keep_within(x, mesh.held, mesh.follows, mesh.parity, frozen, covector)  # ... and out of the solution
 
 
-@kernel
-def solve_both_within(mesh, factors, x, y, frozen, covector):
-    """Solve for two right-hand sides as :func:`solve_within` does."""
+@inlined
+def _solve_both_within(mesh, factors, x, y, frozen, covector):
+    """Solve for two right-hand sides as :func:`_solve_within` does."""
     deflate(x, covector, frozen)
     deflate(y, covector, frozen)
     solve_both(factors, x, y)
-    keep_within(mesh, x, frozen, covector)
-    keep_within(mesh, y, frozen, covector)
+    keep_within(x, mesh.held, mesh.follows, mesh.parity, frozen, covector)
+    keep_within(y, mesh.held, mesh.follows, mesh.parity, frozen, covector)
 
 
 @kernel
-def keep_within(mesh, x, frozen, covector):
+def keep_within(x, held, follows, parity, frozen, covector):
     """Let what is held follow, and keep ``x`` (n,) within the symmetry and off the frozen direction, in place."""
-    spread(x, mesh.held, mesh.follows)
-    symmetrise(x, mesh.parity)
+    spread(x, held, follows)
+    symmetrise(x, parity)
     deflate(x, frozen, covector)
 
 
-@kernel
+@inlined
 def _move(c, a, b, more_dlam, dlam, gradient, mixed):
     """Add the step δc = a − δλ₂ b to ``c``; return its largest entry and ½ (g + m δλ)·δc.
 
@@ -117,7 +117,7 @@ def _move(c, a, b, more_dlam, dlam, gradient, mixed):
     return largest, work
 
 
-@kernel
+@inlined
 def _settles(step, previous):
     """Whether the next Newton step would be below round-off: convergence is quadratic, step = κ previous²."""
     return step < previous < 1.0 and step**3 <= NOTHING_LEFT * previous**2
@@ -189,7 +189,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         for i in range(n):
             b[i], w[i] = mixed[i], row[i]
         gather(w, mesh.held, mesh.follows)
-        solve_both_within(mesh, band, b, w, frozen, covector)
+        _solve_both_within(mesh, band, b, w, frozen, covector)
         first_dlam, lever = gap, row_lam
         for i in range(n):
             first_dlam += w[i] * gradient[i]
@@ -197,7 +197,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
         first_dlam /= lever
         for i in range(n):
             a[i] = -gradient[i] - mixed[i] * first_dlam
-        solve_within(mesh, band, a, frozen, covector)
+        _solve_within(mesh, band, a, frozen, covector)
         more_dlam = (gap - row_lam * first_dlam - dot(row, a)) / (row_lam - dot(row, b))
         dlam = first_dlam + more_dlam
         largest, work = _move(c, a, b, more_dlam, dlam, gradient, mixed)
@@ -221,21 +221,22 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
 
 
 @kernel
-def inverse_iteration(mesh, factors, iterations, vector):
+def inverse_iteration(gram, held, follows, factors, iterations, vector):
     """Turn ``vector`` (n,), in place, towards the H v = μ G v with μ nearest to zero; its largest entry becomes 1.
 
-    ``factors`` are those of H, G are the integrals of u′v′.
+    ``factors`` are those of H, ``gram`` is the band of G, the integrals of u′v′; what is ``held`` and ``follows`` what
+    is that of a :class:`rodwell.numerics.splines.records.Discretisation`.
     """
     for _ in range(iterations):
-        new = multiply(mesh.gram, vector)
-        gather(new, mesh.held, mesh.follows)
+        new = multiply(gram, vector)
+        gather(new, held, follows)
         solve(factors, new)
         largest = 0.0
         for i in range(new.size):
             largest = max(largest, abs(new[i]))
         for i in range(new.size):
             vector[i] = new[i] / largest
-        spread(vector, mesh.held, mesh.follows)
+        spread(vector, held, follows)
 
 
 @kernel

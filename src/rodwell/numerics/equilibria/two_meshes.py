@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rodwell.compiling.kernels import formula, kernel
-from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error
+from rodwell.compiling.kernels import kernel
+from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE, estimated_error, larger
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
@@ -42,12 +42,6 @@ KIN = 1.0 / 1024.0
 singles out, such as ends, numbers converge to more digits than elsewhere."""
 
 
-@formula
-def _larger(a, b):
-    """The larger of two numbers; none if one of them is none."""
-    return b if b > a or np.isnan(b) else a
-
-
 @kernel
 def _judged(fine, coarse, groups, links):
     """Errors (k,) of what was measured on two meshes, see :data:`Measure`, and the largest in units of its scale.
@@ -61,16 +55,16 @@ def _judged(fine, coarse, groups, links):
         error[i] = estimated_error(fine[0, i], coarse[0, i]) + known + fine[2, i]
     for link in range(links.shape[0]):
         i, j = links[link, 0], links[link, 1]
-        error[i] = _larger(error[i], KIN * error[j])
+        error[i] = larger(error[i], KIN * error[j])
     for group in range(groups.shape[0]):
         first, last = groups[group, 0], groups[group, 1]
         for i in range(first, last + 1):
-            error[first] = _larger(error[first], error[i])
+            error[first] = larger(error[first], error[i])
         for i in range(first, last + 1):
             error[i] = error[first]
     worst = 0.0
     for i in range(error.size):
-        worst = _larger(worst, error[i] / fine[1, i])
+        worst = larger(worst, error[i] / fine[1, i])
     return error, worst
 
 

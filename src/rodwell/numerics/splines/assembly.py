@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import formula, kernel
+from rodwell.compiling.kernels import formula, inlined, kernel
 from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.lanes import on_lanes
 from rodwell.numerics.splines.products import HESSIAN_OF_ONE, ROWS_OF_ONE, add_element, congruence, dots
@@ -82,7 +82,7 @@ def assemble(mesh, c, parameters, rates, gradient, mixed, band):
     return energy, rate
 
 
-@formula
+@inlined
 def at_points(mesh, c, element, known):
     """Write to ``known`` place, weight, fields, two derivatives, and what is given, at the points of an element."""
     fields, per_element = len(mesh.model), len(mesh.per_element)

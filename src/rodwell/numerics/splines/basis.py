@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.compiling.kernels import kernel
+from rodwell.compiling.kernels import inlined, kernel
 from rodwell.numerics.splines.lanes import on_lanes
 
 MOST_ORDERS, AT_ONCE = 4, 8
@@ -26,7 +26,7 @@ SPACING = 4.0 * np.finfo(np.float64).eps
 """Round-off in the difference of two knots, which are numbers from 0 to 1."""
 
 
-@kernel
+@inlined
 def _step(knots, span, k, x, row):
     """Turn weights of degree k−1 in ``row`` into weights of degree k, with the argument ``x``."""
     row[k] = 0.0
@@ -37,7 +37,7 @@ def _step(knots, span, k, x, row):
         row[j] *= 1.0 - share
 
 
-@kernel
+@inlined
 def blossom(knots, span, degree, places, out):
     """Write to ``out`` (≥ degree+1,) the weights of the polar form on the span [t[span], t[span+1]).
 
@@ -93,9 +93,10 @@ _apply = on_lanes(_side_by_side, flags=())
 
 @kernel
 def side_by_side(local_tag, knots, span, places, out):
-    """Write to ``out`` (4, p+1, 8) values and three derivatives at ``places`` (1, 8) of the functions on a knot span.
+    """Write to ``out`` (4, p+1, 8) values and three derivatives at places of the functions on a knot span.
 
-    ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler knows.
+    The first row of ``places`` (≥ 1, 8) has these; ``local_tag`` is a tuple of p + 1 zeros, whose length the compiler
+    knows.
     """
     window = knots[span - len(local_tag) + 1 : span + len(local_tag) + 1]
     _apply(local_tag, LANES, places, (window,), out)
@@ -205,7 +206,7 @@ def tabulate_anywhere(local_tag, knots, places, orders):
     return table, spans
 
 
-@kernel
+@inlined
 def _evenly_spaced(knots, span, degree):
     """Whether all knots that the functions on a span depend on are evenly spaced, to round-off."""
     width = knots[span + 1] - knots[span]

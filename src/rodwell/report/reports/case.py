@@ -14,6 +14,7 @@ from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.plots.bifurcation import ORDINATES, telling
 from rodwell.quantities.text import plain
+from rodwell.report.reports.beyond import beyond_section
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
 from rodwell.report.reports.front import LOGO, front
@@ -31,17 +32,21 @@ from rodwell.report.reports.texts import (
 )
 
 
-def case_report(answer: Answer, files: Iterable[str] = ()) -> Report:
-    """Return the content of a case's report; ``files`` are the names of those that stand beside it."""
+def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False) -> Report:
+    """Return the content of a case's report; ``files`` are the names of those that stand beside it.
+
+    ``path``: with what happens beyond lift-off, which is computed if it was not before.
+    """
     case = answer.case
     today = datetime.date.today().isoformat()
     return Report(
         title=case.title,
         subtitle=f"Buckling, lift-off and wall loads of a rod in a cylinder · {today} · rodwell {__version__}",
-        front=front(answer),
+        front=front(answer, path=path),
         sections=(
             ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
             _in_space(answer),
+            *([beyond_section(case, answer.beyond)] if path else []),
             *string_section(answer.assessment),
             *strength_sections(answer.assessment),
             _pictures(answer),

@@ -13,10 +13,11 @@ FILES = {
     "tables.xlsx": "key figures, special points and every state along the rod as a workbook",
     "key-figures.csv": "the key figures as a table",
     "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
+    "load-path.csv": "events beyond lift-off and on the way back: loads, gaps, forces on the wall, stress",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",
 }
-"""Files in the folder of a case, pictures aside."""
+"""Files in the folder of a case, pictures aside; that of the load path only where it was followed."""
 
 CONVENTION_OF_DATA = (
     "Data files (JSON, CSV, XLSX, NetCDF) keep tension positive, end forces at s = 1, and say so where they stand."

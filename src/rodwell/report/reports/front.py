@@ -7,6 +7,7 @@ from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import BUCKLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.advice import next_steps, statuses
+from rodwell.answers.words.beyond import story
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import has_steps
@@ -23,12 +24,13 @@ LOGO = "logo"
 """Name of the picture of the logo."""
 
 
-def front(answer: Answer) -> Front:
-    """Return the first sheet."""
+def front(answer: Answer, *, path: bool = False) -> Front:
+    """Return the first sheet; with ``path`` its verdict goes on beyond lift-off."""
     a, case = answer.assessment, answer.case
+    beyond = f" {story(case, answer.beyond)}" if path and answer.beyond.path is not None else ""
     effective = "Forces are effective ones. " if case.with_fluids else ""
     return Front(
-        verdict=sentences(answer)[0],
+        verdict=sentences(answer)[0] + beyond,
         statuses=statuses(answer),
         numbers=_numbers(answer),
         picture=Picture(

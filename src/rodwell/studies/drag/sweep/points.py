@@ -87,10 +87,11 @@ def operation_at(well: Well, one: OperationResult) -> OperationAt:
     buckled: dict[str, float] = {}
     for low, high, state in one.run.buckled:
         buckled[NAMES[state]] = buckled.get(NAMES[state], 0.0) + low - high
+    contact, von_mises, used = (
+        largest(along) if arrived else None for along in (one.run.contacts, one.strength.von_mises, one.strength.used)
+    )
     return OperationAt(
         one.operation, one.ends.hook_load, one.ends.torque, one.bounds["early"].hook_load,
         one.bounds["late"].hook_load, one.margin, worst_depth(one, "lock_up"), worst_depth(one, "push_ends"), buckled,
-        *(largest(along) if arrived else None for along in
-          (one.run.contacts, one.strength.von_mises, one.strength.used)),
-        level, failure(well, one) if level == FAILS else "",
+        contact, von_mises, used, level, failure(well, one) if level == FAILS else "",
     )  # fmt: skip

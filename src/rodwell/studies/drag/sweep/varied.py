@@ -86,7 +86,7 @@ def _fixed(path: Path) -> str:
 def _called(data: Mapping[str, Any], path: Path) -> str:
     """What a value is called by people: "bit force of slide", "friction of open hole"."""
     if len(path) == 4:  # a table in double brackets
-        table = data[path[0]][path[1]][path[2]]
+        table = data[str(path[0])][path[1]][path[2]]
         whose = table.get("name") or table.get("kind") or f"section {int(path[2]) + 1}"
         return f"{str(path[-1]).replace('_', ' ')} of {whose if isinstance(whose, str) else 'the operation'}"
     return label(".".join(str(part) for part in path))
