@@ -67,6 +67,7 @@ def followed(
     along: Motion | None = None,
     control: Control = FORCE,
     most_states: int = MOST_STATES,
+    largest: float = LARGEST_STEP,
     progress: Callable[[float], None] | None = None,
 ) -> Followed:
     """Follow equilibria from a state until the controlled quantity has the value ``until``.
@@ -78,7 +79,7 @@ def followed(
         along = tangent_in_load(start.solved, sense if control.by_force else -sense)  # at first the load grows with it
         if control.rate(start.solved, along) * sense < 0.0:
             along = along.times(-1.0)
-    return _Walker(Followed(), start, along, until, control, progress=progress).walk(most_states)
+    return _Walker(Followed(), start, along, until, control, progress=progress, largest=largest).walk(most_states)
 
 
 @dataclass(eq=False)
@@ -91,6 +92,7 @@ class _Walker:
     until: float
     control: Control
     size: float = FIRST_STEP
+    largest: float = LARGEST_STEP
     progress: Callable[[float], None] | None = None
 
     def walk(self, most_states: int) -> Followed:
@@ -110,7 +112,7 @@ class _Walker:
         state = self.state
         lengths, rates = self._lengths()
         most = MOST_SHRUNK / max(
-            float(np.max(-rates / lengths)), MOST_SHRUNK / LARGEST_STEP
+            float(np.max(-rates / lengths)), MOST_SHRUNK / self.largest
         )  # no stretch is passed over
         outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most))
         if solved is None:
@@ -124,7 +126,7 @@ class _Walker:
         elif found is None:
             self._accept(new, turned)
             self.size *= 0.6 if steps >= HARD else (1.5 if steps <= EASY else 1.0)
-            self.size = min(self.size, LARGEST_STEP)
+            self.size = min(self.size, self.largest)
         elif found.kind in (FOLD, BRANCH_POINT, LOAD_PEAK):
             self._turned(found, new, turned)
         elif found.kind == END:
