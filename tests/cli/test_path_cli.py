@@ -48,11 +48,28 @@ def test_as_text_with_files(tmp_path: Path) -> None:
     assert sorted(file.name for file in out.iterdir()) == files
 
 
+def test_a_spring_in_series() -> None:
+    """Straight until δ = −F/k, F = −111.23344016; then u − F/k."""
+    control = ("--control", "shortening", "--spring", "1e4")
+    done = run(*COMMON, *control, "--until", "0.0115", "--at", "0.0113", "--json")
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.output)
+    assert data["compliance"] == pytest.approx(1e-4)
+    assert data["events"][0]["driven"]["value"] == pytest.approx(0.011123344016, rel=1e-10)
+    (state,) = data["states"]
+    assert state["driven"] == pytest.approx(0.0113, rel=1e-12)
+    assert state["shortening"]["value"] - 1e-4 * state["force"] == pytest.approx(0.0113, rel=1e-12)
+    shown = run(*COMMON, *control, "--until", "0.0115")
+    assert "driven displacement is" in shown.output
+    assert "driven displacement 0.0111233" in shown.output
+
+
 def test_bad_input() -> None:
     for arguments, field in (
         (("--until", "-130", "--at", "much"), "--at"),
         (("--until", "-130", "--outside"), "outside"),
         (("--until", "nan"), "until"),
+        (("--until", "-130", "--spring", "1e4"), "spring"),
     ):
         done = run(*COMMON, *arguments)
         assert isinstance(done.exception, InputError)

@@ -170,8 +170,8 @@ class _Walker:
             value = driven_rate(self.control, self.along)  # behind something soft the load turns just before
             at = locate(state.model, event.state.solved, new.solved, value)
             if at is not None:
-                there = PatternedState(state.pattern, state.elements, at)
-                self._turned(PathEvent(FOLD, there, (), value, [], self.along, (state, new)), new, turned)
+                fold = PatternedState(state.pattern, state.elements, at)
+                self._turned(PathEvent(FOLD, fold, (), value, [], self.along, (state, new)), new, turned)
                 return
         if any(one.value < 0.0 for one in conditions(new)):
             chain, load = state.solved.shape.chain, state.load
