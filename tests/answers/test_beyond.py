@@ -21,7 +21,7 @@ from rodwell.answers.result.beyond import Beyond, Step
 from rodwell.answers.words.beyond import beyond_sentences, story
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
-from rodwell.plots.beyond import pictured, plot_beyond
+from rodwell.plots.paths.beyond import pictured, plot_beyond
 from rodwell.quantities.value import Value
 from rodwell.report.folders.case import write_results
 from rodwell.report.reports.beyond import beyond_section

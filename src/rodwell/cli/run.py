@@ -97,7 +97,7 @@ def run(
         if details:
             _details(result)
         print_written(folder, "report.html", with_pdf)
-    check_missed(missed(result), read.rtol)
+    check_missed([*missed(result), *(result.beyond.missed if follows else ())], read.rtol)
 
 
 def _verdict(answer: Answer) -> None:

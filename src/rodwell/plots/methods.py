@@ -26,7 +26,7 @@ from rodwell.plots.endless import plot_endless
 from rodwell.plots.fields import plot_field
 from rodwell.plots.in_parameter import plot_in_parameter
 from rodwell.plots.maps.figure import plot_map
-from rodwell.plots.path import plot_path
+from rodwell.plots.paths.path import plot_path
 from rodwell.plots.profiles import plot_modes
 from rodwell.plots.rod3d import WIDE, plot_rod, wide_axes
 from rodwell.plots.style import RC, SIZE

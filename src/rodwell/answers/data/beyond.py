@@ -24,6 +24,7 @@ def beyond_dict(case: Case, found: Beyond) -> dict[str, Any]:
         "unload_to": None if path is None else path.unload_to,
         "reached": path is not None and path.reached,
         "ended_because": None if path is None else path.ended_because or None,
+        "missed": list(found.missed),
         "events": [
             one.event.as_dict()
             | _state(case, one.state, one.event.force)

@@ -95,6 +95,11 @@ class Beyond:
     events: tuple[Step, ...] = ()
     applied: tuple[tuple[AppliedLoad, StateBeyond | str], ...] = ()
 
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """Events whose load misses the tolerance, in words."""
+        return () if self.path is None else tuple(f"beyond lift-off: {what}" for what in self.path.missed)
+
 
 class _TooLongError(RodwellError):
     """The path takes longer than a report waits for."""

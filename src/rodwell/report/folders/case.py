@@ -14,7 +14,7 @@ from rodwell.answers.data.beyond import beyond_table
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
-from rodwell.plots.beyond import plot_beyond
+from rodwell.plots.paths.beyond import plot_beyond
 from rodwell.plots.style import RC
 from rodwell.report.folders.beside import done_beside
 from rodwell.report.folders.pictures import draw, draw_curves, draw_diagram, save_figure

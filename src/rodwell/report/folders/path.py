@@ -9,7 +9,7 @@ from pathlib import Path
 import matplotlib as mpl
 
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.plots.path import plot_path
+from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
 from rodwell.report.folders.pictures import save_figure
 from rodwell.store.folder import whole_folder

@@ -34,6 +34,8 @@ def beyond_section(case: Case, found: Beyond) -> ReportSection:
         _events(case, found),
         Words(f"{assumed} A safety factor is that of an elastic rod.", "small"),
     ]
+    if found.missed:
+        blocks.append(Words(f"Not every load meets the tolerance: {'; '.join(found.missed)}.", "warning"))
     gaps = _gaps(case, found)
     return ReportSection("Beyond lift-off", (*blocks, *gaps))
 

@@ -13,7 +13,7 @@ from rodwell.analysis.path.events import LIFT_OFF, SNAP
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.path import LOADED, UNLOADED, plot_path, units_of
+from rodwell.plots.paths.path import LOADED, UNLOADED, plot_path, units_of
 from rodwell.plots.style import GREY, INK
 
 MOST = 5
