@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from drag_wells import cutter, operation, well_a_survey
-from rodwell.survey.survey import Survey
 
 from rodwell.studies.drag.laws import STRAIGHT_LAW
 from rodwell.studies.drag.run import run
+from rodwell.survey.survey import Survey
 
 KINDS = ("pull-out", "run-in", "rotate-off-bottom")
 
