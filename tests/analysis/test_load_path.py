@@ -93,6 +93,13 @@ def test_the_helix_has_the_energy_of_the_coil(loop: LoadPath, force: float, ener
     assert state.energy.value == pytest.approx(total, abs=1e-10)
 
 
+def test_the_coil_far_out(loop: LoadPath) -> None:
+    """Far beyond the path the helix is the one-turn coil: −0.185518 at −200, relative to the straight rod."""
+    state = at_load(loop.at(-160.0)[-1].state.fine, -200.0)
+    assert state.pattern.full
+    assert state.solved.out.energy * 1e-4 == pytest.approx(-0.185518, abs=5e-7)
+
+
 def test_energy_falls_with_the_load_as_the_ends_approach(loop: LoadPath) -> None:
     """dE/dF is the shortening: by differences of energies, gaps and all."""
     h = 1e-3
@@ -157,8 +164,14 @@ def test_with_twist_the_arms_differ() -> None:
     assert path.snaps[0].to.kind == "helix"
     assert path.snaps[0].state.fine.pattern.full
     assert all(event.state.certificate.passed for event in path.events[1:])
-    other = load_path(rodwell.Problem(weight=15, twist=3.0), until=-112.0, seeds=1)
-    assert other.events[1].kind == "snap"  # the arm that twist favours has folded before, at −110.7476
+
+
+def test_the_arm_that_twist_favours_folds() -> None:
+    """T₁ = 3: at −110.74756307, by two programs in two fields, less than the −111.2334 at which the rod snaps to it."""
+    path = load_path(rodwell.Problem(weight=15, twist=3.0), until=-112.0, unload_to=-105.0, seeds=1)
+    assert [event.kind for event in path.events] == ["critical", "snap", "fold", "snap"]
+    assert path.first("fold", "unloading").force.value == pytest.approx(-110.74756307, abs=1e-8)
+    assert path.snaps[1].to.kind == "straight"
 
 
 def test_ball_joints_let_the_rod_off_at_its_ends() -> None:

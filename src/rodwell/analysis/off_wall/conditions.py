@@ -38,8 +38,8 @@ NOISE = 1e-10
 """A gap, over the polynomial with which it opens, is not known better than this: it is round-off over that."""
 
 KNOWN_FORCE = 5e-6
-"""A force at the end of a stretch in contact is known to this part of |F|^{3/2} on the elements along a path, whose third
-derivative it comes from: an end of a gap that has just opened may seem to pull by less."""
+"""A force at the end of a stretch in contact comes from third derivatives, which the elements along a path know to this
+part of |F|^{3/2}: an end of a gap that has just opened may seem to pull by less."""
 
 EDGE = 0.02
 """Part of a free stretch at either end where the gap is left to the conditions on forces and curvature."""

@@ -1,4 +1,4 @@
-"""What is controlled along a path: the end force, or the shortening, of the span alone or with what drives it in series.
+"""What is controlled along a path: the end force, or the shortening, alone or with what gives way in series.
 
 A rod of axial stiffness EA, pushed through a spring of stiffness k, gives way by its shape, u, and by the strain of
 both: with the end force F, tension positive, the driven end moves by
@@ -88,7 +88,7 @@ class Control:
         return one.index - int(self.rate(one, along) * along.load > 0.0)
 
     def potential(self, one: Solved) -> float:
-        """The energy that is least where it is controlled, in the chain's unit: with shortening and spring, not load."""
+        """The energy that is least where it is controlled, in the chain's unit: with the spring's, not the load's."""
         if self.by_force:
             return one.out.energy
         load = one.shape.load

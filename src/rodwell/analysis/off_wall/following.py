@@ -16,20 +16,18 @@ from rodwell.analysis.off_wall.happening import (
     END,
     FOLD,
     LOAD_PEAK,
-    TOGETHER,
     Followed,
     PathEvent,
     together,
     unresolved,
-    watch,
 )
-from rodwell.analysis.off_wall.turning import growing_direction, turning_points
+from rodwell.analysis.off_wall.turning import driven_rate, growing_direction
+from rodwell.analysis.off_wall.within import Step, first_event
 from rodwell.numerics.stretches.walk import (
     Motion,
     between,
     length,
     locate,
-    row_of,
     search,
     step,
     tangent,
@@ -59,9 +57,6 @@ SMALLEST_PART = 0.1
 NEARLY = 1e-9
 """A condition that is missed by no more than this is as good as met."""
 
-MOST_EARLIER = 6
-"""How often within a step something is found that happens before what was found first."""
-
 MOST_STATES = 2000
 
 
@@ -72,6 +67,7 @@ def followed(
     along: Motion | None = None,
     control: Control = FORCE,
     most_states: int = MOST_STATES,
+    largest: float = LARGEST_STEP,
     progress: Callable[[float], None] | None = None,
 ) -> Followed:
     """Follow equilibria from a state until the controlled quantity has the value ``until``.
@@ -83,7 +79,7 @@ def followed(
         along = tangent_in_load(start.solved, sense if control.by_force else -sense)  # at first the load grows with it
         if control.rate(start.solved, along) * sense < 0.0:
             along = along.times(-1.0)
-    return _Walker(Followed(), start, along, until, control, progress=progress).walk(most_states)
+    return _Walker(Followed(), start, along, until, control, progress=progress, largest=largest).walk(most_states)
 
 
 @dataclass(eq=False)
@@ -96,6 +92,7 @@ class _Walker:
     until: float
     control: Control
     size: float = FIRST_STEP
+    largest: float = LARGEST_STEP
     progress: Callable[[float], None] | None = None
 
     def walk(self, most_states: int) -> Followed:
@@ -115,7 +112,7 @@ class _Walker:
         state = self.state
         lengths, rates = self._lengths()
         most = MOST_SHRUNK / max(
-            float(np.max(-rates / lengths)), MOST_SHRUNK / LARGEST_STEP
+            float(np.max(-rates / lengths)), MOST_SHRUNK / self.largest
         )  # no stretch is passed over
         outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most))
         if solved is None:
@@ -123,18 +120,20 @@ class _Walker:
             return
         new = PatternedState(state.pattern, state.elements, solved)
         turned = tangent(solved, self.along)
-        found = self._first_event(new, turned)
-        if found is None:
+        found = first_event(Step(state, self.along, new, turned, self.control, self.until, self.sense))
+        if isinstance(found, str):
+            self._shorten(found)
+        elif found is None:
             self._accept(new, turned)
             self.size *= 0.6 if steps >= HARD else (1.5 if steps <= EASY else 1.0)
-            self.size = min(self.size, LARGEST_STEP)
+            self.size = min(self.size, self.largest)
         elif found.kind in (FOLD, BRANCH_POINT, LOAD_PEAK):
             self._turned(found, new, turned)
         elif found.kind == END:
             self._accept(found.state, turned)
             self.result.events.append(found)
             self.result.ended = END
-        elif found.kind:
+        else:
             self._change(found)
 
     def _lengths(self) -> tuple[FloatArray, FloatArray]:
@@ -152,61 +151,6 @@ class _Walker:
             self.state = renewed
             self.along = tangent(renewed.solved, guide)
 
-    def _first_event(self, new: PatternedState, turned: Motion) -> PathEvent | None:
-        """The first thing that happens within a step, located; kind "" where it could not be: the step is shortened."""
-        event = None
-        for _ in range(MOST_EARLIER):
-            found = self._located(new, turned)
-            if found is None:
-                return event
-            event = found
-            if not event.kind or not self._earlier(event, new):
-                return event
-            new, turned = event.state, tangent(event.state.solved, self.along)
-        self._shorten(f"contact changes too often beyond F = {self.state.load:.8g} B/L²")
-        return PathEvent("", self.state)
-
-    def _located(self, new: PatternedState, turned: Motion) -> PathEvent | None:
-        """What is seen to happen within a step by what holds at its ends; the first of it along the tangent."""
-        state = self.state
-        broken = [one for one in conditions(new) if one.value < 0.0]
-        candidates = [(one.kind, watch(one, state)) for one in broken]
-        candidates += turning_points(self.control, (self.state, self.along), (new, turned), self.sense)
-        if (self.control.value(new.solved) - self.until) * self.sense >= 0.0:
-            candidates.append((END, lambda one: self.control.value(one) - self.until))
-        located = []
-        row = row_of(self.along, state.solved.shape.chain, state.load)
-        for kind, value in candidates:
-            at = locate(state.model, state.solved, new.solved, value)
-            if at is None:
-                self._shorten(f"{kind} beyond F = {state.load:.8g} B/L² could not be located")
-                return PathEvent("", state)
-            there = PatternedState(state.pattern, state.elements, at)
-            order = row.of(at.shape.nodes, at.shape.breaks, at.shape.load)
-            located.append((order, PathEvent(kind, there, (), value, [], self.along, (state, new))))
-        if not located:
-            return None
-        number = int(np.argmin([order for order, _ in located]))
-        event = located[number][1]
-        if number >= len(broken):
-            return event
-        at_once = together(event.state, broken, number)
-        return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
-
-    def _earlier(self, event: PathEvent, new: PatternedState) -> bool:
-        """Whether a condition is missed at an event already, since the path bends within the step."""
-        before, after = (
-            {(one.kind, one.number): abs(one.value) for one in sorted(conditions(state), key=lambda one: -one.value)}
-            for state in (self.state, new)
-        )
-        known = {(one.kind, one.number) for one in event.together}
-        for one in conditions(event.state):
-            key = one.kind, one.number
-            size = max(before.get(key, 0.0), after.get(key, 0.0))
-            if key not in known and one.value < -TOGETHER * size and before.get(key, 0.0) > 0.0:
-                return True
-        return False
-
     def _turned(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
         """At a fold or a change of the index: go on, or end."""
         self.result.events.append(event)
@@ -222,6 +166,13 @@ class _Walker:
     def _pass(self, event: PathEvent, new: PatternedState, turned: Motion) -> None:
         """Go on behind an event that ends nothing: to the end of the step, or just past it if more happens within."""
         state = self.state
+        if event.kind == LOAD_PEAK and self.control.rate(new.solved, turned) * self.sense < 0.0:
+            value = driven_rate(self.control, self.along)  # behind something soft the load turns just before
+            at = locate(state.model, event.state.solved, new.solved, value)
+            if at is not None:
+                there = PatternedState(state.pattern, state.elements, at)
+                self._turned(PathEvent(FOLD, there, (), value, [], self.along, (state, new)), new, turned)
+                return
         if any(one.value < 0.0 for one in conditions(new)):
             chain, load = state.solved.shape.chain, state.load
             there = length(between(state.solved.shape, event.state.solved.shape), chain, load)

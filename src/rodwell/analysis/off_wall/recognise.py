@@ -56,8 +56,8 @@ class _Piece(NamedTuple):
 def recognised(model: RodInHole, shape: Shape, control: Control, value: float) -> PatternedState | None:
     """The stable equilibrium behind the hard wall close to a minimum behind a soft one; None if none was found.
 
-    The controlled quantity has the value given. The wall is made stiffer until the pattern that it shows can be solved for: forces that are concentrated behind a
-    hard wall are spread over lengths like k^(−1/4).
+    With a value of what is controlled. The wall is made stiffer until the pattern that it shows can be solved for:
+    forces that are concentrated behind a hard wall are spread over lengths like k^(−1/4).
     """
     for stiffness in STIFFNESSES:
         if stiffness == FINER_FROM:

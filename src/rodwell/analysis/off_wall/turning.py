@@ -30,12 +30,17 @@ def turning_points(
     if along.load * turned.load < 0.0:
         found.append((FOLD if control.by_force else LOAD_PEAK, load_rate(along)))
     if not control.by_force and control.rate(new.solved, turned) * sense < 0.0:
-        found.append((FOLD, lambda one: control.rate(one, tangent(one, along))))
+        found.append((FOLD, driven_rate(control, along)))
     before = control.index(state.solved, along, sense)
     if before != control.index(new.solved, turned, sense) and not any(kind == FOLD for kind, _ in found):
         direction = softest(new.solved)
         found.append((BRANCH_POINT, lambda one: stiffness_along(one, direction)))
     return found
+
+
+def driven_rate(control: Control, along: Motion) -> Callable[[Solved], float]:
+    """How fast the controlled quantity changes along the path: zero where it turns."""
+    return lambda one: control.rate(one, tangent(one, along))
 
 
 def growing_direction(after: Changed, load_sense: float) -> Motion:

@@ -42,7 +42,7 @@ MEANING = {
 class Destination:
     """Where a snap leads: the kind of state, its turns around the hole, its energy relative to the straight rod.
 
-    ``force`` is the end force there: that of the snap, where it is controlled, and another one, where the shortening is.
+    ``force`` is the end force there: where it is controlled that of the snap.
     ``starts`` is how many disturbed starts were tried, ``agree`` how many ended in this state or its mirror image.
     """
 

@@ -43,8 +43,14 @@ FLAT = 0.05
 SLACK = 1e-9
 """A condition on contact that is missed by no more than this part of the load is as good as met."""
 
+AT_BUCKLING = 1e-6
+"""Loads that differ from the buckling load by no more than this part of it are that load."""
+
 STILL = 1e-4
 """The same, below which it is straight."""
+
+SHORT_STEP = 5e-3
+"""Largest step where a longer one has jumped over a fold."""
 
 NO_DROP = 1e-3
 """A state that gives way to one whose energy differs by less than this part has not snapped: the other branches off."""
@@ -95,6 +101,7 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
                 return out
             continue
         path = followed(out.last, target, control=how.control, progress=how.progress)
+        path = _without_jump(path, target, sense, how)
         if _came_to_rest(out, path, how):
             begin = how.control.of_straight(how.mode.force)
             continue
@@ -134,12 +141,33 @@ def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, 
     return buckles
 
 
+def _first_still(path: Followed) -> int | None:
+    """The number of the first state of a path that is straight, if it began bent."""
+    bent = [not _flat(state, STILL) for state in path.states]
+    return bent.index(False) if bent[0] and not all(bent) else None
+
+
+def _without_jump(path: Followed, target: float, sense: float, how: How) -> Followed:
+    """A path that does not jump over a fold: a bent rod that is past the buckling load cannot become straight there.
+
+    It folds before. Its last part is followed again in short steps.
+    """
+    load_sense = sense if how.control.by_force else -sense
+    first = _first_still(path)
+    if first is None or (path.states[first - 1].load - how.mode.force) * load_sense <= 0.0:
+        return path
+    begin = max(first - 3, 0)
+    kept = path.states[:begin]
+    again = followed(path.states[begin], target, control=how.control, progress=how.progress, largest=SHORT_STEP)
+    events = [event for event in path.events if event.state in kept] + again.events
+    return Followed(kept + again.states, events, again.ended, again.along)
+
+
 def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
     """Whether a path on the wall has met the straight rod, at its buckling load, and would go on along it."""
-    bent = [not _flat(state, STILL) for state in path.states]
-    if not bent[0] or all(bent):
+    first = _first_still(path)
+    if first is None:
         return False
-    first = bent.index(False)
     out.leg.runs.append(path.states[:first])
     path.events = [event for event in path.events if event.state in path.states[:first]]
     _tell(out, path, how)
@@ -153,7 +181,7 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
     for event in path.events:
         if event.kind == END or (event.kind == BRANCH_POINT and event is not path.events[-1]):
             continue
-        if event.kind == BRANCH_POINT or (event.kind == FOLD and _flat(event.state)):
+        if event.kind == BRANCH_POINT or (event.kind == FOLD and _straightens(event.state, how)):
             continue
         one = resolved_event(event, how.rtol)
         kind = event.kind
@@ -170,10 +198,15 @@ def _flat(state: PatternedState, angle: float = FLAT) -> bool:
     return state.pattern.full and not state.pattern.turns and float(np.ptp(state.solved.shape.nodes[:, 1])) < angle
 
 
+def _straightens(state: PatternedState, how: How) -> bool:
+    """Whether a path that ends here meets the straight rod, at its buckling load; a fold nearby is another one's."""
+    return _flat(state) and abs(state.load - how.mode.force) <= AT_BUCKLING * abs(how.mode.force)
+
+
 def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     """What follows where a state ceases to exist, or to be stable."""
     last = path.last
-    if _flat(last):
+    if _straightens(last, how):
         critical = Value(how.mode.force, how.mode.error)
         out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
         out.last = None

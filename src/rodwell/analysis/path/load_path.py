@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.discrete import first_run
-from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.conditions import conditions
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
 from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
-from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
-from rodwell.analysis.path.legs import How, Walked, straight_state, walked
-from rodwell.analysis.path.start import OnWall, carried, on_wall, released
+from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
+from rodwell.analysis.path.legs import How, straight_state, walked
+from rodwell.analysis.path.loading import loaded
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
@@ -207,7 +207,7 @@ class LoadPath(Shown):
         return {} if found is None else {"driven": plain(found)}
 
     def driven(self, event: PathPoint) -> Value | None:
-        """The shortening of the driven end at an event, in L, with its error; None where the end force is controlled."""
+        """The shortening of the driven end at an event, in L, with its error; None where the force is controlled."""
         if self.way.by_force:
             return None
         force, own = event.force, Value(0.0, 0.0) if event.state is None else event.state.shortening
@@ -295,7 +295,7 @@ def load_path(
     def told(leg: str) -> Callable[[float], None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
-    up = _loaded(problem, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
+    up = loaded(problem, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
     walks = [up]
     if up.ended == END and unload_to is not None:
         how = How(way, rtol, seeds, mode, told(UNLOADING))
@@ -304,38 +304,3 @@ def load_path(
     events = tuple(event for walk in walks for event in walk.events)
     legs = tuple(walk.leg for walk in walks)
     return LoadPath(problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance)
-
-
-def _loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
-    """The leg of growing compression."""
-    model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
-    control, sense = how.control, -1.0 if how.control.by_force else 1.0
-    if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
-        begin = max(top, until) if control.by_force else control.of_straight(top)
-        return walked(None, model, begin, until, leg, how)
-
-    def before(state: PatternedState) -> bool:
-        return (until - control.value(state.solved)) * sense > 0.0
-
-    begun, start = None, None
-    if "ball" in problem.ends:
-        start = released(problem, mirror, how.rtol)
-    elif problem.pressed:
-        begun = on_wall(problem, 1, mirror, how.rtol, before)
-        start = None if begun is None else begun.start
-    if start is None or not before(start):
-        return walked(None, model, control.of_straight(top), until, leg, how)
-    critical = Value(how.mode.force, how.mode.error)
-    leg.straight.append((top, how.mode.force))
-    out = walked(start, model, control.value(start.solved), until, leg, how)
-    kinds = (CRITICAL, LIFT_OFF) if begun is None else (CRITICAL,)
-    out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
-    if begun is not None:
-        _add_wall(leg, model, begun)
-    return out
-
-
-def _add_wall(leg: Leg, model: RodInHole, begun: OnWall) -> None:
-    """States on the wall before the chains begin, as chains too: for curves and for states at loads."""
-    states = [carried(model, begun.branch[i]) for i in begun.states[:-1]]
-    leg.runs[0] = [state for state in states if state is not None] + leg.runs[0]

@@ -60,9 +60,9 @@ class Snap:
 
 
 def snapped(event: PatternedState, sense: float, seeds: int, control: Control, beyond: float = BEYOND) -> Snap | None:
-    """The state to which the rod goes from one that has just ceased to be stable; ``sense`` in which
-    the controlled quantity changes.
+    """The state to which the rod goes from one that has just ceased to be stable.
 
+    ``sense`` is that in which the controlled quantity changes.
     None if no start led to a state that could be solved.
     """
     value = control.value(event.solved)

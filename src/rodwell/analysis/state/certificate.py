@@ -52,7 +52,7 @@ class Certificate:
         (52)–(58), the end conditions (B1)–(B15), of a string "moment at steps" (continuity of b ω₂), "T₂ by two routes"
         (distributed torque (33), and moment balance of the whole, relative to the largest T₂), "h by two routes" ((56),
         and force balance along the rod) and "work and energy" (change of stored energy against work of the end loads
-        along the branch).
+        along the branch). In a curved hole the balances of :mod:`rodwell.analysis.state.curved_certificate`.
     limit
         Up to which the largest of them counts as zero.
     """

@@ -1,0 +1,85 @@
+"""What happens first within a step along a path of partial contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.control import Control
+from rodwell.analysis.off_wall.happening import END, TOGETHER, PathEvent, together, watch
+from rodwell.analysis.off_wall.turning import turning_points
+from rodwell.numerics.stretches.walk import Motion, locate, row_of, tangent
+
+MOST_EARLIER = 6
+"""How often within a step something is found that happens before what was found first."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Step:
+    """A step: the states at its ends with the directions of the path there, what is controlled, and where it ends."""
+
+    state: PatternedState
+    along: Motion
+    new: PatternedState
+    turned: Motion
+    control: Control
+    until: float
+    sense: float
+
+
+def first_event(step: Step) -> PathEvent | str | None:
+    """The first thing that happens within a step, located; in words why not, where the step is too long for that."""
+    event = None
+    for _ in range(MOST_EARLIER):
+        found = _located(step)
+        if found is None or isinstance(found, str):
+            return event if found is None else found
+        event = found
+        if not _earlier(event, step):
+            return event
+        step = replace(step, new=event.state, turned=tangent(event.state.solved, step.along))
+    return f"contact changes too often beyond F = {step.state.load:.8g} B/L²"
+
+
+def _located(step: Step) -> PathEvent | str | None:
+    """What is seen to happen within a step by what holds at its ends; the first of it along the tangent."""
+    state, new = step.state, step.new
+    broken = [one for one in conditions(new) if one.value < 0.0]
+    candidates = [(one.kind, watch(one, state)) for one in broken]
+    candidates += turning_points(step.control, (state, step.along), (new, step.turned), step.sense)
+    if (step.control.value(new.solved) - step.until) * step.sense >= 0.0:
+        candidates.append((END, lambda one: step.control.value(one) - step.until))
+    located = []
+    row = row_of(step.along, state.solved.shape.chain, state.load)
+    for kind, value in candidates:
+        at = locate(state.model, state.solved, new.solved, value)
+        if at is None:
+            return f"{kind} beyond F = {state.load:.8g} B/L² could not be located"
+        there = PatternedState(state.pattern, state.elements, at)
+        order = row.of(at.shape.nodes, at.shape.breaks, at.shape.load)
+        located.append((order, PathEvent(kind, there, (), value, [], step.along, (state, new))))
+    if not located:
+        return None
+    number = int(np.argmin([order for order, _ in located]))
+    event = located[number][1]
+    if number >= len(broken):
+        return event
+    at_once = together(event.state, broken, number)
+    return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
+
+
+def _earlier(event: PathEvent, step: Step) -> bool:
+    """Whether a condition is missed at an event already: the path bends within the step, and it vanished before."""
+    before, after = (
+        {(one.kind, one.number): abs(one.value) for one in sorted(conditions(state), key=lambda one: -one.value)}
+        for state in (step.state, step.new)
+    )
+    known = {(one.kind, one.number) for one in event.together}
+    for one in conditions(event.state):
+        key = one.kind, one.number
+        size = max(before.get(key, 0.0), after.get(key, 0.0))
+        if key not in known and one.value < -TOGETHER * size and before.get(key, 0.0) > 0.0:
+            return True
+    return False

@@ -1,0 +1,46 @@
+"""The leg on which the load grows: straight, buckled on the wall, off it."""
+
+from __future__ import annotations
+
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, Leg, PathPoint
+from rodwell.analysis.path.legs import How, Walked, walked
+from rodwell.analysis.path.start import OnWall, carried, on_wall, released
+from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Value
+
+
+def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
+    """The leg of growing compression."""
+    model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    control, sense = how.control, -1.0 if how.control.by_force else 1.0
+    if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
+        begin = max(top, until) if control.by_force else control.of_straight(top)
+        return walked(None, model, begin, until, leg, how)
+
+    def before(state: PatternedState) -> bool:
+        return (until - control.value(state.solved)) * sense > 0.0
+
+    begun, start = None, None
+    if "ball" in problem.ends:
+        start = released(problem, mirror, how.rtol)
+    elif problem.pressed:
+        begun = on_wall(problem, 1, mirror, how.rtol, before)
+        start = None if begun is None else begun.start
+    if start is None or not before(start):
+        return walked(None, model, control.of_straight(top), until, leg, how)
+    critical = Value(how.mode.force, how.mode.error)
+    leg.straight.append((top, how.mode.force))
+    out = walked(start, model, control.value(start.solved), until, leg, how)
+    kinds = (CRITICAL, LIFT_OFF) if begun is None else (CRITICAL,)
+    out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
+    if begun is not None:
+        _add_wall(leg, model, begun)
+    return out
+
+
+def _add_wall(leg: Leg, model: RodInHole, begun: OnWall) -> None:
+    """States on the wall before the chains begin, as chains too: for curves and for states at loads."""
+    states = [carried(model, begun.branch[i]) for i in begun.states[:-1]]
+    leg.runs[0] = [state for state in states if state is not None] + leg.runs[0]
