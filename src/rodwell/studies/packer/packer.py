@@ -130,6 +130,9 @@ def _answer(case: Case) -> PackerAnswer:
     """What :func:`packer` returns; errors in SI units."""
     given = _given(case)
     refuse_sections(case.problem.sections, "tubing in a packer is one pipe from end to end: give it as [rod]")
+    if case.problem.hole is not None:
+        what = "lies in a curved hole, and changes of length are those of a straight one: give its inclination alone"
+        raise InputError("hole", None, what)
     rod = case.rod
     assert rod is not None
     tubing = _tubing(case, given, rod)
