@@ -116,7 +116,7 @@ def test_other_parameters_and_what_is_refused(branch: Branch) -> None:
         with pytest.raises(InputError, match="in a curved hole"):
             follow(branch.problem, start=branch[-1], parameter=parameter, until=0.02)
     with pytest.raises(InputError, match="straight holes only"):
-        branch[-1].geometry()
+        branch[-1].wall  # noqa: B018
 
 
 def test_the_model_names_what_it_is_given() -> None:
@@ -203,3 +203,15 @@ def test_lift_off_with_own_places() -> None:
     again = follow(problem, 1, until=own.value)[-1].own_places
     assert abs(again.highest_pressure[0]) < 1e-6
     assert 0.0 < abs(own.value - lift.force) < 0.2 * abs(lift.force) * lift.solution.number("end_shortening").value
+
+
+def test_the_torque_works_on_the_turn_of_the_end() -> None:
+    """DE/dT₁ at constant end force is minus the turn of the end, less T₁/C, which the energy leaves out."""
+    states = []
+    for twist in (1.99, 2.0, 2.01):
+        problem = Problem(15.0, 80.0, build=0.3, twist=twist)
+        states.append(follow(problem, 1, until=critical_loads(Problem(15.0, 80.0, build=0.3), 1)[0].force - 15.0)[-1])
+    low, middle, high = (state.number("energy").value for state in states)
+    turn = states[1].end_rotation.value - 2.0 / states[1].problem.torsional_stiffness
+    assert (high - low) / 0.02 == pytest.approx(-turn, rel=1e-4)
+    assert middle < 0.0

@@ -82,9 +82,9 @@ def end_rotation(solution: Equilibrium) -> Value:
     """How far the end s = 1 is turned about its axis against the end s = 0, ξ₁ + ξ₂ there, in rad.
 
     Positive as T₁ turns it: it is what the dead torque T₁ works on. Of the straight rod it is T₁/C. At an end that can
-    turn across the axis it is the angle in the braid's terms.
+    turn across the axis it is the angle in the braid's terms. In a curved hole it is counted from frames that do not
+    rotate about the hole's axis from one end to the other.
     """
-    solution.problem.refuse_curved("the turn of the end is computed")
     coarse, fine = (_end_rotation(solution.problem, f, state) for f, state in solution.levels)
     return compared(coarse, fine)
 
