@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from rodwell import InputError, NotConvergedError, Problem, critical_loads
-from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.curved import along_rod, linear_space
 from rodwell.analysis.straight.critical import tensile_loads
 from rodwell.analysis.straight.lying import least_contact, lies_between, lying_contact
+from rodwell.analysis.straight.lying_loads import _Pencil
 
 D = 0.01
 
@@ -119,3 +120,16 @@ def test_what_has_no_critical_load_is_refused_or_explained() -> None:
     with pytest.raises(NotConvergedError, match="unstable on the wall at every end force"):
         critical_loads(Problem(3000.0, build=-0.5, on_top=True))
     assert len(tensile_loads(Problem(15.0))) == 0
+
+
+def test_a_load_in_tension_that_lies_behind_many_in_compression_is_found() -> None:
+    """Number 6 of the campaign of random holes; counts of unstable directions on another mesh confirm both loads."""
+    problem = Problem(
+        2.981725097342834, 38.023273027103876, 0.0025673391772026524, ends="pinned-pinned", build=0.10956359363642365
+    )
+    found = tensile_loads(problem, 3)
+    assert len(found) == 2
+    pencil = _Pencil(problem, linear_space(problem, (-2e3, 2e3)).refined())
+    for number, mode in enumerate(found):
+        counts = [pencil.unstable(mode.force * factor) for factor in (1.0 - 1e-9, 1.0 + 1e-9)]
+        assert counts == [number, number + 1]

@@ -249,8 +249,11 @@ def _solve(
         guess = -scale / np.abs(start[0] - rest), np.ascontiguousarray(start[1][:, pencil.held.free])
     try:
         values, vectors = eigen.lowest(stiff, gram, quadrature, count, below, guess, right=stiff)
-    except eigen.EigenError as error:
-        raise NotConvergedError(f"critical loads: {error}") from None
+    except eigen.EigenError:  # loads of the other sign are nearer to F* and drown those sought
+        try:
+            values, vectors = eigen.lowest(stiff, gram, quadrature, count, below, guess)
+        except eigen.EigenError as error:
+            raise NotConvergedError(f"critical loads: {error}") from None
     return rest - sign * scale / values, pencil.full(vectors)
 
 
