@@ -54,6 +54,20 @@ def test_the_whole_loop(loop: LoadPath) -> None:
     assert loop.events[2].s == pytest.approx((0.16506, 0.83494), abs=1e-5)
 
 
+def test_a_path_that_is_given_up_keeps_what_it_has() -> None:
+    told: list[float] = []
+
+    def enough(_leg: str, force: float) -> str | None:
+        told.append(force)
+        return "enough of it" if force < -123.5 else None
+
+    path = load_path(rodwell.Problem(weight=15), until=-160.0, unload_to=-90.0, seeds=1, progress=enough)
+    assert (path.reached, path.ended_because) == (False, "enough of it")
+    assert [event.kind for event in path.events] == ["critical", "lift_off"]
+    assert path.events[1].force.value == pytest.approx(EVENTS[1][1], abs=EVENTS[1][2])
+    assert sum(force < -123.5 for force in told) == 1
+
+
 STATES = (
     (-124.24036601, (0.15503, 0.17503, 0.44917), None, None, -0.00121700),
     (-125.41829806, (0.11571, 0.21304, 0.42800), (0.0467, 0.0487, 0.1017), (1.16808e-5, 8.077165e-5), -0.00145016),

@@ -88,6 +88,15 @@ def test_a_path_that_ends_early_says_so() -> None:
     )
 
 
+def test_a_path_that_takes_too_long_ends_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "PATIENCE", -1.0)
+    found = rodwell.answer(Case.from_dict(CASE)).beyond
+    assert found.path is not None
+    assert not found.path.reached
+    assert [step.event.kind for step in found.events] == [CRITICAL]
+    assert "it was not followed to the end: it takes longer than" in story(Case.from_dict(CASE), found)
+
+
 def test_at_lift_off_both_models_bear_the_same(answer: Answer) -> None:
     """Contact in all, shortening and stress of the state on the wall (another discretisation) and on the path."""
     step = next(one for one in answer.beyond.events if one.event.kind == LIFT_OFF)

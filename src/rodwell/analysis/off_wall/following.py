@@ -68,11 +68,12 @@ def followed(
     control: Control = FORCE,
     most_states: int = MOST_STATES,
     largest: float = LARGEST_STEP,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], str | None] | None = None,
 ) -> Followed:
     """Follow equilibria from a state until the controlled quantity has the value ``until``.
 
-    The path ends where it folds in that quantity, or loses stability while it is controlled.
+    The path ends where it folds in that quantity, or loses stability while it is controlled, or for what ``progress``,
+    which is told the end force of each state, returns as a reason.
     """
     if along is None:
         sense = until - control.value(start.solved)
@@ -93,7 +94,7 @@ class _Walker:
     control: Control
     size: float = FIRST_STEP
     largest: float = LARGEST_STEP
-    progress: Callable[[float], None] | None = None
+    progress: Callable[[float], str | None] | None = None
 
     def walk(self, most_states: int) -> Followed:
         """Go on until the end of the range, or until it cannot."""
@@ -266,8 +267,8 @@ class _Walker:
     def _accept(self, new: PatternedState, along: Motion) -> None:
         self.state, self.along = new, along
         self.result.states.append(new)
-        if self.progress is not None:
-            self.progress(new.load)
+        if self.progress is not None and (enough := self.progress(new.load)):
+            self.result.ended = enough
 
     def _shorten(self, why: str) -> None:
         self.size *= 0.4

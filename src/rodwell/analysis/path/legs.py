@@ -74,7 +74,7 @@ class How:
     rtol: float
     seeds: int
     mode: Mode
-    progress: Callable[[float], None] | None = None
+    progress: Callable[[float], str | None] | None = None
 
 
 def straight_state(model: RodInHole, load: float) -> PatternedState:

@@ -36,7 +36,7 @@ SEEDS = 3
 
 ASSUMPTIONS = "quasi-static, frictionless and without inertia; hard wall"
 
-Progress = Callable[[str, float], None]
+Progress = Callable[[str, float], str | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,7 +276,8 @@ def load_path(
     rtol
         Relative tolerance of every load reported.
     progress
-        Called with the leg and the end force of each new state.
+        Called with the leg and the end force of each new state. A text that it returns ends the path there, as the
+        reason, with all that was found.
 
     Raises
     ------
@@ -292,7 +293,7 @@ def load_path(
     seeds = checked_whole("seeds", seeds, 1, 100)
     mode = critical_loads(problem, 1, rtol=rtol)[0]
 
-    def told(leg: str) -> Callable[[float], None] | None:
+    def told(leg: str) -> Callable[[float], str | None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
     up = loaded(problem, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))

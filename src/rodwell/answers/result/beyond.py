@@ -25,7 +25,7 @@ SAME_LOAD = 1e-7
 """Part of a load by which the last state before a snap may differ from it."""
 
 PATIENCE = 45.0
-"""Processor time in s after which a path is given up."""
+"""Processor time in s after which a path ends where it is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +101,6 @@ class Beyond:
         return () if self.path is None else tuple(f"beyond lift-off: {what}" for what in self.path.missed)
 
 
-class _TooLongError(RodwellError):
-    """The path takes longer than a report waits for."""
-
-
 def beyond(computed: Computed) -> Beyond:
     """Follow a case beyond lift-off and back.
 
@@ -116,9 +112,13 @@ def beyond(computed: Computed) -> Beyond:
         return Beyond(None, "no lift-off was found on the first branch, so there is nothing beyond it")
     begun = time.process_time()
 
-    def progress(_leg: str, _force: float) -> None:
-        if time.process_time() - begun > PATIENCE:
-            raise _TooLongError(f"it takes longer than {PATIENCE:g} s: follow it by `rodwell path`")
+    def progress(_leg: str, _force: float) -> str | None:
+        late = time.process_time() - begun > PATIENCE
+        return (
+            f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
+            if late
+            else None
+        )
 
     case, section = computed.case, rod_section(computed.case)
     until, back = _range(computed)
