@@ -113,12 +113,9 @@ def beyond(computed: Computed) -> Beyond:
     begun = time.process_time()
 
     def progress(_leg: str, _force: float) -> str | None:
-        late = time.process_time() - begun > PATIENCE
-        return (
-            f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
-            if late
-            else None
-        )
+        if time.process_time() - begun <= PATIENCE:
+            return None
+        return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
 
     case, section = computed.case, rod_section(computed.case)
     until, back = _range(computed)
