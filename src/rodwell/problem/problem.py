@@ -153,6 +153,8 @@ class Problem:
         self._check_ends()
         if self.build != 0.0 or self.walk != 0.0 or len(self.axis) > 0:
             self._check_hole()
+        elif not isinstance(self.axis, tuple):
+            object.__setattr__(self, "axis", ())
         if self.alpha < STEEP and any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
             degrees = math.degrees(self.alpha)
             warnings.warn(

@@ -149,7 +149,7 @@ def unknown(location: tuple[int | str, ...]) -> str:
 
 def _unknown_section(key: str) -> str:
     known = list(schema.CaseFile.model_fields)
-    if plain(key) in SECTIONS_ELSEWHERE and not any(key in model.model_fields for model in SECTIONS.values()):
+    if plain(key) in SECTIONS_ELSEWHERE:
         return SECTIONS_ELSEWHERE[plain(key)]
     for section, model in SECTIONS.items():
         if key in model.model_fields:
