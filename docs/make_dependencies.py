@@ -106,8 +106,8 @@ def _requirements(name: str) -> Iterator[Requirement]:
             yield requirement
 
 
-def pages(out: Path) -> None:
-    """Write both tables."""
+def pages(_: Path) -> dict[str, str]:
+    """Both tables."""
     lines = ["| Needed by | Package, at least | What for | Tried with | Licence |", "| --- | --- | --- | --- | --- |"]
     for group, packages in needed().items():
         for package in packages:
@@ -121,4 +121,4 @@ def pages(out: Path) -> None:
         "| --- | --- | --- | --- |",
     ]
     lines += [f"| {one.name} | {one.needed} | {one.version} | {one.licence} |" for one in behind()]
-    (out / "dependencies.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return {"dependencies.md": "\n".join(lines) + "\n"}
