@@ -15,7 +15,7 @@ import rodwell
 from rodwell.analysis.state.extent import buckled_to
 from rodwell.plots.style import GREY, MODES, RC, new_axes
 
-COMMANDS = {"long-string": "run examples/long-string.toml --out results/long-string"}
+COMMANDS = {"long-string": "run examples/long-string.toml --no-path --out results/long-string"}
 
 LENGTHS = (30.0, 50.0, 80.0, 120.0, 200.0, 300.0, 600.0, 1000.0, 3000.0)
 DRAWN = tuple(float(x) for x in np.geomspace(25.0, 1000.0, 45))

@@ -43,7 +43,7 @@ RESULTS = OUT / "results" / "drill-string"
 
 COMMANDS = {
     "run": "run examples/drill-string.toml",
-    "run-field": "run examples/field-drill-pipe.toml",
+    "run-field": "run examples/field-drill-pipe.toml --no-path",
     "run-wire": "run examples/guidewire.toml",
     "audit-field": "audit examples/field-drill-pipe.toml --no-chart --out results/audit-field",
     "keys": "keys hole",
