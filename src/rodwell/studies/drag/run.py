@@ -234,10 +234,16 @@ def errors_along(fine: Run, coarse: Run) -> FloatArray:
 
     Compared is where both have rows, at the ends of pieces.
     """
-    common = {round(float(up), 6): float(force) for up, force in coarse.rows[:, :2]}
-    differences = [abs(f - common.get(round(float(up), 6), f)) for up, f in fine.rows[:, :2]]
+    places, there = np.round(fine.rows[:, 0], 6), np.round(coarse.rows[:, 0], 6)
+    order = np.argsort(there, kind="stable")
+    last = np.searchsorted(there[order], places, side="right") - 1  # of those at the same place
+    common = np.flatnonzero(last >= 0)
+    row = order[last[common]]
+    same = there[row] == places[common]
+    differences = np.zeros(len(places))
+    differences[common[same]] = np.abs(fine.rows[common[same], 1] - coarse.rows[row[same], 1])
     floor = ROUND_OFF * total_size(fine) if fine.arrived else 0.0
-    return np.asarray(np.maximum.accumulate(np.array(differences)) + floor)
+    return np.asarray(np.maximum.accumulate(differences) + floor)
 
 
 def contact_sum(one: Run) -> float:
