@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
 from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
 from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
-from rodwell.analysis.straight.scale import load_noise, load_scale
+from rodwell.analysis.straight.refining import refined_loads
 from rodwell.analysis.straight.without_wall import LoadsWithoutWall, WallTouch, loads_without_wall
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn
 from rodwell.numerics.equilibria import eigen
-from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.linear import second_variation
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -178,27 +177,16 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
     if problem.hole is not None:
         return CriticalLoads(_lying(problem, count, rtol))
-    space = _starting_space(problem, count)
-    values, vectors = _solve(problem, space, count, None)
-    while True:
-        finer = space.refined()
-        up = Prolongation(space, finer)
-        start = np.array([up(v) for v in vectors])
-        better, shapes = _solve(problem, finer, count, (values, start))
-        size = np.abs(better[:count]) + load_scale(problem)
-        error = np.abs(better[:count] - values[:count]) + load_noise(problem) * size
-        if np.all(error <= rtol * size):
-            break
-        if 2 * finer.elements > MOST_ELEMENTS:
-            raise NotConvergedError(
-                f"critical loads are known to {np.max(error / size):.1e} only, rtol is {rtol:g}: "
-                "ask for fewer modes or a larger rtol"
-            )
-        space, values, vectors = finer, better, shapes
-    few = close_to_last(better, count)
-    better, shapes = told_apart(finer, _factors(problem, finer), better[:few], shapes, symmetric=problem.symmetric)
-    _, vectors = told_apart(space, _factors(problem, space), values[:few], vectors, symmetric=problem.symmetric)
-    error = np.append(error, np.full(few - count, error[-1]))
+    found = refined_loads(
+        problem, _starting_space(problem, count), count, rtol, lambda space, start: _solve(problem, space, count, start)
+    )
+    finer, space, factors = found.space, found.coarse_space, _factors(problem, found.space)
+    few = close_to_last(found.loads, count)
+    better, shapes = told_apart(finer, factors, found.loads[:few], found.vectors, symmetric=problem.symmetric)
+    _, vectors = told_apart(
+        space, _factors(problem, space), found.coarse_loads[:few], found.coarse_vectors, symmetric=problem.symmetric
+    )
+    error = np.append(found.errors, np.full(few - count, found.errors[-1]))
     return CriticalLoads(
         _mode(problem, finer, equal_to(better, error, i), i + 1, Value(-float(better[i]), float(error[i])), shapes[i],
               (space, vectors[i]))

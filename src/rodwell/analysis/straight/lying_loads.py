@@ -11,15 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.discrete.choices import MOST_ELEMENTS
 from rodwell.analysis.discrete.curved import along_rod, linear_space
 from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.straight.lying import refuse_spatial
-from rodwell.analysis.straight.scale import load_noise, load_scale
+from rodwell.analysis.straight.refining import refined_loads
+from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria import eigen
 from rodwell.numerics.splines.banded import factorise
-from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.parameters import COUNT
 from rodwell.problem.problem import Problem
@@ -188,24 +188,13 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
         count = min(count, _in_tension(problem, space))
         if count == 0:
             return None
-    forces, vectors = _solve(problem, space, count, rest, scale, tension, None)
-    while True:
-        finer = space.refined()
-        up = Prolongation(space, finer)
-        better, shapes = _solve(
-            problem, finer, count, rest, scale, tension, (forces, np.array([up(v) for v in vectors]))
-        )
-        size = np.abs(better[:count]) + scale
-        error = np.abs(better[:count] - forces[:count]) + load_noise(problem) * size
-        if np.all(error <= rtol * size):
-            break
-        if 2 * finer.elements > MOST_ELEMENTS:
-            raise NotConvergedError(
-                f"critical loads are known to {np.max(error / size):.1e} only, rtol is {rtol:g}: "
-                "ask for fewer modes or a larger rtol"
-            )
-        space, forces, vectors = finer, better, shapes
-    return Found(better[:count], error, finer, shapes[:count], space, vectors[:count])
+    found = refined_loads(
+        problem, space, count, rtol, lambda mesh, start: _solve(problem, mesh, count, rest, scale, tension, start)
+    )
+    return Found(
+        found.loads[:count], found.errors, found.space, found.vectors[:count], found.coarse_space,
+        found.coarse_vectors[:count],
+    )  # fmt: skip
 
 
 def _expected(problem: Problem, number: int) -> float:
