@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rodwell.case.case import Case, CaseError
-from rodwell.case.file import CaseText, printable_data, read_case
+from rodwell.case.case import Case
+from rodwell.case.file import CaseText, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
+from rodwell.studies.given import Given, grid_of, in_words, read_given, what_varies
 from rodwell.studies.sweep.points import StudyPoint, computed, computed_point, followed_to_loads
 from rodwell.studies.sweep.varied import LISTS, check_declared, may_vary, varied_inputs
 from rodwell.studies.varied import Varied
@@ -70,7 +70,7 @@ class Study:
 
     def inputs(self, point: StudyPoint) -> str:
         """The varied inputs of a point in words."""
-        return ", ".join(f"{v.called} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+        return in_words(self.varied, point.at)
 
     @property
     def load_varies(self) -> bool:
@@ -97,9 +97,7 @@ class Study:
         return plain(self)
 
 
-def study(
-    case: str | Path | CaseText | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None
-) -> Study:
+def study(case: Given, progress: Progress | None = None, *, units: str | None = None) -> Study:
     """Compute a parameter study: a case in which one or two inputs are lists or ranges.
 
     Parameters
@@ -121,20 +119,12 @@ def study(
         If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
         are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
     """
-    read = _read(case)
+    read = read_given(case, "case", "a case file")
     data, source = read.data, read.source
-    try:
-        if not isinstance(case, Mapping):
-            check_declared(data)
-        varied = varied_inputs(data)
-    except InputError as error:
-        raise CaseError(source, [(error.field, error.value, error.reason)]) from None
-    if not varied:
-        raise CaseError(
-            source, [("study", None, 'has no input that varies: give one a list, or a range "30..90 deg in 13"')]
-        )
+    declared = None if isinstance(case, Mapping) else check_declared
+    varied = what_varies(read, declared, varied_inputs, ' "30..90 deg in 13"')
     tell = progress or (lambda _what, _done: None)
-    grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
+    grid = grid_of(varied)
     cases = [_case(data, varied, at, source, read.folder, units) for at in grid]
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
@@ -177,16 +167,6 @@ def is_study(case: str | Path | CaseText) -> bool:
     sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
     values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
     return data.get("study") is True or any(isinstance(v, str) and may_vary(name, v) for name, v in values)
-
-
-def _read(case: str | Path | CaseText | Mapping[str, Any]) -> CaseText:
-    if isinstance(case, CaseText):
-        return case
-    if isinstance(case, Mapping):
-        return CaseText(printable_data(case), "", "study", "study", Path.cwd())
-    if not isinstance(case, str | Path):
-        raise InputError("case", case, "must be the path of a case file, or its content as a dictionary")
-    return read_case(case)
 
 
 def _case(

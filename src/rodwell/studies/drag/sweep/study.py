@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import copy
-import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
-from rodwell.case.case import CaseError
-from rodwell.case.file import CaseText, printable_data, read_case
+from rodwell.case.file import CaseText
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.faces import plain
 from rodwell.studies.drag.drag import drag
@@ -18,6 +15,7 @@ from rodwell.studies.drag.sweep.points import OperationAt, WellPoint, operation_
 from rodwell.studies.drag.sweep.varied import check_declared, is_study, varied_inputs
 from rodwell.studies.drag.well_case import Well
 from rodwell.studies.drag.words import unbalanced
+from rodwell.studies.given import Given, grid_of, in_words, read_given, what_varies
 from rodwell.studies.varied import Varied
 
 Progress = Callable[[str, float], None]
@@ -51,7 +49,7 @@ class DragStudy:
 
     def inputs(self, point: WellPoint) -> str:
         """The varied inputs of a point in words."""
-        return ", ".join(f"{v.called} {v.text(i)}" for v, i in zip(self.varied, point.at, strict=True))
+        return in_words(self.varied, point.at)
 
     @property
     def pushed(self) -> bool:
@@ -75,9 +73,7 @@ def is_well_study(well: CaseText) -> bool:
         return False
 
 
-def drag_study(
-    well: str | Path | CaseText | Mapping[str, Any], progress: Progress | None = None, *, units: str | None = None
-) -> DragStudy:
+def drag_study(well: Given, progress: Progress | None = None, *, units: str | None = None) -> DragStudy:
     """Compute every operation of a well for every value, or pair of values, of what varies in its file.
 
     Parameters
@@ -99,18 +95,11 @@ def drag_study(
         If nothing varies, more than two inputs do, there are too many points, a range cannot be read, or the inputs
         are wrong at every point. Where they are wrong at some, those points say so and the others are computed.
     """
-    read = _read(well)
-    try:
-        if not isinstance(well, Mapping):
-            check_declared(read.data)
-        varied = varied_inputs(read.data)
-    except InputError as error:
-        raise CaseError(read.source, [(error.field, error.value, error.reason)]) from None
-    if not varied:
-        what = 'has no input that varies: give one a list, or a range, friction = "0.1..0.4 in 7"'
-        raise CaseError(read.source, [("study", None, what)])
+    read = read_given(well, "well", "the file of a well")
+    declared = None if isinstance(well, Mapping) else check_declared
+    varied = what_varies(read, declared, varied_inputs, ', friction = "0.1..0.4 in 7"')
     tell = progress or (lambda _what, _done: None)
-    grid = list(itertools.product(*(range(len(v.values)) for v in varied)))
+    grid = grid_of(varied)
     first: Well | None = None
     points: list[WellPoint] = []
     errors: list[InputError] = []
@@ -128,16 +117,6 @@ def drag_study(
     tell("done", 1.0)
     given = {k: v for k, v in read.data.items() if k not in ("title", "study", "units")}
     return DragStudy(first, given, varied, tuple(points))
-
-
-def _read(well: str | Path | CaseText | Mapping[str, Any]) -> CaseText:
-    if isinstance(well, CaseText):
-        return well
-    if isinstance(well, Mapping):
-        return CaseText(printable_data(well), "", "study", "study", Path.cwd())
-    if not isinstance(well, str | Path):
-        raise InputError("well", well, "must be the path of the file of a well, or its content as a dictionary")
-    return read_case(well)
 
 
 def _well(read: CaseText, varied: tuple[Varied, ...], at: tuple[int, ...], first: Well | None) -> Well:
