@@ -20,7 +20,6 @@ import datetime
 import json
 import math
 import os
-import platform
 from collections import Counter
 from itertools import pairwise
 from pathlib import Path
@@ -30,7 +29,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 import numpy as np
-from resumable import finished
+from resumable import finished, machine
 
 import rodwell
 
@@ -111,7 +110,7 @@ def main() -> None:
     followed = [result for result in results if "kinds" in result]
     summary = {
         "campaign": "branches", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),
-        "machine": f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "machine": machine(),
         "followed": len(followed), "converged": sum(result["converged"] for result in followed),
         "points": sum(result["points"] for result in followed),
         "ended": dict(Counter(result["ended"] for result in results if "ended" in result).most_common(12)),

@@ -15,15 +15,13 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
-import os
-import platform
 import random
 import time
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from resumable import finished
+from resumable import finished, machine
 
 from rodwell import Branch, Problem, critical_loads, equilibrium, follow, tensile_loads
 from rodwell.errors import InputError, NotConvergedError
@@ -107,7 +105,7 @@ def main() -> None:
     known = [result for result in results if "certificate" in result]
     summary = {
         "campaign": "holes", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),
-        "machine": f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "machine": machine(),
         "largest_relative_error_of_loads": max(result.get("largest_error", 0.0) for result in results),
         "followed": len(known),
         "converged": sum(result["converged"] for result in known),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import platform
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -10,6 +12,11 @@ from typing import Any
 
 Result = dict[str, Any]
 Trial = Callable[[int], Result]
+
+
+def machine() -> str:
+    """Where a campaign ran, as its summary says it."""
+    return f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
 
 
 def finished(trial: Trial, count: int, lines: Path, workers: int, chunk: int) -> list[Result]:

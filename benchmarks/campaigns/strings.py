@@ -17,8 +17,6 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
-import os
-import platform
 import random
 import time
 from collections import Counter
@@ -26,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from flint import arb, arb_mat, ctx
-from resumable import finished
+from resumable import finished, machine
 
 from rodwell import Problem, critical_loads, follow
 from rodwell.errors import NotConvergedError
@@ -114,7 +112,7 @@ def main() -> None:
     faults = [result for result in results if result["fault"]]
     summary = {
         "campaign": "strings", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),
-        "machine": f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "machine": machine(),
         "critical_loads": sum("largest_error" in result for result in results),
         "largest_relative_error": max(result.get("largest_error", 0.0) for result in results),
         "double": sum("double" in result for result in results),
