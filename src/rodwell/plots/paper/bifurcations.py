@@ -19,9 +19,9 @@ from rodwell.plots.paper.frame import (
     insets,
     letter,
     new_figure,
-    smooth,
     style,
 )
+from rodwell.plots.smooth import smooth
 from rodwell.plots.style import INK
 from rodwell.studies.paper.diagrams import Panel
 

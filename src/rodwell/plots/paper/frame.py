@@ -83,19 +83,6 @@ def circumferential(state: Solution, s: FloatArray) -> FloatArray:
     return np.asarray(space.evaluate(state.point.fine.c, s, 1)[0])
 
 
-def smooth(x: FloatArray, y: FloatArray, count: int = 12) -> tuple[FloatArray, FloatArray]:
-    """A smooth line through the points of a branch: a cubic spline over the length of the chord, axes to scale."""
-    from scipy.interpolate import CubicSpline  # noqa: PLC0415 - slow to import
-
-    scaled = np.array([x / max(float(np.ptp(x)), 1e-300), y / max(float(np.ptp(y)), 1e-300)])
-    chord = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scaled, axis=1)))])
-    keep = np.concatenate([[True], np.diff(chord) > 1e-9])
-    if keep.sum() < 4:
-        return x, y
-    fine = np.linspace(0.0, chord[-1], count * len(x))
-    return CubicSpline(chord[keep], x[keep])(fine), CubicSpline(chord[keep], y[keep])(fine)
-
-
 def context() -> Any:
     """The settings of these figures, for a ``with`` block."""
     return mpl.rc_context(PAPER_RC)
