@@ -152,7 +152,7 @@ fill(
     html=_late("rodwell.report.pages.notebook", "html"),
     plot=_late("rodwell.plots.methods", "plot"),
     plot_in_space=_late("rodwell.plots.methods", "plot_in_space"),
-    dataset=_late("rodwell.store.dataset", "dataset"),
+    dataset=_late("rodwell.store.datasets", "dataset"),
     plain=_late("rodwell.store.plain", "plain"),
 )
 

@@ -41,7 +41,7 @@ def take_keep(given: dict[str, Any]) -> Keep:
     """Take these options out of what was given; what cannot be written is said before anything is computed."""
     figure, out = given.pop("figure", None), given.pop("out")
     if figure is not None:
-        from rodwell.report.folders.pictures import check_format  # noqa: PLC0415
+        from rodwell.report.folders.figures import check_format  # noqa: PLC0415
 
         check_format(figure, "--figure")
     if figure is not None or out is not None:

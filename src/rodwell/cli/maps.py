@@ -77,7 +77,7 @@ def diagram(
     check_writable(out)
     from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
-    from rodwell.report.folders.case import write_diagram  # noqa: PLC0415
+    from rodwell.report.folders.branches import write_diagram  # noqa: PLC0415
 
     with progress_bar(not as_json, "critical loads") as tell:
         result = compute(
@@ -188,7 +188,7 @@ def curve(
     given[over] = start  # whatever was given: the range counts
     problem = make_problem(_with_required(given, over))
     check_writable(out)
-    from rodwell.report.folders.case import write_curves  # noqa: PLC0415
+    from rodwell.report.folders.branches import write_curves  # noqa: PLC0415
 
     with progress_bar(not as_json, f"{kind} curve") as tell:
         report = lambda done: tell(f"{kind} curve over {over}", done)  # noqa: E731

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,8 +18,6 @@ from rodwell.physics.on_wall.frames import AXES, FRAMES, frames
 from rodwell.problem.problem import Problem
 from rodwell.quantities.names import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
 from rodwell.quantities.table import Variable
-from rodwell.store.map_arrays import map_dataset
-from rodwell.studies.maps.result import Map
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,12 +29,6 @@ CONVENTIONS = (
     "Stability index: negative eigenvalues of the second variation under dead loads "
     "F and T1, for a rod kept on the wall."
 )
-
-
-@singledispatch
-def dataset(result: object, *_arguments: Any, **_options: Any) -> xr.Dataset:
-    """Return a result as an xarray Dataset: for the methods of results."""
-    raise TypeError(f"{type(result).__name__} has no dataset")
 
 
 def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
@@ -110,7 +101,6 @@ def branch_attributes(branch: Branch) -> dict[str, Any]:
     }
 
 
-@dataset.register(Branch)
 def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     """Return :func:`branch_variables` as an xarray Dataset, fields at ``places`` places along the rod."""
     import xarray as xr  # noqa: PLC0415 - slow to import
@@ -120,12 +110,6 @@ def branch_dataset(branch: Branch, places: int = GRID) -> xr.Dataset:
     return xr.Dataset(data, coords=coords, attrs=branch_attributes(branch))
 
 
-@dataset.register(Map)
-def _(result: Map) -> xr.Dataset:
-    return map_dataset(result)
-
-
-@dataset.register(Solution)
 def solution_dataset(
     solution: Solution, places: int = GRID, length: float | None = None, stiffness: float | None = None
 ) -> xr.Dataset:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5netcdf
 import numpy as np
@@ -14,11 +14,13 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.straight.critical import CriticalLoads
-from rodwell.answers.result.answer import Answer
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
+
+if TYPE_CHECKING:
+    from rodwell.answers.result.answer import Answer  # what it is made of is slow to import
 
 
 def joined_variables(branches: Sequence[Branch]) -> dict[str, Variable]:

@@ -117,7 +117,7 @@ def limits(case: Case, branch: Branch, buckling: Value) -> tuple[Limit, ...]:
     The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached. ``buckling`` is
     the load at which the straight rod buckles; where nothing presses it to the wall, it leaves the wall there.
     """
-    end = end_of_the_way(branch)
+    end = branch.end_of_the_way
     out = [limit for use in uses(case) if (limit := _limit(use, branch, end, buckling.value)) is not None]
     if end is not None:
         buckled = end.kind != CRITICAL
@@ -125,13 +125,6 @@ def limits(case: Case, branch: Branch, buckling: Value) -> tuple[Limit, ...]:
         load = buckling if branch.lift_off_at_buckling else end.load
         out.append(Limit(kind, load, end.s[0] if end.s else None, buckled))
     return tuple(sorted(out, key=lambda limit: -np.inf if limit.force is None else -limit.force))
-
-
-def end_of_the_way(branch: Branch) -> SpecialPoint | None:
-    """Lift-off, or where the shape loses its stability before; None where the branch ends on the wall and stable."""
-    if branch.lift_off_at_buckling:
-        return branch.lift_off
-    return next((p for p in branch.special_points if p.kind == LIFT_OFF or p.index_after > 0), None)
 
 
 def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) -> Limit | None:

@@ -149,6 +149,13 @@ class Branch(BranchRecord, Shown):
         """Whether lift-off coincides with buckling: no lateral weight (weightless rod or vertical cylinder)."""
         return self.problem.untouched and self.mode is not None
 
+    @property
+    def end_of_the_way(self) -> SpecialPoint | None:
+        """Lift-off, or where the shape loses its stability before; None where it ends on the wall and stable."""
+        if self.lift_off_at_buckling:
+            return self.lift_off
+        return next((p for p in self.special_points if p.kind == LIFT_OFF or p.index_after > 0), None)
+
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All points as an xarray Dataset: see :func:`rodwell.store.dataset.branch_dataset`."""

@@ -16,7 +16,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rodwell.analysis.discrete.family import family, reflections
 from rodwell.analysis.straight.critical import Mode
@@ -35,6 +34,8 @@ PURE = 1e-2
 
 def mixed_modes(problem: Problem, first: Mode, second: Mode) -> tuple[Mode, ...]:
     """Directions in which branches leave a double critical load along both modes, images by reflections left out."""
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
+
     equation = _equation(problem, first, second)
     angles = np.pi * (np.arange(DIRECTIONS + 1) + 0.5) / DIRECTIONS
     values = [equation(angle) for angle in angles]

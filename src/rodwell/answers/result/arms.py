@@ -9,7 +9,6 @@ from rodwell.analysis.branch.tracing import Progress
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
-from rodwell.strength.limits import end_of_the_way
 
 
 def to_lift_off(
@@ -58,5 +57,5 @@ def with_other_arm(branch: Branch, rtol: float) -> tuple[Branch, Branch | None]:
 
 def _ends(branch: Branch) -> float:
     """End force at which a rod on this arm leaves the wall or loses its stability, or −∞."""
-    end = end_of_the_way(branch)
+    end = branch.end_of_the_way
     return float("-inf") if end is None else end.force

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from rodwell.answers.result.computed import Computed
+from typing import TYPE_CHECKING
+
 from rodwell.answers.words.wording import forces_of
 from rodwell.quantities.value import Value
+
+if TYPE_CHECKING:
+    from rodwell.answers.result.computed import Computed  # slow to import, and a command needs one sentence only
 
 KEPT = (
     "Buckled branches are those of a rod kept on the wall. Nothing keeps this one there: twist makes it leave the wall "

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.state.wall import StepLoad
 from rodwell.answers.words.wording import place_text, size_text
-from rodwell.case.case import Case
 from rodwell.problem.problem import Problem
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
+
+if TYPE_CHECKING:
+    from rodwell.case.case import Case
 
 MOST = 6
 """Steps that are named."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rodwell.case.case import Case
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import amount
@@ -13,6 +12,7 @@ from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.case.case import Case
 
 
 def quantity(system: System, number: Value, dimension: str, digits: int = 4) -> str:

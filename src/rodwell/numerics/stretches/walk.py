@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rodwell.numerics.stretches.chain import Chain, Shape
 from rodwell.numerics.stretches.newton import Outcome, Row, Solved, solve
@@ -105,6 +104,8 @@ def locate(
 
     None if Newton's method fails on the way, or if the function does not change its sign between the two.
     """
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
+
     chord = between(first.shape, second.shape)
     base = row_of(chord, first.shape.chain, first.shape.load)
     low, high = (base.of(one.shape.nodes, one.shape.breaks, one.shape.load) for one in (first, second))

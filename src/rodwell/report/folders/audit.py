@@ -7,7 +7,8 @@ from pathlib import Path
 
 from rodwell.case.about import NOBODY, About
 from rodwell.plots.audit import plot_error_map
-from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import kept
 from rodwell.report.pages.pdf import write_report
 from rodwell.report.reports.audit import audit_report
 from rodwell.store.folder import whole_folder

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib as mpl
 
-from rodwell.analysis.branch.diagram import Diagram
-from rodwell.analysis.curves.curve import Curve
 from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.beyond import beyond_table
 from rodwell.answers.data.plain import answer_dict
@@ -17,15 +14,15 @@ from rodwell.answers.result.answer import Answer
 from rodwell.plots.paths.beyond import plot_beyond
 from rodwell.plots.style import RC
 from rodwell.report.folders.beside import done_beside
-from rodwell.report.folders.pictures import draw, draw_curves, draw_diagram, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import draw
 from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
 from rodwell.report.reports.beyond import PICTURE
 from rodwell.report.reports.case import case_report
 from rodwell.store.folder import whole_folder
-from rodwell.store.netcdf import write_answer, write_branches
-from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.netcdf import write_answer
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
@@ -71,24 +68,3 @@ def _write_path(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
         save_figure(plot_beyond(answer.case, answer.beyond), folder / PICTURE)
     write_csv(beyond_table(answer.case, answer.beyond), folder / "load-path.csv")
     return {PICTURE: ("svg", (folder / f"{PICTURE}.svg").read_bytes())}
-
-
-def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
-    """Write figure, branches (NetCDF) and special points (JSON) of a diagram to ``out``: all files, or none.
-
-    Returns the names of the files.
-    """
-    with whole_folder(out) as folder:
-        draw_diagram(diagram, folder)
-        write_branches(diagram, folder / "branches.nc")
-        write_json(diagram.as_dict(), folder / "diagram.json")
-        return tuple(sorted(file.name for file in folder.iterdir()))
-
-
-def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:
-    """Write figure, points (NetCDF and JSON) of curves to ``out``: all files, or none. Returns their names."""
-    with whole_folder(out) as folder:
-        draw_curves(curves, folder)
-        write_curves_netcdf(curves, folder / "curves.nc")
-        write_json({"curves": [curve.as_dict() for curve in curves]}, folder / "curves.json")
-        return tuple(sorted(file.name for file in folder.iterdir()))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.wells.drag import plot_calibration, plot_forces, plot_operation, plot_road_map
-from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import kept
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.drag import drag_report, picture_of
 from rodwell.store.folder import whole_folder

@@ -142,7 +142,7 @@ def _write_page(path: Path, solution: Solution, rod: Geometry, scales: Scales | 
 
 def _write_picture(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
     from rodwell.plots.rod3d import plot_rod  # noqa: PLC0415 - slow to import
-    from rodwell.report.folders.pictures import DPI, PNG  # noqa: PLC0415
+    from rodwell.report.folders.figures import DPI, PNG  # noqa: PLC0415
 
     ax = plot_rod(solution, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
     if path.suffix.lower() == ".png":

@@ -10,7 +10,7 @@ import matplotlib as mpl
 
 from rodwell.plots.style import RC, new_axes
 from rodwell.quantities.table import Table
-from rodwell.report.folders.pictures import save_figure, write_drawing
+from rodwell.report.folders.figures import save_figure, write_drawing
 from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv
 from rodwell.store.text import write_json

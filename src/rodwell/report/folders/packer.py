@@ -8,7 +8,8 @@ import matplotlib as mpl
 
 from rodwell.plots.style import RC
 from rodwell.plots.wells.packer import plot_packer
-from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import kept
 from rodwell.report.pages.pdf import check_pdf, write_report
 from rodwell.report.reports.packer import packer_report
 from rodwell.store.folder import whole_folder

@@ -11,7 +11,7 @@ import matplotlib as mpl
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
-from rodwell.report.folders.pictures import save_figure
+from rodwell.report.folders.figures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 

@@ -9,7 +9,8 @@ from typing import Any
 
 from rodwell.case.about import About
 from rodwell.quantities.table import Table
-from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import kept
 from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.reports.content import Report
 from rodwell.store.folder import whole_folder

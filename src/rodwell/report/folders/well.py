@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from rodwell.plots.wells.survey import plot_screening
-from rodwell.report.folders.pictures import kept, save_figure
+from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.pictures import kept
 from rodwell.report.pages.pdf import write_report
 from rodwell.report.reports.well import screening_report
 from rodwell.store.folder import whole_folder

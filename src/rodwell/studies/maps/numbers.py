@@ -13,7 +13,6 @@ from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIG
 from rodwell.answers.result.reach import no_lift_off, out_of_reach
 from rodwell.errors import NotConvergedError
 from rodwell.quantities.value import Peak, Value
-from rodwell.strength.limits import end_of_the_way
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.section import rod_section
 from rodwell.studies.maps.cells import (
@@ -73,7 +72,7 @@ def _lift_off(rod: MappedRod) -> Found:
 
 
 def _limit(rod: MappedRod) -> Found:
-    end = end_of_the_way(rod.branch)
+    end = rod.branch.end_of_the_way
     if end is None:
         raise NoSuchNumber(NOT_REACHED, no_lift_off(rod.case.scales, rod.branch), rod.wavenumber)
     return _lift_off(rod) if rod.branch.lift_off_at_buckling else _point(rod, end)

@@ -1,0 +1,53 @@
+"""The folders of a bifurcation diagram and of curves in two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib as mpl
+
+from rodwell.analysis.branch.diagram import Diagram
+from rodwell.analysis.curves.curve import Curve
+from rodwell.plots.bifurcation import plot_bifurcation
+from rodwell.plots.curves import plot_curves
+from rodwell.plots.style import RC
+from rodwell.report.folders.figures import save_figure
+from rodwell.store.folder import whole_folder
+from rodwell.store.netcdf import write_branches
+from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.text import write_json
+
+
+def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
+    """Write figure, branches (NetCDF) and special points (JSON) of a diagram to ``out``: all files, or none.
+
+    Returns the names of the files.
+    """
+    with whole_folder(out) as folder:
+        _draw_diagram(diagram, folder)
+        write_branches(diagram, folder / "branches.nc")
+        write_json(diagram.as_dict(), folder / "diagram.json")
+        return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:
+    """Write figure, points (NetCDF and JSON) of curves to ``out``: all files, or none. Returns their names."""
+    with whole_folder(out) as folder:
+        _draw_curves(curves, folder)
+        write_curves_netcdf(curves, folder / "curves.nc")
+        write_json({"curves": [curve.as_dict() for curve in curves]}, folder / "curves.json")
+        return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def _draw_diagram(diagram: Diagram, folder: Path) -> None:
+    """Draw a bifurcation diagram as PNG and SVG: end curvature, or energy for a coil, against compression."""
+    with mpl.rc_context(RC):
+        shown = [branch for branch in diagram.branches if branch.parameter == "force"]
+        save_figure(plot_bifurcation(shown, diagram.critical).figure, folder / "diagram")
+
+
+def _draw_curves(curves: Sequence[Curve], folder: Path) -> None:
+    """Draw curves as PNG and SVG."""
+    with mpl.rc_context(RC):
+        save_figure(plot_curves(curves).figure, folder / "curves")
