@@ -55,6 +55,7 @@ myst_substitutions = make_pages.build()
 _live = HERE / "_generated" / "live"
 _live.mkdir(exist_ok=True)
 shutil.copy(make_pages.RESULTS / "rod-3d.html", _live / "drill-string-3d.html")
+shutil.copy(make_pages.RESULTS.parent / "path" / "load-path-3d.html", _live / "load-path-3d.html")
 html_static_path.append(str(_live))
 
 autodoc_member_order = "bysource"

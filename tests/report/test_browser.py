@@ -18,6 +18,7 @@ from pypdf import PdfReader
 
 import rodwell
 from rodwell.report.folders.case import write_results
+from rodwell.report.pages.path import PAGE, write_path_page
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
 SOFTWARE = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
@@ -92,6 +93,28 @@ def test_pages_fit_every_width_and_have_no_serious_fault(browser: Any, folder: P
         # letters of a figure: 9.5 points of a drawing 7.2 inches wide are not smaller than 8 pixels
         drawn = page.evaluate("[...document.querySelectorAll('.drawn img')].map(i => i.getBoundingClientRect().width)")
         assert min(drawn) >= 7.2 * 72.0 * 8.0 / 9.5 * (0.75 if width > 820 else 1.0)
+        page.close()
+
+
+def test_one_slides_through_a_load_path(browser: Any, tmp_path: Path) -> None:
+    from axe_playwright_python.sync_playwright import Axe
+
+    path = rodwell.load_path(rodwell.Problem(15.0), until=-113.0, seeds=1)
+    write_path_page(tmp_path / PAGE, path)
+    for scheme, width in (("light", 1440), ("dark", 390)):
+        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        opened(page, tmp_path / PAGE)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        assert page.inner_text("#now") == "loading, F = 0 B/L²: straight, stable"
+        straight = page.locator(".stage").screenshot()
+        page.locator("#at").focus()
+        page.keyboard.press("End")
+        assert page.inner_text("#now") == "loading, F = −113 B/L²: sinusoidal, stable"
+        assert page.locator(".stage").screenshot() != straight
+        page.get_by_role("button", name="the straight rod buckles").click()
+        assert page.inner_text("#now") == "loading, F = −111.2 B/L²: straight, stable"
+        found = Axe().run(page).response["violations"]
+        assert [(v["id"], v["nodes"][0]["html"][:90]) for v in found if v["impact"] in ("serious", "critical")] == []
         page.close()
 
 

@@ -22,7 +22,8 @@ from rodwell.cli.options import (
 from rodwell.errors import InputError
 
 if TYPE_CHECKING:
-    from rodwell.analysis.path.load_path import LoadPath, PathState
+    from rodwell.analysis.path.events import PathState
+    from rodwell.analysis.path.load_path import LoadPath
 
 UNIT = "B/L²"
 

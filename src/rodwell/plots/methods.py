@@ -16,6 +16,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.discrete.measures import Measured, measured
 from rodwell.analysis.endless.endless import Endless
+from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
@@ -43,9 +44,10 @@ def plot(result: object, ax: Any = None, **options: Any) -> Any:
     return _on_axes(ax, SIZE, _subplot, lambda axes: _plot(result, axes, **options))
 
 
-def plot_in_space(result: Solution, ax: Any = None, **options: Any) -> Any:
+def plot_in_space(result: Solution | ContactState, ax: Any = None, **options: Any) -> Any:
     """Draw a state in three dimensions on ``ax``, or on new axes of pyplot; return the axes."""
-    return _on_axes(ax, WIDE, wide_axes, lambda axes: plot_rod(result, ax=axes, **options))
+    state = result.fine if isinstance(result, ContactState) else result
+    return _on_axes(ax, WIDE, wide_axes, lambda axes: plot_rod(state, ax=axes, **options))
 
 
 def _subplot(figure: Figure) -> Any:

@@ -12,9 +12,9 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.space.geometry import Geometry
-from rodwell.analysis.space.scene import NO_PULL, WALL, drawn, limits, palette, scene
+from rodwell.analysis.space.scene import NO_PULL, WALL, InSpace, drawn, limits, load_of, palette, scene
 from rodwell.analysis.space.surfaces import straight_contact, wall_places, wall_rings
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
@@ -34,7 +34,7 @@ PLACES, SIDES, LINES = 321, 20, 4
 
 
 def plot_rod(
-    solution: Solution,
+    solution: InSpace,
     scales: Scales | None = None,
     ax: Any = None,
     *,
@@ -48,7 +48,8 @@ def plot_rod(
     points down. Arguments as in :meth:`rodwell.Solution.geometry`; with ``scales`` of a case that gives the rod's
     diameter, that is drawn, otherwise a radius of 0.2 Δ.
     """
-    places = min(max(PLACES, 2 * solution.meshes.fine.space.breaks.size), 4 * PLACES)
+    elements = 0 if isinstance(solution, PatternedState) else solution.meshes.fine.space.breaks.size
+    places = min(max(PLACES, 2 * elements), 4 * PLACES)
     rod = drawn(solution, scales, places, rod_radius, radial_scale)
     with mpl.rc_context(RC):
         if ax is None:
@@ -149,14 +150,14 @@ def enlarged(rod: Geometry) -> str:
     return "true scale" if rod.radial_scale == 1.0 else f"× {plain(rod.radial_scale, 3)} across the axis"
 
 
-def _caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+def _caption(solution: InSpace, rod: Geometry, scales: Scales | None) -> str:
     said = Forces(scales, solution.problem.hung_weight)
     length = "" if scales is None else f", length {scales.text(1.0, 'length')}"
     radius = f"{plain(rod.rod_radius / rod.clearance, 3)} Δ"
     if scales is not None:
         radius = scales.text(rod.rod_radius, "length")
-    marks = "; red rings: lift-off" if rod.lift_off else ""
-    load = said.load(Value(solution.force))
+    marks = f"; red rings: {'ends of contact' if rod.may_leave else 'lift-off'}" if rod.lift_off else ""
+    load = said.load(Value(load_of(solution)))
     drawn_as = f"rod radius drawn {radius}; thin lines: material lines{marks}"
     return f"{load[:1].upper()}{load[1:]}{length}\n{drawn_as}"
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import Part, linear_colours, scene
 from rodwell.analysis.space.surfaces import SIDES, Mesh, cylinder, tube
@@ -26,7 +27,21 @@ VECTORS = ("t1", "d1", "u1", "d0", "v1")
 """Frames as vectors: braid frame {t₁, d₁, u₁}, material frame {t₁, d₀, v₁}."""
 
 
-def write_glb(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
+State = Solution | ContactState
+"""A state on the wall, or of a rod that may have left it."""
+
+ON_THE_WALL = "d1 towards the axis of the cylinder, u1 = t1 x d1; material frame d0, v1: d1, u1 turned about t1 by -xi1"
+OFF_THE_WALL = (
+    "d1 without turning about t1 from s = 0, where it points to the axis of the cylinder, u1 = t1 x d1; material frame "
+    "d0, v1: d1, u1 turned about t1; curvatures in these frames"
+)
+"""What a file says of its frames."""
+
+KNOWN = ("x", "y", "z", "xi1", "xi2", "eta", "omega1", "omega2", "omega3", "contact_pressure")
+"""Fields of a CSV file whose errors it tells."""
+
+
+def write_glb(path: Path, solution: State, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
     """Write the scene as binary glTF: colours by contact pressure, material lines, rings, translucent cylinder."""
     import trimesh  # noqa: PLC0415 - slow to import
 
@@ -39,7 +54,7 @@ def write_glb(path: Path, solution: Solution, rod: Geometry, scales: Scales | No
     return [path]
 
 
-def write_stl(path: Path, _solution: Solution, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
+def write_stl(path: Path, _solution: State, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
     """Write the surface of the rod, closed at both ends, as binary STL; STL keeps no units."""
     import trimesh  # noqa: PLC0415
 
@@ -49,7 +64,7 @@ def write_stl(path: Path, _solution: Solution, rod: Geometry, scales: Scales | N
     return [path]
 
 
-def write_vtu(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
+def write_vtu(path: Path, solution: State, rod: Geometry, scales: Scales | None, sides: int = SIDES) -> list[Path]:
     """Write surface, centreline and cylinder as three VTK files, with every field of rod and cylinder as point data.
 
     ``NAME.vtu`` is the rod's surface, ``NAME-centreline.vtu`` the centreline with frames, ``NAME-cylinder.vtu`` the
@@ -75,7 +90,7 @@ def write_vtu(path: Path, solution: Solution, rod: Geometry, scales: Scales | No
     return out
 
 
-def write_csv(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int = SIDES) -> list[Path]:
+def write_csv(path: Path, solution: State, rod: Geometry, scales: Scales | None, _sides: int = SIDES) -> list[Path]:
     """Write the centreline with frames, angles, curvatures and contact pressure, one place a line.
 
     Lines that start with # say what the file holds; the line after them names each column with its unit.
@@ -91,7 +106,7 @@ def write_csv(path: Path, solution: Solution, rod: Geometry, scales: Scales | No
     return [path]
 
 
-Writer = Callable[[Path, Solution, Geometry, "Scales | None", int], list[Path]]
+Writer = Callable[[Path, State, Geometry, "Scales | None", int], list[Path]]
 
 WRITERS: dict[str, Writer] = {".glb": write_glb, ".stl": write_stl, ".vtu": write_vtu, ".csv": write_csv}
 """Writers by the suffix of the file; each returns the files that it wrote."""
@@ -100,7 +115,7 @@ ENLARGED = (".glb",)
 """Formats for the eye: enlarged across the axis unless a scale is asked for. The others are in true scale."""
 
 
-def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]:
+def about(solution: State, rod: Geometry, scales: Scales | None) -> list[str]:
     """What a file holds, and the conventions behind it, line by line."""
     p = solution.problem
     length, force = ("m", "N") if scales is not None else ("L", "B/L^2")
@@ -122,10 +137,10 @@ def about(solution: Solution, rod: Geometry, scales: Scales | None) -> list[str]
         f"scale: {scale}",
         "axes: z along the cylinder (k), x up (i: lateral gravity acts along -x), y = z cross x (j); straight rod at "
         + ("x > 0" if p.on_top else "x < 0"),
-        "frames: t1 tangent, d1 towards the axis of the cylinder, u1 = t1 x d1; material frame d0, v1: d1, u1 turned "
-        "about t1 by -xi1; twist = rate of turning of d0, v1 about t1 = -T1/C",
-        "contact pressure p: the wall pushes the rod along d1 with -p per length; p < 0 is contact inside a cylinder, "
-        "p > 0 outside",
+        "frames: t1 tangent, " + (OFF_THE_WALL if rod.may_leave else ON_THE_WALL)
+        + "; twist = rate of turning of d0, v1 about t1 = -T1/C",
+        "contact pressure p: the wall pushes the rod towards the axis with -p per length; p < 0 is contact inside a "
+        "cylinder, p > 0 outside",
     ]  # fmt: skip
 
 
@@ -136,14 +151,15 @@ def _torsion(problem: Problem) -> str:
     return f"torsional stiffness C/B = {problem.torsion:.10g}"
 
 
-def _errors(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+def _errors(solution: State, rod: Geometry, scales: Scales | None) -> str:
     """Error estimates of what a CSV file holds, the largest over s."""
     found = solution.field_errors(rod.s)
     parts = []
-    for name in ("y", "z", "xi1", "xi2", "eta", "omega1", "omega2", "omega3", "contact_pressure"):
-        factor, unit = _unit(QUANTITIES[name].dimension, scales)
+    for name in (name for name in KNOWN if name in found):
+        factor, unit = _unit(QUANTITIES[name].dimension if name in QUANTITIES else "length", scales)
         parts.append(f"{name} {found[name] * factor:.1e} {unit}")
-    return "error estimates, largest over s (y is the arclength around the cylinder): " + ", ".join(parts)
+    sideways = "" if rod.may_leave else " (y is the arclength around the cylinder)"
+    return f"error estimates, largest over s{sideways}: " + ", ".join(parts)
 
 
 def _length(scales: Scales | None) -> float:
@@ -189,11 +205,12 @@ def _point_data(rod: Geometry, scales: Scales | None) -> dict[str, Any]:
     length, unit = _unit("length", scales)
     curvature, per_length = _unit("curvature", scales)
     out = {_named("s", unit): rod.s * length}
-    for name in FIELDS:
+    for name in (name for name in FIELDS if name in rod.fields):
         dimension = QUANTITIES[name].dimension
         factor, text = _unit(dimension, scales)
         out[_named(name, text)] = rod.fields[name] * factor
     out[_named("twist", per_length)] = rod.material_curvatures[:, 0] * curvature
+    out |= _gap(rod)
     out["wall_pushes"] = -np.sign(rod.pull)  # 1 where the wall pushes the rod, −1 where it would have to pull
     return out
 
@@ -206,7 +223,12 @@ def _columns(rod: Geometry, scales: Scales | None) -> dict[str, Any]:
     out |= {f"{axis} [{m}]": rod.centreline[:, i] * length for i, axis in enumerate("xyz")}
     for name in VECTORS:
         out |= {f"{name}_{axis}": getattr(rod, name)[:, i] for i, axis in enumerate("xyz")}
-    out |= {f"{name} [rad]": rod.fields[name] for name in ("xi1", "xi2", "eta")}
+    out |= {f"{name} [rad]": rod.fields[name] for name in ("xi1", "xi2", "eta") if name in rod.fields}
     for symbol, values in (("omega", rod.curvatures), ("material_omega", rod.material_curvatures)):
         out |= {f"{symbol}{i + 1} [{per_length}]": values[:, i] * curvature for i in range(3)}
-    return out | {f"contact_pressure [{force}]": rod.fields["contact_pressure"] * pressure}
+    return out | _gap(rod) | {f"contact_pressure [{force}]": rod.fields["contact_pressure"] * pressure}
+
+
+def _gap(rod: Geometry) -> dict[str, Any]:
+    """The gap between rod and wall in clearances, of a rod that may have left it."""
+    return {"gap [clearance]": rod.fields["gap"]} if rod.may_leave else {}

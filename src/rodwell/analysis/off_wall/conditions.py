@@ -23,6 +23,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "grows_at_end", "touches", "leaves"
@@ -69,9 +70,14 @@ class PatternedState:
         return model
 
     @property
+    def problem(self) -> Problem:
+        """The problem."""
+        return self.model.problem
+
+    @property
     def load(self) -> float:
-        """End force."""
-        return self.solved.shape.load
+        """End force F at s = 1 in B/L², tension positive."""
+        return float(self.solved.shape.load)
 
     @property
     def bounds(self) -> FloatArray:

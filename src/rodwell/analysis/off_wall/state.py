@@ -11,7 +11,7 @@ import numpy as np
 from rodwell.analysis.off_wall.arrange import refined, turns_of
 from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.measured import Numbers, measured, position
+from rodwell.analysis.off_wall.measured import Numbers, along_axis, measured, position
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
@@ -28,6 +28,15 @@ MOST_DEGREES = 8
 
 FLAT = 1e-6
 """A rod that lies within this angle, in radians, of the bottom everywhere, in contact, is straight."""
+
+
+def kind_of(state: PatternedState, turns: int) -> str:
+    """What a state is that winds so many times around the hole: see :attr:`ContactState.kind`."""
+    if turns:
+        return HELIX
+    if not state.pattern.full:
+        return PARTIAL
+    return STRAIGHT if float(np.max(np.abs(state.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
 
 
 @dataclass(frozen=True)
@@ -101,11 +110,7 @@ class ContactState:
     @cached_property
     def kind(self) -> str:
         """What the state is: "straight", "sinusoidal", "helix" (it winds around the hole) or "partial contact"."""
-        if self.turns:
-            return HELIX
-        if not self.fine.pattern.full:
-            return PARTIAL
-        return STRAIGHT if float(np.max(np.abs(self.fine.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
+        return kind_of(self.fine, self.turns)
 
     @cached_property
     def _numbers(self) -> tuple[Numbers, Numbers]:
@@ -187,19 +192,19 @@ class ContactState:
         rod = in_space(x, y, n, problem.twist)
         gap = 1.0 - np.hypot(x[0], y[0]) / problem.clearance
         return {
-            "s": places, "x": x[0], "y": y[0], "z": self._axial(places), "gap": gap,
+            "s": places, "x": x[0], "y": y[0], "z": along_axis(self.fine, places), "gap": gap,
             "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "tension": rod.tension,
             "contact_pressure": pressure,
         }  # fmt: skip
 
-    def _axial(self, places: FloatArray) -> FloatArray:
-        """z(s), by Gauss's rule on a fine grid."""
-        grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), self.fine.bounds]))
-        points, weights = np.polynomial.legendre.leggauss(4)
-        s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
-        x, y, _ = position(self.fine, s)
-        rate = np.sqrt(1.0 - x[1] ** 2 - y[1] ** 2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
-        return np.asarray(np.interp(places, grid, np.concatenate([[0.0], np.cumsum(rate)])))
+    def field_errors(self, s: FloatArray) -> dict[str, float]:
+        """Error estimates of x, y, z and the contact pressure, the largest at places ``s`` (k,)."""
+        (xc, yc, pc), (xf, yf, pf) = (position(state, s) for state in (self.coarse, self.fine))
+        pairs = {
+            "x": (xf[0], xc[0]), "y": (yf[0], yc[0]), "contact_pressure": (pf, pc),
+            "z": (along_axis(self.fine, s), along_axis(self.coarse, s)),
+        }  # fmt: skip
+        return {name: float(np.max(estimated_error(*pair))) for name, pair in pairs.items()}
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.control import Control
+from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, plain
+from rodwell.faces import drawn_in_space
 from rodwell.quantities.value import Value
+
+if TYPE_CHECKING:
+    from rodwell.analysis.space.geometry import Geometry
+    from rodwell.faces import Axes
+    from rodwell.quantities.scales import Scales
 
 LOADING, UNLOADING = "loading", "unloading"
 
@@ -131,3 +137,46 @@ class Leg:
                 if min(known) - slack <= value <= max(known) + slack:
                     return sorted((one, other), key=lambda state: abs(control.value(state.solved) - value))
         return []
+
+
+@dataclass(frozen=True, eq=False)
+class PathState:
+    """A state at a load asked for, and on which leg."""
+
+    leg: str
+    state: ContactState
+    control: Control = FORCE
+
+    @property
+    def stability_index(self) -> int:
+        """The stability index where the end force, or the shortening, is controlled."""
+        return self.control.index_at(self.state.fine.solved)
+
+    def geometry(
+        self, places: int | None = None, *, rod_radius: float | None = None, radial_scale: float | None = 1.0
+    ) -> Geometry:
+        """The rod in space; arguments and errors as in :meth:`rodwell.Solution.geometry`, ``places`` 401 if not given.
+
+        Its frame {t₁, d₁, u₁} does not turn about the tangent: see :mod:`rodwell.analysis.space.in_hole`. ``fields``
+        has, of the fields there, z, η, ξ₂ and Δ ξ₂ as ``y`` (the angle around the hole, from the bottom), the
+        contact pressure; and the ``gap`` between rod and wall in Δ, the ``curvature``.
+        """
+        from rodwell.analysis.space.in_hole import geometry_in_hole  # noqa: PLC0415 - most who solve do not draw
+
+        return geometry_in_hole(self.state.fine, places, rod_radius=rod_radius, radial_scale=radial_scale)
+
+    def plot_rod(
+        self,
+        ax: Axes | None = None,
+        *,
+        scales: Scales | None = None,
+        rod_radius: float | None = None,
+        radial_scale: float | None = None,
+    ) -> Axes:
+        """Draw the rod in its cylinder in three dimensions: see :func:`rodwell.plots.rod3d.plot_rod`."""
+        return drawn_in_space(self.state, ax, scales=scales, rod_radius=rod_radius, radial_scale=radial_scale)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, for JSON."""
+        more = {} if self.control.by_force else {"driven": self.control.value(self.state.fine.solved)}
+        return {"leg": self.leg, **self.state.as_dict(), **more, "stability_index": self.stability_index}

@@ -16,7 +16,7 @@ from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
 from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
-from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint
+from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.legs import How, straight_state, walked
 from rodwell.analysis.path.loading import loaded
 from rodwell.analysis.path.words import sentences
@@ -37,25 +37,6 @@ SEEDS = 3
 ASSUMPTIONS = "quasi-static, frictionless and without inertia; hard wall"
 
 Progress = Callable[[str, float], str | None]
-
-
-@dataclass(frozen=True, eq=False)
-class PathState:
-    """A state at a load asked for, and on which leg."""
-
-    leg: str
-    state: ContactState
-    control: Control = FORCE
-
-    @property
-    def stability_index(self) -> int:
-        """The stability index where the end force, or the shortening, is controlled."""
-        return self.control.index_at(self.state.fine.solved)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Plain data, for JSON."""
-        more = {} if self.control.by_force else {"driven": self.control.value(self.state.fine.solved)}
-        return {"leg": self.leg, **self.state.as_dict(), **more, "stability_index": self.stability_index}
 
 
 @dataclass(frozen=True, eq=False)

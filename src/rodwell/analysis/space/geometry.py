@@ -80,7 +80,8 @@ class Geometry:
         straight cylinder, N1, N2 of a curved hole. Not enlarged.
     lift_off
         Places s at which the rod is lifting off: where the wall pushes no longer. Beyond lift-off, where it would have
-        to pull most. Empty where contact is complete.
+        to pull most. Empty where contact is complete. Of a rod that may have left the wall: ends of stretches in
+        contact, and points of contact.
     """
 
     s: FloatArray
@@ -121,6 +122,11 @@ class Geometry:
         return bool(np.any(self.across != self.across[0]))
 
     @property
+    def may_leave(self) -> bool:
+        """Whether the rod may have left the wall: then ``fields`` has its gap from the wall, in Δ."""
+        return "gap" in self.fields
+
+    @property
     def pull(self) -> FloatArray:
         """Contact pressure (m,) in B/L³ with the sign that makes it negative in contact, inside and outside."""
         p = self.fields["contact_pressure"]
@@ -139,9 +145,9 @@ def geometry(
     count = _places(solution, places)
     s = np.linspace(0.0, 1.0, count)
     fields = solution.fields(s)
-    radius = checked_radius(solution, rod_radius, fields)
+    radius = checked_radius(problem, rod_radius, np.hypot(fields["omega2"], fields["omega3"]))
     sharpest = 0.0 if problem.hole is None else problem.hole.sharpest
-    scale = _scale(fields, problem.clearance + radius, radial_scale, sharpest)
+    scale = checked_scale(fields["eta"], problem.clearance + radius, radial_scale, sharpest)
     sin_eta, cos_eta = np.sin(fields["eta"]), np.cos(fields["eta"])
     drawn = np.arctan2(scale * sin_eta, cos_eta)
     # (32) with the drawn angle: ω₁ of the drawn frame is −ξ₂' cos η, per length of the rod
@@ -174,15 +180,15 @@ def _beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
     return axis, problem.hole.frame(places)[:, :2] @ turn.T
 
 
-def readable_scale(fields: dict[str, FloatArray], reach: float, sharpest: float = 0.0) -> float:
+def readable_scale(eta: FloatArray, reach: float, sharpest: float = 0.0) -> float:
     """Enlargement across the axis with which a picture can be read, two digits, at least 1.
 
-    ``reach`` is the largest distance from the axis, in L, ``sharpest`` the largest curvature of the axis. The picture
-    becomes five times as long as wide, longer where the centreline would become steeper than 2, or where the inside of
-    the bend would come closer than half to its centre.
+    ``eta`` is the angle between rod and axis along the rod, ``reach`` the largest distance from the axis, in L,
+    ``sharpest`` the largest curvature of the axis. The picture becomes five times as long as wide, longer where the
+    centreline would become steeper than 2, or where the inside of the bend would come closer than half to its centre.
     """
     by_width = 1.0 / (reach * max(2.0 * PROPORTION, sharpest / INNERMOST))
-    steepest = float(np.max(np.abs(np.tan(fields["eta"]))))
+    steepest = float(np.max(np.abs(np.tan(eta))))
     scale = min(by_width, STEEPEST_DRAWN / max(steepest, 1e-300))
     if scale <= 1.0:
         return 1.0
@@ -190,17 +196,17 @@ def readable_scale(fields: dict[str, FloatArray], reach: float, sharpest: float 
     return float(max(1.0, np.floor(scale / digit) * digit))
 
 
-def checked_radius(solution: Equilibrium, given: float | None, fields: dict[str, FloatArray]) -> float:
+def checked_radius(problem: Problem, given: float | None, curvature: FloatArray) -> float:
     """Return the rod's radius in L, or raise: it must fit the cylinder, and bends must not close on themselves."""
-    clearance = solution.problem.clearance
+    clearance = problem.clearance
     if given is None:
         return DISPLAY_RADIUS * clearance
     radius = checked_number("rod_radius", given, 0.0, 1.0, "above 0 and below 1, in L")
     if not 0.0 < radius < 1.0:
         raise InputError("rod_radius", given, "must be above 0 and below 1, in L")
-    if solution.problem.outside and radius >= clearance:
+    if problem.outside and radius >= clearance:
         raise InputError("rod_radius", given, f"must be below Δ = {clearance:g} L: the rod lies outside the cylinder")
-    sharpest = float(np.max(np.hypot(fields["omega2"], fields["omega3"])))
+    sharpest = float(np.max(curvature))
     if radius * sharpest >= 1.0:
         raise InputError("rod_radius", given, f"must be below the smallest radius of curvature, {1.0 / sharpest:g} L")
     return radius
@@ -208,14 +214,20 @@ def checked_radius(solution: Equilibrium, given: float | None, fields: dict[str,
 
 def _places(solution: Equilibrium, places: int | None) -> int:
     if places is not None:
-        return checked_whole("places", places, FEWEST_PLACES, MOST_PLACES)
+        return checked_places(places)
     elements = solution.meshes.fine.space.breaks.size - 1
     return min(max(USUAL_PLACES[0], 4 * elements + 1), USUAL_PLACES[1])
 
 
-def _scale(fields: dict[str, FloatArray], reach: float, given: float | None, sharpest: float) -> float:
+def checked_places(given: int) -> int:
+    """Return how many places along the rod, or raise."""
+    return checked_whole("places", given, FEWEST_PLACES, MOST_PLACES)
+
+
+def checked_scale(eta: FloatArray, reach: float, given: float | None, sharpest: float = 0.0) -> float:
+    """Return the enlargement across the axis, or raise; arguments as for :func:`readable_scale`."""
     if given is None:
-        return readable_scale(fields, reach, sharpest)
+        return readable_scale(eta, reach, sharpest)
     most = min(LARGEST_SCALE, max(1.0, 1.0 / (reach * sharpest))) if sharpest > 0.0 else LARGEST_SCALE
     allowed = f"from 1 (true scale) to {most:.4g}"
     if most < LARGEST_SCALE:

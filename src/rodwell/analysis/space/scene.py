@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.space.geometry import Geometry, geometry
+from rodwell.analysis.space.in_hole import geometry_in_hole
 from rodwell.analysis.space.surfaces import SIDES, Mesh, cylinder, material_lines, ring, tube
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.errors import InputError
@@ -27,6 +29,15 @@ NO_PULL = 1e-3
 """A pull below this part of the largest pressure is none: at lift-off the largest value is zero up to its error."""
 
 
+InSpace = Equilibrium | PatternedState
+"""A state that can be drawn: on the wall, or where the rod may have left it."""
+
+
+def load_of(state: InSpace) -> float:
+    """End force F at s = 1 in B/L², tension positive."""
+    return state.load if isinstance(state, PatternedState) else state.force
+
+
 @dataclass(frozen=True)
 class Part:
     """A mesh with its colour (r, g, b from 0 to 1, sRGB), one for all vertices (3,) or one each (n, 3)."""
@@ -38,7 +49,7 @@ class Part:
 
 
 def drawn(
-    solution: Equilibrium,
+    solution: InSpace,
     scales: Scales | None,
     places: int | None = None,
     rod_radius: float | None = None,
@@ -48,13 +59,19 @@ def drawn(
 
     ``rod_radius`` in L; the case's own is left aside where the bends of this state would not admit it.
     """
+
+    def made(radius: float | None) -> Geometry:
+        if isinstance(solution, PatternedState):
+            return geometry_in_hole(solution, places, rod_radius=radius, radial_scale=radial_scale)
+        return geometry(solution, places, rod_radius=radius, radial_scale=radial_scale)
+
     if rod_radius is None and scales is not None and scales.radius is not None:
         try:
-            return geometry(solution, places, rod_radius=scales.radius / scales.length, radial_scale=radial_scale)
+            return made(scales.radius / scales.length)
         except InputError as error:
             if error.field != "rod_radius":
                 raise
-    return geometry(solution, places, rod_radius=rod_radius, radial_scale=radial_scale)
+    return made(rod_radius)
 
 
 def scene(geometry: Geometry, sides: int = SIDES, lines: int = 4) -> list[Part]:
@@ -63,8 +80,9 @@ def scene(geometry: Geometry, sides: int = SIDES, lines: int = 4) -> list[Part]:
     parts = [Part("rod", body, pressure_colours(geometry.pull)[body.place])]
     for number, mesh in enumerate(material_lines(geometry, lines), start=1):
         parts.append(Part(f"material line {number}", mesh, rgb(LINE if number == 1 else "#f8fafc")))
+    what = "end of contact" if geometry.may_leave else "lift-off"
     for s in geometry.lift_off:
-        parts.append(Part(f"lift-off at s = {s:.6g}", ring(geometry, s), rgb(MARK)))
+        parts.append(Part(f"{what} at s = {s:.6g}", ring(geometry, s), rgb(MARK)))
     parts.append(Part("cylinder", cylinder(geometry), rgb(WALL), WALL_OPACITY))
     return parts
 

@@ -16,6 +16,7 @@ from rodwell.plots.style import RC
 from rodwell.report.folders.beside import done_beside
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.folders.pictures import draw
+from rodwell.report.pages.path import PAGE, write_path_page
 from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
@@ -66,5 +67,6 @@ def _write_path(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
         return {}
     with mpl.rc_context(RC):
         save_figure(plot_beyond(answer.case, answer.beyond), folder / PICTURE)
+    write_path_page(folder / PAGE, answer.beyond.path, answer.case, answer.case.title)
     write_csv(beyond_table(answer.case, answer.beyond), folder / "load-path.csv")
     return {PICTURE: ("svg", (folder / f"{PICTURE}.svg").read_bytes())}

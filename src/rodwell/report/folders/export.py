@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rodwell.analysis.space.scene import drawn
+from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.events import PathState
+from rodwell.analysis.space.scene import InSpace, drawn
 from rodwell.analysis.space.surfaces import SIDES
 from rodwell.errors import InputError, checked_whole
 from rodwell.quantities.scales import Scales
@@ -18,8 +20,6 @@ from rodwell.store.shapes import ENLARGED, WRITERS
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
     from rodwell.analysis.space.geometry import Geometry
-
-Write = Callable[[Path, "Solution", "Geometry", "Scales | None", int], list[Path]]
 
 FORMATS = {
     ".glb": "glTF scene, for viewers and presentations",
@@ -41,7 +41,7 @@ FOR_THE_EYE = (*ENLARGED, ".html", ".png", ".svg", ".pdf")
 
 
 def export(
-    solution: Solution,
+    solution: Solution | ContactState | PathState,
     path: str | Path | Sequence[str | Path],
     *,
     scales: Scales | None = None,
@@ -55,7 +55,7 @@ def export(
     Parameters
     ----------
     solution
-        The state.
+        The state, on the wall or of a rod that may have left it, as :meth:`rodwell.LoadPath.at` returns it.
     path
         File, or files: .glb (glTF), .stl, .vtu (ParaView; two more files ``NAME-centreline.vtu`` and
         ``NAME-cylinder.vtu`` beside it), .csv, .html, .png, .svg, .pdf. Folders are made.
@@ -85,14 +85,21 @@ def export(
     files = checked_files(path)
     radius = checked_rod_radius(rod_radius, scales)
     checked_whole("sides", sides, 3, 720)
+    if isinstance(solution, PathState):
+        solution = solution.state
+    state = solution.fine if isinstance(solution, ContactState) else solution
     out = []
     with ExitStack() as stack:
         folders = {parent: stack.enter_context(whole_folder(parent, "path")) for parent in {f.parent for f in files}}
         for file in files:
             suffix = file.suffix.lower()
             scale = 1.0 if radial_scale is None and suffix not in FOR_THE_EYE else radial_scale
-            rod = drawn(solution, scales, places, radius, scale)
-            written = writer(suffix)(folders[file.parent] / file.name, solution, rod, scales, sides)
+            rod = drawn(state, scales, places, radius, scale)
+            target = folders[file.parent] / file.name
+            if suffix in WRITERS:
+                written = WRITERS[suffix](target, solution, rod, scales, sides)
+            else:
+                written = (_write_page if suffix == ".html" else _write_picture)(target, state, rod, scales)
             out += [file.parent / item.name for item in written]
     return out
 
@@ -126,25 +133,18 @@ def checked_rod_radius(given: float | str | None, scales: Scales | None) -> floa
         raise InputError("rod_radius", given, str(error)) from None
 
 
-def writer(suffix: str) -> Write:
-    """What writes files of a suffix."""
-    if suffix in WRITERS:
-        return WRITERS[suffix]
-    return _write_page if suffix == ".html" else _write_picture
-
-
-def _write_page(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
+def _write_page(path: Path, state: InSpace, rod: Geometry, scales: Scales | None) -> list[Path]:
     from rodwell.report.pages.viewer import view, write_viewer  # noqa: PLC0415
 
-    write_viewer(path, view(solution, scales, rod))
+    write_viewer(path, view(state, scales, rod))
     return [path]
 
 
-def _write_picture(path: Path, solution: Solution, rod: Geometry, scales: Scales | None, _sides: int) -> list[Path]:
+def _write_picture(path: Path, state: InSpace, rod: Geometry, scales: Scales | None) -> list[Path]:
     from rodwell.plots.rod3d import plot_rod  # noqa: PLC0415 - slow to import
     from rodwell.report.folders.figures import DPI, PNG  # noqa: PLC0415
 
-    ax = plot_rod(solution, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
+    ax = plot_rod(state, scales, rod_radius=rod.rod_radius, radial_scale=rod.radial_scale)
     if path.suffix.lower() == ".png":
         ax.figure.savefig(path, dpi=DPI, **PNG)
         return [path]

@@ -12,12 +12,15 @@ from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
 from rodwell.report.folders.figures import save_figure
+from rodwell.report.pages.path import PAGE, write_path_page
 from rodwell.store.folder import whole_folder
 from rodwell.store.text import write_json
 
 
 def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[str, ...]:
-    """Write figure (PNG, SVG), events and states at the end forces ``at`` (JSON), and the curve (CSV) to ``out``.
+    """Write figure (PNG, SVG), events and states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
+
+    The page shows the rod in its hole along the path, with a slider.
 
     All files, or none; returns their names.
 
@@ -30,6 +33,7 @@ def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[s
         with mpl.rc_context(RC):
             save_figure(plot_path(result).figure, folder / "load-path")
         write_json(result.as_dict(at), folder / "load-path.json")
+        write_path_page(folder / PAGE, result)
         curve = result.curve
         with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file)

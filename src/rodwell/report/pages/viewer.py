@@ -15,12 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.space.geometry import Geometry, geometry
-from rodwell.analysis.space.scene import STOPS, Part, drawn, limits, scene
+from rodwell.analysis.space.scene import STOPS, InSpace, Part, drawn, limits, load_of, scene
 from rodwell.analysis.space.surfaces import straight_contact, wall_rings
+from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.plots.rod3d import enlarged
 from rodwell.plots.units import axis
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
@@ -52,7 +54,7 @@ class Viewer:
 
 
 def view(
-    solution: Solution,
+    solution: InSpace,
     scales: Scales | None = None,
     rod: Geometry | None = None,
     sides: int = SIDES,
@@ -73,12 +75,12 @@ def view(
         Whether the pointer reads numbers along the rod.
     """
     if rod is None:
-        elements = solution.meshes.fine.space.breaks.size - 1
+        elements = 0 if isinstance(solution, PatternedState) else solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    data = _data(solution, rod, sides)
+    data = _data(solution.problem, rod, sides)
     if readings:
-        data["along"] = _along(solution, rod, scales)
-    if rod.bent and rod.radial_scale != 1.0:  # what is bent cannot be set back by scaling the picture
+        data["along"] = _along(rod, scales)
+    if isinstance(solution, Equilibrium) and rod.bent and rod.radial_scale != 1.0:  # scaling does not set back bends
         data["true_scale"] = _true_scale(solution, rod, sides)
     return View(data, _bar(rod, scales), caption(solution, rod, scales))
 
@@ -113,26 +115,27 @@ def write_viewer(path: Path, seen: View, title: str = "", *, still: str = "") ->
     path.write_text(page, encoding="utf-8")
 
 
-def caption(solution: Solution, rod: Geometry, scales: Scales | None) -> str:
+def caption(solution: InSpace, rod: Geometry, scales: Scales | None) -> str:
     """What is shown, in which scale."""
-    load = Forces(scales, solution.problem.hung_weight).load(Value(solution.force))
+    load = Forces(scales, solution.problem.hung_weight).load(Value(load_of(solution)))
     radius = (
         f"{plain(rod.rod_radius / rod.clearance, 3)} Δ" if scales is None else scales.text(rod.rod_radius, "length")
     )
-    marks = " Red rings: places of lift-off." if rod.lift_off else ""
+    rings = "ends of contact, and points of contact" if rod.may_leave else "places of lift-off"
+    marks = f" Red rings: {rings}." if rod.lift_off else ""
     return (
         f"{load[:1].upper()}{load[1:]}; {enlarged(rod)}; rod radius drawn {radius}. Thin lines are material "
         f"lines of the rod; the cylinder is the wall that its surface touches.{marks}"
     )
 
 
-def _data(solution: Solution, rod: Geometry, sides: int) -> dict[str, Any]:
+def _data(problem: Problem, rod: Geometry, sides: int) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
 
     def shift(points: FloatArray) -> FloatArray:
         return np.asarray(_view(points) - _middle(rod))
 
-    angle = np.radians(solution.problem.alpha)
+    angle = np.radians(problem.alpha)
     reach = max(rod.wall_radius, rod.radial_scale * (rod.clearance + rod.rod_radius))
     ends, axis = shift(rod.axis[[0, -1]]), shift(rod.axis)
     above = ends[1] + np.array([0.0, reach + 0.1, 0.0])
@@ -146,10 +149,10 @@ def _data(solution: Solution, rod: Geometry, sides: int) -> dict[str, Any]:
             {"text": f"s = {s}", "at": (end - np.array([0.0, 1.1 * reach, 0.0])).tolist()}
             for s, end in zip((0, 1), ends, strict=True)
         ]
-        + ([{"text": "gravity", "at": above.tolist(), "above": True}] if solution.problem.weight > 0.0 else []),
+        + ([{"text": "gravity", "at": above.tolist(), "above": True}] if problem.weight > 0.0 else []),
         "gravity": _rounded(_view(np.array([-np.sin(angle), 0.0, -np.cos(angle)]))),
         "arrow": above.tolist(),
-        "weight": solution.problem.weight,
+        "weight": problem.weight,
         "height": 2.0 * reach + float(np.ptp(axis[:, 1])),
         "sides": sides,
         "enlarged": rod.radial_scale,
@@ -164,28 +167,29 @@ READINGS = 401
 """Places along the rod at which the pointer reads numbers."""
 
 
-def _true_scale(solution: Solution, rod: Geometry, sides: int) -> dict[str, Any]:
+def _true_scale(solution: Equilibrium, rod: Geometry, sides: int) -> dict[str, Any]:
     """What is another in true scale: places of all that has its triangles and colours already."""
     true = geometry(solution, rod.s.size, rod_radius=rod.rod_radius, radial_scale=1.0)
-    data = _data(solution, true, sides)
+    data = _data(solution.problem, true, sides)
     for part in data["parts"]:
         del part["triangles"], part["colours"]
     return {key: data[key] for key in OF_SCALE}
 
 
-def _along(solution: Solution, rod: Geometry, scales: Scales | None) -> dict[str, Any]:
+def _along(rod: Geometry, scales: Scales | None) -> dict[str, Any]:
     """What stands under the pointer, place by place: where it is in the picture, and the numbers there in words."""
     pick = np.unique(np.linspace(0, rod.s.size - 1, min(READINGS, rod.s.size)).round().astype(int))
     points = _view(rod.centreline[pick]) - _middle(rod)
     push = (1.0 if rod.outside else -1.0) * rod.fields["contact_pressure"][pick]
+    name, away = ("gap", rod.clearance * rod.fields["gap"]) if rod.may_leave else ("sideways", rod.fields["y"])
     says = []
-    for s, p, y in zip(rod.s[pick], push, rod.fields["y"][pick], strict=True):
+    for s, p, far in zip(rod.s[pick], push, away[pick], strict=True):
         if scales is None:
-            says.append(f"s/L = {plain(s, 3)}, push {plain(p, 3)} B/L³, sideways {plain(y, 3)} L")
+            says.append(f"s/L = {plain(s, 3)}, push {plain(p, 3)} B/L³, {name} {plain(far, 3)} L")
             continue
         place = scales.text(float(s), "length", 4)
         per_length = scales.text(float(p), "force_per_length", 3)
-        says.append(f"{place} from s = 0, push {per_length}, sideways {scales.text(float(y), 'length', 3)}")
+        says.append(f"{place} from s = 0, push {per_length}, {name} {scales.text(float(far), 'length', 3)}")
     return {"points": _rounded(points), "says": says}
 
 

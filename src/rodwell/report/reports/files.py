@@ -13,6 +13,7 @@ FILES = {
     "tables.xlsx": "key figures, special points and every state along the rod as a workbook",
     "key-figures.csv": "the key figures as a table",
     "along-rod.csv": "force, contact, moments and stresses along the rod in each state",
+    "load-path-3d.html": "the rod in its hole as the load grows and comes back, to slide through, turn and zoom",
     "load-path.csv": "events beyond lift-off and on the way back: loads, gaps, forces on the wall, stress",
     "branches.nc": "every field along every branch (NetCDF)",
     "case.toml": "the case as it was read",

@@ -339,5 +339,5 @@ function tag(stage, label) {
 
 document.querySelectorAll(".rod-viewer").forEach((element) => {
   const scene = element.querySelector("script[type='application/json']");
-  if (scene) rodwellViewer(element, JSON.parse(scene.textContent)); // else: shown by another script
+  if (scene) element.rodwell = rodwellViewer(element, JSON.parse(scene.textContent)); // else: shown by another script
 });
