@@ -40,7 +40,7 @@ CASE = {
 def answer() -> Answer:
     """The drill string a little beyond lift-off, and not back: a path of a second or two."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "_range", lambda _: (-130.0, None))
+        patch.setattr(module, "reach", lambda _: (-130.0, None))
         found = rodwell.answer(Case.from_dict(CASE))
         assert found.beyond.path is not None
         return found

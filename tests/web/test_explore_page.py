@@ -243,6 +243,30 @@ def test_the_load_plays_and_stops(opened: Opened) -> None:
     assert values(page)["load"] > 118.4
 
 
+def test_beyond_lift_off(opened: Opened) -> None:
+    """The whole loop, while the wall's states can be moved; reference loads from theory-2, section 1."""
+    page = opened("#load=140")
+    assert page.inner_text("#snaps") == "not followed"
+    page.keyboard.press("b")
+    page.keyboard.press("ArrowLeft")
+    until(page, "window.__rodwell.state.load < 140 && window.__rodwell.values !== null")  # not kept waiting
+    assert "largest_gap" not in page.evaluate("window.__rodwell.values")
+    until(page, READY, 120.0)
+    assert page.inner_text("#snaps") == "147.158 B/L² at s = 1"
+    assert page.evaluate("window.__rodwell.values").keys() >= {"largest_gap", "largest_point_force", "contact_total"}
+    assert "partial contact, 3 gaps" in page.inner_text("#headline")
+    assert "path=followed" in page.url
+    before = updates(page)
+    page.locator("[data-branch='load path, unloading']").focus()
+    page.keyboard.press("Enter")
+    moved(page, before)
+    assert "helix of 1 turn" in page.inner_text("#headline")
+    before = updates(page)
+    page.keyboard.press("b")
+    moved(page, before)
+    assert page.inner_text("#snaps") == "not followed"
+
+
 def test_nothing_is_drawn_while_nothing_moves(opened: Opened) -> None:
     page = opened()
     time.sleep(1.0)

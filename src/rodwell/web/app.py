@@ -18,7 +18,8 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from rodwell.web.desk import Desk, Job
+from rodwell.web.desk import Job
+from rodwell.web.desks import Desks
 
 LARGEST_REQUEST = 20_000
 """Characters of a request."""
@@ -29,7 +30,7 @@ FROM_REPORT = ("three.min.js", "viewer.js", "viewer.css", "LICENSE-three.txt")
 """What the page shares with reports: three.js and the rod in its cylinder."""
 
 
-def app(desk: Desk, token: str, port: Callable[[], int]) -> Starlette:
+def app(desk: Desks, token: str, port: Callable[[], int]) -> Starlette:
     """Return the application.
 
     Parameters
@@ -72,7 +73,7 @@ def app(desk: Desk, token: str, port: Callable[[], int]) -> Starlette:
     return inner
 
 
-async def conversation(socket: WebSocket, desk: Desk) -> None:
+async def conversation(socket: WebSocket, desk: Desks) -> None:
     """Requests of one page, and the answers to them."""
     client = id(socket)
 

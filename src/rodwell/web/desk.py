@@ -13,7 +13,7 @@ from typing import Any
 from rodwell.errors import InputError, RodwellError
 from rodwell.web.worker import Start, work
 
-ORDER = ("diagram", "state", "verdict", "details", "copy", "file")
+ORDER = ("diagram", "path", "state", "verdict", "details", "copy", "file")
 """What is answered first."""
 
 PATIENCE = 5.0
@@ -98,11 +98,15 @@ class Desk:
         """Take a request; return the one that it takes the place of, if that has not been begun."""
         replaced = self._waiting.pop(job.slot, None)
         self._waiting[job.slot] = job
+        self.outdate(job)
+        self._news.set()
+        return replaced
+
+    def outdate(self, job: Job) -> None:
+        """Leave off what is of no use any more now that a request has come, to this desk or to another."""
         running = self._running
         if running is not None and running.client == job.client and self._outdated(running, job):
             self.leave_off()
-        self._news.set()
-        return replaced
 
     @staticmethod
     def _outdated(running: Job, newer: Job) -> bool:
@@ -146,6 +150,7 @@ class Desk:
                         raise EOFError
                     continue
                 got, last, text = await asyncio.to_thread(self._pipe.recv)
+                last = last and got == number  # the first message says that the engine is ready
                 if got == number:
                     await job.reply(text)
         except (EOFError, OSError):

@@ -6,16 +6,17 @@ import base64
 import json
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.path.events import LOADING
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit
 from rodwell.report.reports.texts import KINDS as LABELS
-from rodwell.web import files, state, words
+from rodwell.web import files, off_wall, state, words
 from rodwell.web.explored import STRAIGHT, Explored, explore
 from rodwell.web.inputs import DEFAULT, ENDS, MOST_MODES, controls, moved
 
@@ -86,8 +87,10 @@ class Engine:
         RodwellError
             If it cannot be answered.
         """
-        kinds = {"diagram": self._diagram, "state": self._state, "verdict": self._verdict, "details": self._details,
-                 "copy": self._copy, "file": self._file}  # fmt: skip
+        kinds = {
+            "diagram": self._diagram, "path": self._path, "state": self._state, "verdict": self._verdict,
+            "details": self._details, "copy": self._copy, "file": self._file,
+        }  # fmt: skip
         kind = request.get("kind")
         if kind not in kinds:
             raise InputError("kind", kind, f"must be one of {', '.join(kinds)}")
@@ -103,6 +106,8 @@ class Engine:
     def explored(self, request: Request, check: Callable[[], None], send: Send | None = None) -> Explored:
         """Return what was computed for the inputs of a request, computed now where it is not at hand."""
         inputs, until = dict(request.get("inputs") or {}), request.get("until")
+        if request.get("path"):
+            return self._with_path(request, check, send)
         if self._unit is None and inputs and send is not None:  # loads keep the unit of the case to begin with
             self.explored({}, check)
         key = json.dumps([inputs, until], sort_keys=True)
@@ -121,16 +126,33 @@ class Engine:
             if send is not None and not last:
                 send({"kind": "diagram", "diagram": so_far.plain(), "whole": False})
 
+        found = explore(data, case, _seldom(self._teller(send, check), check), reached, self._unit)
+        self._known[key] = found
+        while len(self._known) > KEPT:
+            self._known.popitem(last=False)
+        return found
+
+    def _with_path(self, request: Request, check: Callable[[], None], send: Send | None) -> Explored:
+        """The same with the load path beyond lift-off."""
+        wall = self.explored({**request, "path": False}, check)
+        if wall.path is not None or wall.no_path:
+            return wall
+        path, why = off_wall.followed(wall.computed, _seldom(self._teller(send, check), check))
+        found = replace(wall, path=path, no_path=why)
+        key = next(key for key, known in self._known.items() if known is wall)
+        self._known[key] = found
+        return found
+
+    @staticmethod
+    def _teller(send: Send | None, check: Callable[[], None]) -> Callable[[str, float], None]:
+        """Tells how far a computation is, unless nobody listens or it is no longer wanted."""
+
         def tell(what: str, done: float) -> None:
             check()
             if send is not None:
                 send({"kind": "progress", "what": what, "done": done})
 
-        found = explore(data, case, _seldom(tell, check), reached, self._unit)
-        self._known[key] = found
-        while len(self._known) > KEPT:
-            self._known.popitem(last=False)
-        return found
+        return tell
 
     def _farther(self, data: dict[str, Any], case: Case, shown: float) -> tuple[dict[str, Any], Case]:
         """The case followed to a load as the page shows it."""
@@ -150,7 +172,11 @@ class Engine:
         found = self.explored(request, check, send)
         send({"kind": "diagram", "diagram": found.plain(), "whole": True, "last": True})
 
-    def _found(self, request: Request, check: Callable[[], None]) -> tuple[Explored, Solution, str, int, int, str]:
+    def _path(self, request: Request, send: Send, check: Callable[[], None]) -> None:
+        found = self.explored({**request, "path": True}, check, send)
+        send({"kind": "path", "diagram": found.plain(), "whole": True, "last": True})
+
+    def _found(self, request: Request, check: Callable[[], None]) -> tuple[Explored, state.Shown, str, int, int, str]:
         """The state that is asked for, its branch, which of how many, and what is to be said of the choice."""
         found = self.explored(request, check)
         load, asked, which = request.get("load"), request.get("branch") or "", request.get("which") or 0
@@ -160,9 +186,11 @@ class Engine:
             if isinstance(value, bool) or not isinstance(value, int):
                 raise InputError(name, value, "must be a whole number")
         if asked and asked != STRAIGHT and request.get("special") is not None:
+            if found.path is not None and asked in off_wall.LEGS.values():
+                return self._event(found, asked, int(request["special"]))
             return self._special(found, asked, int(request["special"]))
         force, note = found.force(float(load)), ""
-        name = asked or found.computed.first.name
+        name = asked or self._usual(found, force)
         states = state.states_of(found, name, force)
         if not states:
             if asked:
@@ -172,7 +200,15 @@ class Engine:
         return found, states[which], name, which, len(states), note
 
     @staticmethod
-    def _special(found: Explored, name: str, number: int) -> tuple[Explored, Solution, str, int, int, str]:
+    def _usual(found: Explored, force: float) -> str:
+        """The branch that a rod follows as the load grows: past lift-off its load path, where that is known."""
+        lift = found.computed.lift_off
+        if found.path is not None and lift is not None and force < lift.force:
+            return off_wall.LEGS[LOADING]
+        return found.computed.first.name
+
+    @staticmethod
+    def _special(found: Explored, name: str, number: int) -> tuple[Explored, state.Shown, str, int, int, str]:
         """A special point of a branch, as it was located."""
         state.states_of(found, name, 0.0)  # raises where there is no such branch
         points = found[name].special_points
@@ -184,6 +220,19 @@ class Engine:
         error = error_digit(found.load_unit[0] * point.error)
         note = f"{what[:1].upper()}{what[1:]} of {name}, known to ± {error} {found.load_unit[1]}"
         return found, point.solution, name, 0, 1, f"{note}; {index}."
+
+    @staticmethod
+    def _event(found: Explored, name: str, number: int) -> tuple[Explored, state.Shown, str, int, int, str]:
+        """An event of the load path."""
+        assert found.path is not None
+        events = off_wall.events_of(found.path, name)
+        if not 0 <= number < len(events):
+            raise InputError("special", number, f"must be from 0 to {len(events) - 1}: {name} has no more")
+        event = events[number]
+        assert event.state is not None
+        error = error_digit(found.load_unit[0] * event.force.error)
+        note = f"{event.meaning[:1].upper()}{event.meaning[1:]}: the load is known to ± {error} {found.load_unit[1]}."
+        return found, event.state, name, 0, 1, note
 
     def _state(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         found, solution, name, which, count, note = self._found(request, check)

@@ -14,6 +14,8 @@ from rodwell.analysis.branch.exploring import Exploration, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.path.events import Leg, PathPoint
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
@@ -23,6 +25,7 @@ from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 from rodwell.report.reports.texts import KINDS
+from rodwell.web import off_wall
 
 STRAIGHT = "straight"
 """Name of the straight rod among the branches."""
@@ -51,6 +54,8 @@ class Explored:
     unit
         Factor from B/L² to the unit of loads on the page, and that unit: that of the case to begin with, so that it
         stays while inputs move. None: the one that suits these branches.
+    path, no_path
+        The load path beyond lift-off where it was asked for; or why there is none.
     """
 
     data: Mapping[str, Any]
@@ -58,6 +63,8 @@ class Explored:
     branches: tuple[Branch, ...]
     unexplored: tuple[str, ...] = ()
     unit: tuple[float, str] | None = None
+    path: LoadPath | None = None
+    no_path: str = ""
 
     @property
     def case(self) -> Case:
@@ -93,7 +100,9 @@ class Explored:
 
     def ordinates(self, at: Mapping[Measured, float]) -> dict[str, float]:
         """Measured numbers as the ordinates show them, by name."""
-        return {name: float(at[which]) * self.factors[which][0] for which, (name, _) in ORDINATES.items()}
+        return {
+            name: float(at[which]) * self.factors[which][0] for which, (name, _) in ORDINATES.items() if which in at
+        }
 
     def __getitem__(self, name: str) -> Branch:
         return next(branch for branch in self.branches if branch.name == name)
@@ -102,7 +111,8 @@ class Explored:
     def range(self) -> tuple[float, float]:
         """Least and largest load as shown: from the unloaded rod, or some tension, to the end of the first branch."""
         buckles, last = self.shown(self.computed.buckling.value), self.shown(float(self.computed.first.force.min()))
-        return min(0.0, buckles - 0.4 * (last - buckles)), last
+        low = min(0.0, buckles - 0.4 * (last - buckles))
+        return low, last if self.path is None else max(last, self.shown(off_wall.farthest(self.path)))
 
     @property
     def suggested(self) -> float:
@@ -127,15 +137,28 @@ class Explored:
             "ordinate": ORDINATES[chosen][0],
             "range": low_high,
             "suggested": self.suggested,
-            "buckles": self._load(self.computed.buckling),
-            "lifts_off": None if lift is None else self._load(lift),
+            "buckles": self.load_data(self.computed.buckling),
+            "lifts_off": None if lift is None else self.load_data(lift),
             "straight": self._straight(),
-            "branches": [self._branch(branch) for branch in self.branches],
+            "branches": [
+                *(self._branch(branch) for branch in self.branches),
+                *([] if self.path is None else [self._leg(self.path, leg) for leg in self.path.legs if any(leg.runs)]),
+            ],
+            "snaps_at": self._snap(),
             "unexplored": list(self.unexplored),
             "rtol": self.case.rtol,
         }
 
-    def _load(self, load: Value) -> dict[str, Any]:
+    def _snap(self) -> dict[str, Any]:
+        """Where the rod snaps first as the load grows, or what is known instead, in words."""
+        if self.path is None:
+            return {"text": self.no_path, "load": None}
+        snap = off_wall.snaps_at(self.path)
+        if snap is not None:
+            return self.load_data(snap.force) | {"to": snap.meaning}
+        return {"text": f"not up to {self.load_data(Value(off_wall.farthest(self.path)))['text']}", "load": None}
+
+    def load_data(self, load: Value) -> dict[str, Any]:
         """A load as shown, in B/L², and in words: compression or tension by that word, or with its sign."""
         compression = self.forces.compression(load)
         text = f"{amount(compression, 6)} B/L²{self.forces.at_end}"
@@ -148,7 +171,7 @@ class Explored:
 
     def _straight(self) -> dict[str, Any]:
         """The straight rod: where it meets its modes."""
-        met = [self._load(mode.load) | {"mode": mode.number} for mode in self.computed.critical]
+        met = [self.load_data(mode.load) | {"mode": mode.number} for mode in self.computed.critical]
         return {"name": STRAIGHT, "critical": met, "buckles": self.shown(self.computed.buckling.value)}
 
     def _branch(self, branch: Branch) -> dict[str, Any]:
@@ -175,15 +198,47 @@ class Explored:
             "y": lines,
             "images": images,
             "index": [index for _, _, index, _ in states],
-            "off": off_wall(branch, states),
+            "off": beyond_lift_off(branch, states),
             "special": [self._special(branch, point) for point in branch.special_points],
             "ended": branch.ending,
             "reached": branch.reached_end,
             "converged": all(s.accurate for s in branch),
         }
 
+    def _leg(self, path: LoadPath, leg: Leg) -> dict[str, Any]:
+        """A leg of the load path as a branch; ``breaks`` are vertices to which a snap leads."""
+        runs, name = [run for run in leg.runs if run], off_wall.LEGS[leg.name]
+        states = [state for run in runs for state in run]
+        return {
+            "name": name,
+            "mode": None,
+            "parent": "",
+            "load": [self.shown(state.load) for state in states],
+            "y": _columns([self.ordinates(off_wall.ordinates(state)) for state in states]),
+            "images": [],
+            "index": [state.solved.index for state in states],
+            "off": [False] * len(states),
+            "breaks": np.cumsum([len(run) for run in runs])[:-1].tolist(),
+            "special": [self._event(event) for event in off_wall.events_of(path, name)],
+            "ended": path.ended_because,
+            "reached": path.reached,
+            "converged": not path.missed,
+        }
+
+    def _event(self, event: PathPoint) -> dict[str, Any]:
+        assert event.state is not None
+        return self.load_data(event.force if event.to is None else event.to.force) | {
+            "kind": event.kind,
+            "label": event.meaning,
+            "y": self.ordinates(off_wall.ordinates(event.state.fine)),
+            "index_before": None,
+            "index_after": event.state.stability_index,
+            "s": list(event.s),
+            "converged": event.met,
+        }
+
     def _special(self, branch: Branch, point: SpecialPoint) -> dict[str, Any]:
-        return self._load(point.load) | {
+        return self.load_data(point.load) | {
             "kind": point.kind,
             "label": KINDS[point.kind],
             "y": self.ordinates({which: point.solution.number(which).value for which in Measured}),
@@ -198,7 +253,7 @@ def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
-def off_wall(branch: Branch, states: list[Any]) -> list[bool]:
+def beyond_lift_off(branch: Branch, states: list[Any]) -> list[bool]:
     """Whether the wall would have to pull beyond each vertex, in the order of travel."""
     first = states[0][1]
     off = branch.lift_off_at_buckling or first[Measured.P_MAX] > NO_PULL * branch.problem.lateral_weight

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.state import ContactState
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.report.folders.export import export
@@ -28,7 +29,7 @@ KINDS = {
 """Kinds of files by suffix."""
 
 
-def file_of(explored: Explored, solution: Solution, suffix: str) -> Written:
+def file_of(explored: Explored, solution: Solution | ContactState, suffix: str) -> Written:
     """Return a file of a state, by its suffix.
 
     "glb", "png", "svg" and "html" show the rod in its cylinder, "csv" has fields along the rod with units in the head,
@@ -37,14 +38,18 @@ def file_of(explored: Explored, solution: Solution, suffix: str) -> Written:
     Raises
     ------
     InputError
-        For a suffix that is not known.
+        For a suffix that is not known, or "nc" of a state off the wall.
     """
-    writers: dict[str, Callable[[], bytes]] = {
-        "csv": partial(_table, explored, solution),
-        "nc": partial(_through_file, "state.nc", partial(_netcdf, explored, solution)),
-        "toml": partial(_case_text, explored, solution),
-    }
-    for picture in ("glb", "png", "svg", "html"):
+    writers: dict[str, Callable[[], bytes]] = {"toml": partial(_case_text, explored, solution.force)}
+    through_export = ["glb", "png", "svg", "html"]
+    if isinstance(solution, ContactState):
+        through_export.append("csv")
+        if suffix == "nc":
+            raise InputError("file", suffix, "holds states on the wall: save CSV for a rod that may have left it")
+    else:
+        writers["csv"] = partial(_table, explored, solution)
+        writers["nc"] = partial(_through_file, "state.nc", partial(_netcdf, explored, solution))
+    for picture in through_export:
         write = partial(export, solution, scales=explored.case.scales)
         writers[picture] = partial(_through_file, f"rod.{picture}", write)
     if suffix not in writers:
@@ -82,8 +87,8 @@ def _table(explored: Explored, solution: Solution) -> bytes:
     return text.getvalue().encode()
 
 
-def _case_text(explored: Explored, solution: Solution) -> bytes:
-    return case_data(explored, solution.force)[1].encode()
+def _case_text(explored: Explored, force: float) -> bytes:
+    return case_data(explored, force)[1].encode()
 
 
 def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:

@@ -30,10 +30,10 @@ def serve(start: Start, port: int, opened: Callable[[str], None]) -> None:
     InputError
         If the case cannot be used, the port is taken, or the extra ``rodwell[explore]`` is not installed.
     """
-    from rodwell.web.desk import Desk  # noqa: PLC0415 - after the extra was asked for
+    from rodwell.web.desks import Desks  # noqa: PLC0415 - after the extra was asked for
 
     listening = _listening(port)
-    desk = Desk(start)  # its process begins while this one imports
+    desk = Desks(start)  # its process begins while this one imports
     try:
         import uvicorn  # noqa: PLC0415
 

@@ -1,7 +1,7 @@
 """One state of what was computed: found, and put into numbers, curves and a scene for the page.
 
-Every state that the page shows comes from :func:`states_of`: states that come from elsewhere, as those of a rod off the
-wall, have their place there.
+Every state that the page shows comes from :func:`states_of`: on branches of the rod on the wall, and on its load path,
+where it may have left it.
 """
 
 from __future__ import annotations
@@ -12,14 +12,18 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.off_wall.certificate import LIMIT
+from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.space.scene import drawn
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.plots.units import axis
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.text import number_text, plain
 from rodwell.quantities.value import Peak, Value
+from rodwell.report.pages.path import described
 from rodwell.report.pages.viewer import view
 from rodwell.report.reports.texts import PLAIN_UNITS
+from rodwell.web import off_wall
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
 
 PLACES, SIDES = 241, 12
@@ -31,7 +35,10 @@ ALONG = 201
 DIGITS = 6
 
 
-def states_of(explored: Explored, branch: str, force: float) -> tuple[Solution, ...]:
+Shown = Solution | ContactState
+
+
+def states_of(explored: Explored, branch: str, force: float) -> tuple[Shown, ...]:
     """Return the states of a branch at an end force F in B/L², in order of travel; none if it does not pass there.
 
     Raises
@@ -47,6 +54,8 @@ def states_of(explored: Explored, branch: str, force: float) -> tuple[Solution, 
         if point is None:
             raise NotConvergedError(f"the straight rod could not be computed at F = {force:g} B/L²")
         return (Solution(start.problem, point, start.meshes),)
+    if explored.path is not None and branch in off_wall.LEGS.values():
+        return off_wall.states_at(explored.path, branch, force)
     if branch not in {known.name for known in explored.branches}:
         names = ", ".join([STRAIGHT, *(known.name for known in explored.branches)])
         raise InputError("branch", branch, f"must be one of {names}")
@@ -64,7 +73,7 @@ KNOWN = ("rod", "material line", "cylinder")
 
 
 def plain_state(
-    explored: Explored, solution: Solution, branch: str, which: int, count: int, *, known: bool = False
+    explored: Explored, solution: Shown, branch: str, which: int, count: int, *, known: bool = False
 ) -> dict[str, Any]:
     """Return a state as plain data: numbers with errors, curves along the rod, the scene.
 
@@ -77,28 +86,54 @@ def plain_state(
     known
         Whether the page knows the triangles of the scene from a state before: they are left out then.
     """
-    push, scales = solution.largest("contact_pressure"), explored.case.scales
-    off = is_off(solution, push.value)
-    seen = view(solution, scales, drawn(solution, scales, PLACES), SIDES, readings=False)
+    scales = explored.case.scales
+    shown = solution.fine if isinstance(solution, ContactState) else solution
+    seen = view(shown, scales, drawn(shown, scales, PLACES), SIDES, readings=False)
     for part in seen.data["parts"] if known else ():
         if part["name"].startswith(KNOWN):
             del part["triangles"]
-    return {
+    if isinstance(solution, ContactState):
+        own = _off_the_wall(explored, solution, branch)
+    else:
+        own = _on_the_wall(explored, solution, branch)
+    return own | {
         "branch": branch,
         "which": which,
         "count": count,
         "force": solution.force,
         "load": explored.shown(solution.force),
         "index": solution.stability_index,
-        "stable": solution.stable,
+        "stable": solution.stability_index == 0,
+        "curves": curves(explored, solution),
+        "scene": seen.data,
+        "bar": seen.bar,
+    }
+
+
+def _on_the_wall(explored: Explored, solution: Solution, branch: str) -> dict[str, Any]:
+    push = solution.largest("contact_pressure")
+    off = is_off(solution, push.value)
+    return {
         "off": off,
+        "beyond": False,
         "accurate": solution.accurate,
         "headline": headline(explored, solution, branch, off),
         "values": numbers(explored, solution, push),
         "y": explored.ordinates({which: solution.number(which).value for which in Measured}),
-        "curves": curves(explored, solution),
-        "scene": seen.data,
-        "bar": seen.bar,
+    }
+
+
+def _off_the_wall(explored: Explored, state: ContactState, branch: str) -> dict[str, Any]:
+    load = explored.forces.load(Value(state.force))
+    known = off_wall.numbers(state)
+    return {
+        "off": False,
+        "beyond": True,
+        "accurate": state.certificate.passed,
+        "headline": f"{branch} at {load}: {described(state.fine, explored.case.scales)}",
+        "values": {"force": _force(explored, state.force)}
+        | {name: _number(explored, label, of, value, s) for name, (label, of, value, s) in known.items()},
+        "y": explored.ordinates(off_wall.ordinates(state.fine)),
     }
 
 
@@ -127,14 +162,8 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
     angle, torque = solution.largest("xi2"), solution.number("support_torque")
     pulled = float(solution.fields(np.array([push.s]))["contact_pressure"][0]) > 0.0
     contact = "largest pull that the wall would have to give" if pulled else "largest push on the wall"
-    forces = explored.forces
-    factor, unit = explored.load_unit
-    compression = forces.compression(Value(solution.force))
     out = {
-        "force": {
-            "label": forces.axis, "value": solution.force, "error": 0.0, "shown": compression.value * factor,
-            "unit": unit, "text": f"{plain(compression.value * factor, 10)} {unit}",
-        },
+        "force": _force(explored, solution.force),
         "largest_push": _number(explored, contact, "contact_pressure", push, push.s),
         "largest_angle": _angle("largest angle around the hole", angle, angle.s),
         "T2": _number(explored, "torque on the hole at s = 0, T₂(0)", "support_torque", torque),
@@ -142,6 +171,13 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
     for name, label in OTHERS.items():
         out[name] = _number(explored, f"{label} {QUANTITIES[name].symbol}", name, solution.number(name))
     return out
+
+
+def _force(explored: Explored, force: float) -> dict[str, Any]:
+    factor, unit = explored.load_unit
+    compression = explored.forces.compression(Value(force)).value * factor
+    return {"label": explored.forces.axis, "value": force, "error": 0.0, "shown": compression, "unit": unit,
+            "text": f"{plain(compression, 10)} {unit}"}  # fmt: skip
 
 
 def _number(explored: Explored, label: str, name: str, number: Any, s: float | None = None) -> dict[str, Any]:
@@ -165,22 +201,30 @@ def _angle(label: str, number: Any, s: float) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def curves(explored: Explored, solution: Solution) -> dict[str, Any]:
-    """Push on the wall and place around it along the rod, in the units shown."""
+def curves(explored: Explored, solution: Shown) -> dict[str, Any]:
+    """Push on the wall and place around it along the rod, in the units shown; the gap of a rod off the wall."""
     s = np.linspace(0.0, 1.0, ALONG)
     fields, scales = solution.fields(s), explored.case.scales
     along, along_unit = (1.0, "L") if scales is None else axis("y", scales, 1.0)
     push = -fields["contact_pressure"]
     factor, unit = axis("contact_pressure", scales, float(np.abs(push).max()))
-    return {
+    if isinstance(solution, ContactState):
+        gap, far = explored.case.problem.clearance * fields["gap"], axis("z", scales, explored.case.problem.clearance)
+        more = {"gap": {"label": "gap", "unit": far[1], "values": (gap * far[0]).tolist()}}
+        side = np.unwrap(fields["angle"])
+    else:
+        more, side = {}, fields["xi2"]
+    return more | {
         "s": {"label": "s from the end s = 0", "unit": along_unit, "values": (s * along).tolist()},
         "push": {"label": "push on the wall", "unit": unit, "values": (push * factor).tolist()},
-        "side": {"label": "angle around the hole", "unit": "°", "values": np.degrees(fields["xi2"]).tolist()},
+        "side": {"label": "angle around the hole", "unit": "°", "values": np.degrees(side).tolist()},
     }
 
 
-def details(explored: Explored, solution: Solution) -> dict[str, Any]:
+def details(explored: Explored, solution: Shown) -> dict[str, Any]:
     """What a click asks for: index, certificate, whether the tolerance is met, the supports' loads."""
+    if isinstance(solution, ContactState):
+        return _details_off_the_wall(explored, solution)
     certificate, wall = solution.certificate, solution.wall
     return {
         "index": solution.stability_index,
@@ -195,3 +239,18 @@ def details(explored: Explored, solution: Solution) -> dict[str, Any]:
             "torque": wall.meaning,
         },
     }  # fmt: skip
+
+
+def _details_off_the_wall(explored: Explored, state: ContactState) -> dict[str, Any]:
+    known = state.certificate
+    worst = max(known.residuals, key=lambda name: known.residuals[name])
+    return {
+        "index": state.stability_index,
+        "converged": known.passed,
+        "rtol": explored.case.rtol,
+        "certificate": {"worst": known.worst, "equation": worst, "limit": LIMIT, "passed": known.passed},
+        "wall": {
+            "total": _number(explored, "contact force, all directions added", "force", state.contact_total),
+            "torque": "contact is complete" if state.fine.pattern.full else "partial contact",
+        },
+    }

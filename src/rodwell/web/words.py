@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.off_wall.state import ContactState
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.verdict import verdict
 from rodwell.case.applied import AppliedLoad
 from rodwell.problem.problem import Problem
 from rodwell.web.explored import STRAIGHT, Explored
 from rodwell.web.files import case_data
+from rodwell.web.off_wall import leg_of
+from rodwell.web.state import Shown
 
 
 def sentence(explored: Explored, force: float) -> str:
@@ -23,10 +25,22 @@ def sentence(explored: Explored, force: float) -> str:
     return verdict(Answer(case, found.critical, found.branches, found.until, found.other_arm).assessment)
 
 
-def as_python(explored: Explored, solution: Solution, branch: str, which: int) -> str:
+def as_python(explored: Explored, solution: Shown, branch: str, which: int) -> str:
     """Return a script that computes the state that is shown."""
     problem, found = explored.case.problem, explored.computed
     lines = ["import rodwell", "", f"problem = {_call(problem)}"]
+    if explored.path is not None and isinstance(solution, ContactState):
+        path = explored.path
+        mirror = ", mirror=True" if path.mirror else ""
+        lines += [
+            f"path = rodwell.load_path(problem, until={path.until!r}, unload_to={path.unload_to!r}{mirror}, "
+            f"rtol={path.rtol!r})",
+            f"states = path.at({solution.force!r})  # F at s = 1 in B/L², tension positive",
+            f"state = next(one.state for one in states if one.leg == {leg_of(branch)!r})",
+            "print(state, state.stability_index, state.certificate)",
+            "print(state.gaps, state.point_forces, state.contact_total)",
+        ]
+        return "\n".join(lines) + "\n"
     if branch == STRAIGHT:
         lines += [f"critical = rodwell.critical_loads(problem, {len(found.critical)}, rtol={explored.case.rtol!r})",
                   f"force = {solution.force!r}  # end force F at s = 1 in B/L², tension positive",
@@ -61,7 +75,7 @@ def _call(problem: Problem) -> str:
     return f"rodwell.Problem({', '.join(given)})"
 
 
-def as_command(explored: Explored, solution: Solution) -> str:
+def as_command(explored: Explored, solution: Shown) -> str:
     """Return the command that computes the same: of a case in its file, of plain numbers as options."""
     problem = explored.case.problem
     if explored.case.scales is not None:
@@ -69,11 +83,15 @@ def as_command(explored: Explored, solution: Solution) -> str:
     options = [f"--weight {problem.weight!r}", f"--alpha {problem.alpha!r}", f"--clearance {problem.clearance!r}"]
     options += [f"--twist {problem.twist!r}"] if problem.twist else []
     options += [f"--ends {'-'.join(problem.ends)}"] if problem.ends != ("clamped", "clamped") else []
+    if explored.path is not None and isinstance(solution, ContactState):
+        path = explored.path
+        way = f"--until {path.until!r} --unload-to {path.unload_to!r}"
+        return f"rodwell path {' '.join(options)} {way} --at {solution.force!r}"
     many = len(explored.computed.critical)
     return f"rodwell diagram {' '.join(options)} --modes {many} --until {explored.computed.until!r}"
 
 
-def snippets(explored: Explored, solution: Solution, branch: str, which: int) -> dict[str, Any]:
+def snippets(explored: Explored, solution: Shown, branch: str, which: int) -> dict[str, Any]:
     """Return what can be copied."""
     return {
         "python": as_python(explored, solution, branch, which),

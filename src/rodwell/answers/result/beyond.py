@@ -118,7 +118,7 @@ def beyond(computed: Computed) -> Beyond:
         return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
 
     case, section = computed.case, rod_section(computed.case)
-    until, back = _range(computed)
+    until, back = reach(computed)
     try:
         path = load_path(
             case.problem, until=until, unload_to=back, mirror=computed.first.origin.mirror, rtol=case.rtol,
@@ -133,8 +133,8 @@ def beyond(computed: Computed) -> Beyond:
     return Beyond(path, "", events, applied)
 
 
-def _range(computed: Computed) -> tuple[float, float]:
-    """End forces to which the rod is loaded, and unloaded."""
+def reach(computed: Computed) -> tuple[float, float]:
+    """End forces at s = 1 in B/L² to which the rod is loaded, and unloaded."""
     case, lift = computed.case, computed.lift_off
     assert lift is not None
     half = 0.5 * case.problem.axial_weight

@@ -26,6 +26,7 @@ from rodwell.plots.paths.path import units_of
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.forces import Forces
+from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
 from rodwell.report.pages.templates import HERE, template
 from rodwell.report.pages.viewer import View, view, viewer
@@ -128,7 +129,11 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
 
 def words(frame: Frame, said: Forces) -> str:
     """What is shown, in one line."""
-    state = frame.state
+    return f"{frame.leg}, {said.label(frame.state.load)}: {described(frame.state, said.scales)}"
+
+
+def described(state: PatternedState, scales: Scales | None) -> str:
+    """What a state is: its kind, gaps, the largest point force, stability."""
     turns = turns_of(state.model, sampler(state.solved.shape))
     kind, numbers = kind_of(state, turns), measured(state)
     parts = [f"{kind} of {abs(turns)} turn{'s' if abs(turns) != 1 else ''}" if kind == HELIX else kind]
@@ -137,10 +142,10 @@ def words(frame: Frame, said: Forces) -> str:
         parts.append(f"{len(gaps)} gap{'s' if len(gaps) != 1 else ''} up to {plain(max(gaps), 3)} of the clearance")
     if numbers.points.size:
         largest = float(np.max(np.abs(numbers.points)))
-        text = f"{plain(largest, 3)} B/L²" if said.scales is None else said.scales.text(largest, "force", 3)
+        text = f"{plain(largest, 3)} B/L²" if scales is None else scales.text(largest, "force", 3)
         parts.append(f"largest point force {text}")
     parts.append("stable" if state.solved.index == 0 else f"unstable (index {state.solved.index})")
-    return f"{frame.leg}, {said.label(state.load)}: {', '.join(parts)}"
+    return ", ".join(parts)
 
 
 def _at(frame: Frame, path: LoadPath, case: Case | None) -> dict[str, float]:

@@ -1,6 +1,6 @@
 // The state of the page in its address: everything that is shown, so that an address can be pasted and Back works.
 
-export const FREE = ["load", "branch", "which", "special", "y", "until", "scale"];
+export const FREE = ["load", "branch", "which", "special", "y", "until", "path", "scale"];
 
 export function written(state, hello) {
   const out = new URLSearchParams();
@@ -15,7 +15,7 @@ export function begun(hello) {
   const inputs = Object.fromEntries(hello.controls.map((control) => [control.name, control.value]));
   return {
     inputs: { ...inputs, ends: hello.ends, modes: hello.modes },
-    load: null, branch: "", which: 0, special: null, y: "", until: null, scale: "",
+    load: null, branch: "", which: 0, special: null, y: "", until: null, path: "", scale: "",
   };
 }
 
@@ -29,6 +29,7 @@ export function read(hash, hello) {
     else if (name === "modes") state.inputs.modes = whole(name, text, 1, hello.most_modes);
     else if (name === "load" || name === "until") state[name] = number(name, text);
     else if (name === "which" || name === "special") state[name] = whole(name, text, 0, 999);
+    else if (name === "path") state.path = oneOf(name, text, ["followed"]);
     else if (name === "scale") state.scale = oneOf(name, text, ["true"]);
     else if (name === "branch" || name === "y") state[name] = text.slice(0, 80);
     else throw new Error(`${name} is not known`);

@@ -58,9 +58,9 @@ export class Curves {
     this.place = place;
     Object.keys(this.boxes).forEach((name) => this.mark(name));
     if (place === null || !this.data) return;
-    const { s, push, side } = this.data;
+    const { s, push, side, gap } = this.data;
     const say = (each) => `${short(each.values[place])} ${each.unit}`.replace(" °", "°");
-    this.told(place / (s.values.length - 1), `s = ${say(s)}: push ${say(push)}, angle ${say(side)}`);
+    this.told(place / (s.values.length - 1), `s = ${say(s)}: push ${say(push)}, angle ${say(side)}${gap ? `, gap ${say(gap)}` : ""}`);
   }
 
   mark(name) {

@@ -28,7 +28,8 @@ export class Diagram {
   draw() {
     if (!this.data || !this.box.clientWidth) return;
     const { data, ordinate } = this, named = data.ordinates.find((each) => each.name === ordinate);
-    const heights = data.branches.flatMap((b) => [...b.y[ordinate], ...b.images.flatMap((image) => image[ordinate])]);
+    const branches = data.branches.filter((b) => b.y[ordinate]); // a rod off the wall does not have every number
+    const heights = branches.flatMap((b) => [...b.y[ordinate], ...b.images.flatMap((image) => image[ordinate])]);
     const x = { low: data.range[0], high: data.range[1], label: `${data.axis.label}  [${data.axis.unit}]` };
     const span = x.high - x.low;
     x.low -= 0.02 * span;
@@ -46,21 +47,21 @@ export class Diagram {
     straight.append(line([[at.px(edge), at.py(rest)], [at.px(x.high), at.py(rest)]], "unstable"));
     this.branch(straight, "straight", "straight rod, stable until it buckles", [[x.low, rest], [edge, rest], [x.high, rest]], at);
 
-    data.branches.forEach((b, i) => {
-      const group = element("g", { class: `m${Math.min(b.mode || 6, 6)}` });
+    branches.forEach((b) => {
+      const group = element("g", { class: b.breaks ? "beyond" : `m${Math.min(b.mode || 6, 6)}` });
       for (const image of b.images) {
         const mirrored = element("g", { class: "image", "aria-hidden": "true" });
         pieces(b).forEach(([kind, from, to]) => mirrored.append(line(range(from, to).map((k) => [at.px(b.load[k]), at.py(image[ordinate][k])]), kind)));
         group.append(mirrored);
       }
       pieces(b).forEach(([kind, from, to]) => group.append(line(range(from, to).map((k) => [at.px(b.load[k]), at.py(b.y[ordinate][k])]), kind)));
-      this.branch(group, b.name, told(b, i, data), b.load.map((load, k) => [load, b.y[ordinate][k]]), at);
+      this.branch(group, b.name, told(b, data.branches.indexOf(b), data), b.load.map((load, k) => [load, b.y[ordinate][k]]), at);
     });
-    data.branches.forEach((b) => b.special.forEach((p, k) => {
+    branches.forEach((b) => b.special.forEach((p, k) => {
       if (p.kind === "end") return;
       const size = p.kind === "lift_off" ? 5.5 : 4.5, cx = at.px(p.load), cy = at.py(p.y[ordinate]);
-      const where = { class: `special ${p.kind} m${Math.min(b.mode || 6, 6)}`, tabindex: "0", role: "button", "data-key": `${b.name}/${k}`, "aria-label": `${p.label} of ${b.name} at ${p.text}, index ${p.index_before} to ${p.index_after}` };
-      const shape = p.kind === "critical" || p.kind === "fold" ? element("rect", { x: cx - size, y: cy - size, width: 2 * size, height: 2 * size, ...where }) : element("circle", { cx, cy, r: size, ...where });
+      const where = { class: `special ${p.kind} ${b.breaks ? "beyond" : `m${Math.min(b.mode || 6, 6)}`}`, tabindex: "0", role: "button", "data-key": `${b.name}/${k}`, "aria-label": `${p.label} of ${b.name} at ${p.text}, index ${p.index_before === null ? "" : `${p.index_before} to `}${p.index_after}` };
+      const shape = ["critical", "fold", "snap"].includes(p.kind) ? element("rect", { x: cx - size, y: cy - size, width: 2 * size, height: 2 * size, ...where }) : element("circle", { cx, cy, r: size, ...where });
       shape.append(element("title", {}, `${p.label}: ${p.text}`));
       this.active(shape, () => this.chosen({ branch: b.name, load: p.load, which: 0, special: k }));
       at.svg.append(shape);
@@ -105,6 +106,11 @@ function pieces(b) {
   const out = [];
   let from = 0;
   for (let k = 1; k < b.load.length; k++) {
+    if (b.breaks?.includes(k)) { // a snap leads here
+      if (k - 1 > from) out.push([kind(from), from, k - 1]);
+      from = k;
+      continue;
+    }
     if (k === b.load.length - 1 || kind(k) !== kind(from)) { out.push([kind(from), from, k]); from = k; }
   }
   return out;

@@ -24,6 +24,8 @@ export function keys(page) {
       const number = Number(event.key), b = page.diagram().branches[number - 1];
       if (number === 0) page.go(page.chosen({ branch: "straight", load: null }), true);
       else if (b) page.go(page.chosen({ branch: b.name, load: null }), true);
+    } else if (event.key === "b" || event.key === "B") {
+      page.beyond();
     } else if (event.key === "p" || event.key === "P") {
       page.play();
     }

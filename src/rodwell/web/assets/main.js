@@ -37,7 +37,7 @@ const link = new Link(heard, (isLost) => {
 function heard(message) {
   if (message.kind === "hello") begin(message);
   else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
-  else if (message.kind === "diagram") haveDiagram(message);
+  else if (message.kind === "diagram" || message.kind === "path") haveDiagram(message);
   else if (message.kind === "state") haveState(message);
   else if (message.kind === "verdict") haveVerdict(message);
   else if (message.kind === "details") showDetails(message.details);
@@ -100,7 +100,7 @@ function within(name, at) {
 }
 
 function wanted() {
-  return { inputs: address.moved(state.inputs, hello), until: state.until };
+  return { inputs: address.moved(state.inputs, hello), until: state.until, path: withPath };
 }
 
 function show() {
@@ -108,18 +108,28 @@ function show() {
   $("ends").value = state.inputs.ends;
   $("modes").value = state.inputs.modes;
   $("branch").value = state.branch;
+  $("beyond").setAttribute("aria-pressed", String(state.path !== ""));
   hooks.state = state;
-  const of = JSON.stringify(wanted());
-  if (of !== diagramOf) {
+  const of = JSON.stringify([address.moved(state.inputs, hello), state.until]);
+  if (of !== diagramOf || (withPath && !state.path)) {
     stale();
-    link.drop("state", "verdict", "details");
+    link.drop("state", "verdict", "details", "path");
     link.ask("diagram", wanted());
     pending = of;
   } else {
     askState();
+    if (state.path && !withPath && !link.newest.path) askPath();
   }
 }
+
+// The rod off the wall: computed beside, while states on the wall are shown.
+function askPath() {
+  $("busy").textContent = "beyond lift-off …";
+  hooks.ready = false;
+  link.ask("path", { ...wanted(), path: true });
+}
 let pending = "";
+let withPath = false; // whether the diagram shown has the load path
 
 // Pictures turn pale, numbers go.
 function stale() {
@@ -128,15 +138,16 @@ function stale() {
   hooks.values = null;
   shown = null;
   diagramOf = "";
+  withPath = false;
   figure.point(null);
   curves.data = null;
 }
 
-function haveDiagram({ diagram: data, whole }) {
+function haveDiagram({ diagram: data, whole, of }) {
   diagram = data;
-  diagramOf = pending;
+  if (of === "path") { withPath = true; link.newest.path = null; } else diagramOf = pending;
   document.body.classList.remove("updating");
-  $("busy").textContent = whole ? "" : "secondary branches …";
+  $("busy").textContent = whole ? "" : "more is computed …";
   if (!state.y || !data.ordinates.some((each) => each.name === state.y)) state.y = data.ordinate;
   if (state.load === null) {
     state.load = data.suggested;
@@ -151,10 +162,12 @@ function haveDiagram({ diagram: data, whole }) {
   document.querySelector("#load-control label").textContent = data.axis.label;
   $("buckles").textContent = data.buckles.text;
   $("lifts-off").textContent = data.lifts_off ? data.lifts_off.text : "not reached";
+  $("snaps").textContent = data.snaps_at.text || (state.path ? "…" : "not followed");
   $("to-lift-off").disabled = !data.lifts_off;
   $("convention").textContent = `${data.convention}.${data.unexplored.length ? ` Not explored: ${data.unexplored.join("; ")}.` : ""}`;
   figure.show(data, state.y, shown);
   if (whole || shown === null) askState();
+  if (whole && state.path && !withPath) askPath();
 }
 
 function askState() {
@@ -197,7 +210,8 @@ function haveState({ state: found }) {
 function settled() {
   if (shown === null) return;
   const request = { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special };
-  if (state.special === null) link.ask("verdict", request); // at a special point the line that says which one stays
+  // at a special point the line that says which one stays; verdicts are those of a rod on the wall
+  if (state.special === null && !shown.beyond) link.ask("verdict", request);
   link.ask("details", request);
   if (!rod) link.ask("file", { ...request, suffix: "png" });
   stills = rod ? 0 : 1;
@@ -250,6 +264,7 @@ function haveFile({ suffix, type, content }) {
 function failed(message) {
   $("busy").textContent = "";
   say(message.message);
+  if (message.of === "path") link.newest.path = null;
   if (message.of === "state" || message.of === "diagram") {
     shown = null;
     hooks.values = null;
@@ -274,6 +289,8 @@ $("to-lift-off").onclick = () => {
   if (k >= 0) go({ branch: b.name, which: 0, special: k, load: b.special[k].load }, true);
   else if (diagram?.lifts_off) go({ branch: "", which: 0, special: null, load: diagram.lifts_off.load }, true);
 };
+const beyond = () => go(state.path ? { path: "", branch: "", which: 0, special: null } : { path: "followed", branch: "", which: 0, special: null }, true);
+$("beyond").onclick = beyond;
 $("ends").onchange = () => go({ inputs: { ...state.inputs, ends: $("ends").value }, special: null, until: null, branch: "", which: 0 }, true);
 $("modes").onchange = () => {
   const value = $("modes").valueAsNumber;
@@ -291,4 +308,4 @@ addEventListener("popstate", () => {
   if (rod && $("true-scale").checked !== (state.scale === "true")) { $("true-scale").checked = state.scale === "true"; $("true-scale").onchange?.(); }
   if (diagram && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
 });
-keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!player.since), step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });
+keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!player.since), beyond, step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });

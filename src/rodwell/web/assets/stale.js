@@ -7,7 +7,7 @@ const $ = (id) => document.getElementById(id);
 export function clear() {
   document.body.classList.add("updating");
   $("busy").textContent = "updating …";
-  for (const id of ["buckles", "lifts-off", "now", "headline", "verdict"]) $(id).textContent = "…";
+  for (const id of ["buckles", "lifts-off", "snaps", "now", "headline", "verdict"]) $(id).textContent = "…";
   showNumbers(null);
   document.querySelectorAll("#diagram text, #push text, #side text").forEach((text) => text.remove());
   document.querySelectorAll("#diagram .special, #diagram .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); each.querySelector("title")?.remove(); });

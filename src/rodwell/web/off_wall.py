@@ -1,0 +1,128 @@
+"""The rod off the wall for the page: its load path as two more branches, and states on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.measured import position
+from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.events import LOADING, SNAP, UNLOADING, Leg, PathPoint
+from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.answers.result.beyond import reach
+from rodwell.answers.result.computed import Computed
+from rodwell.errors import RodwellError
+from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.value import Peak, Value
+
+LEGS = {LOADING: "load path", UNLOADING: "load path, unloading"}
+"""Legs as branches of the page."""
+
+
+def leg_of(name: str) -> str:
+    """The leg that a branch of the page is."""
+    return next(leg for leg, known in LEGS.items() if known == name)
+
+
+Path = tuple[LoadPath | None, str]
+"""The load path, or why there is none."""
+
+
+def followed(computed: Computed, tell: Callable[[str, float], None]) -> Path:
+    """Follow the rod beyond lift-off and back, as ``rodwell run`` does but without an end to patience.
+
+    ``tell`` is called with what is being done; what it raises ends the computation.
+    """
+    if computed.lift_off is None:
+        return None, "no lift-off was found on the first branch, so there is nothing beyond it"
+    until, back = reach(computed)
+    case = computed.case
+
+    def progress(leg: str, force: float) -> None:
+        tell(f"beyond lift-off: {leg}", min(abs(force / until), 1.0))
+
+    try:
+        path = load_path(
+            case.problem, until=until, unload_to=back, mirror=computed.first.origin.mirror, rtol=case.rtol,
+            progress=progress,
+        )  # fmt: skip
+    except RodwellError as error:
+        return None, str(error)
+    return path, ""
+
+
+def states_at(path: LoadPath, name: str, force: float) -> tuple[ContactState, ...]:
+    """The state of a leg at an end force F in B/L²; none if the leg does not pass it."""
+    legs = [leg for leg in path.legs if LEGS[leg.name] == name]
+    if not any(leg.near(force, path.way) or _straight(leg, force) for leg in legs):
+        return ()
+    return tuple(one.state for one in path.at(force) if LEGS[one.leg] == name)
+
+
+def _straight(leg: Leg, force: float) -> bool:
+    return any(min(ends) <= force <= max(ends) for ends in leg.straight)
+
+
+def events_of(path: LoadPath, name: str) -> list[PathPoint]:
+    """The events of a leg that have a state of their own."""
+    return [event for event in path.events if LEGS[event.leg] == name and event.state is not None]
+
+
+def snaps_at(path: LoadPath) -> PathPoint | None:
+    """The first snap as the load grows."""
+    return path.first(SNAP, LOADING)
+
+
+def farthest(path: LoadPath) -> float:
+    """The end force in B/L² up to which it was loaded."""
+    return float(path.curve["force"].min())
+
+
+def ordinates(state: PatternedState) -> dict[Measured, float]:
+    """What the diagram draws upwards, as far as a rod off the wall has it: the torque T₂(0) is left out."""
+    square = state.problem.clearance**2
+    ends = position(state, np.array([0.0, 0.5, 1.0]))
+    out = state.solved.out
+    first, last = (_sideways(ends[0][:, i], ends[1][:, i]) for i in (0, 2))
+    return {
+        Measured.OMEGA2_0: first, Measured.OMEGA2_1: last, Measured.ENERGY: out.energy * square,
+        Measured.SHORTENING: out.energy_by_load * square,
+        Measured.ANGLE_MID: float(np.arctan2(ends[1][0, 1], -ends[0][0, 1])),
+        Measured.P_MAX: 0.0 if not state.pattern.full else float(_pressure(state).max()),
+    }  # fmt: skip
+
+
+def _sideways(x: FloatArray, y: FloatArray) -> float:
+    """Curvature across the direction to the axis, ω₂ of (20), of a rod on the wall there: position with derivatives."""
+    angle = np.arctan2(y[0], -x[0])
+    return float(-x[2] * np.sin(angle) - y[2] * np.cos(angle))
+
+
+def _pressure(state: PatternedState) -> FloatArray:
+    return position(state, np.linspace(0.0, 1.0, 401))[2]
+
+
+Number = tuple[str, str, Value | Peak, float | None]
+"""Label, name in the nomenclature, value, place s/L."""
+
+
+def numbers(state: ContactState) -> dict[str, Number]:
+    """Numbers of a state."""
+    gap = max(state.gaps, key=lambda one: one.largest.value, default=None)
+    point = max(state.point_forces, key=lambda one: one.force.value, default=None)
+    size, pressure = state.problem.clearance, state.largest_pressure
+    out: dict[str, Number] = {
+        "largest_push": ("largest push on the wall per length", "contact_pressure", pressure, pressure.s),
+        "contact_total": ("contact force, all directions added", "force", state.contact_total, None),
+        "end_shortening": ("approach of the ends", "end_shortening", state.shortening, None),
+        "energy": ("energy", "energy", state.energy, None),
+    }
+    if point is not None:
+        out["largest_point_force"] = ("largest concentrated push on the wall", "force", point.force, point.s.value)
+    if gap is not None:
+        far = Value(size * gap.largest.value, size * gap.largest.error)
+        out["largest_gap"] = ("largest gap between rod and wall", "z", far, gap.at)
+    return out
