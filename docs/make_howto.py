@@ -50,6 +50,7 @@ COMMANDS = {
     "critical-build": "critical --weight 15 --alpha 90 --build 0.2 --modes 3",
     "critical-drop": "critical --weight 15 --alpha 90 --build -0.4 --modes 2",
     "liftoff-build": "liftoff --weight 15 --alpha 90 --build 0.2",
+    "run-build": "run examples/build-section.toml --out results/build",
     "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",
     "string": "run examples/bottom-hole-assembly.toml --out results/string",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",

@@ -1,17 +1,17 @@
-"""What commands make of a case in a curved hole: audit and study take it, reports with strength and packers refuse."""
+"""What commands make of a case in a curved hole: audit and study take it, tubing in packers is refused."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 from click.testing import CliRunner
 
-from rodwell import Case, InputError, Problem, answer, packer
+from rodwell import Case, InputError, Problem, packer
 from rodwell.answers.comparison.beside import load_rows
 from rodwell.answers.comparison.exact_loads import critical
+from rodwell.answers.result.assessment import PULLED, STRAIGHT
 from rodwell.cli.main import cli
 from rodwell.formulas import FORMULAS
 from rodwell.studies.sweep.study import study
@@ -67,8 +67,30 @@ def test_a_range_of_build_is_computed_point_by_point(tmp_path: Path) -> None:
     assert bent.critical.value == pytest.approx(critical(problem).force, rel=1e-6)
 
 
-@pytest.mark.parametrize("what", [answer, packer])
-def test_what_has_no_bending_by_the_hole_refuses(what: Any) -> None:
-    more = {"packer": {"bore": "82 mm", "motion": "all"}} if what is packer else {}
+def test_a_study_assesses_the_loads_that_act(tmp_path: Path) -> None:
+    """Stress at a load that acts, in a study as in the answer of each case: closed form of the hole's own bending."""
+    file = tmp_path / "study.toml"
+    lines = [f'{name} = "{value}"' for name, value in ROD.items()]
+    file.write_text(
+        "\n".join(["[rod]", *lines, "[hole]", 'diameter = "216 mm"', 'angle_from_vertical = "90 deg"',
+                   'build = "3..6 deg/30 m in 2"', "[load]", 'applied = ["-50 kN", "300 kN tension"]',
+                   "[analysis]", "rtol = 1e-6"]), encoding="utf-8",
+    )  # fmt: skip
+    for point in study(file).points:
+        pushed, pulled = point.loads
+        assert (pushed.what, pulled.what) == (STRAIGHT, PULLED)
+        problem, scales = point.case.problem, point.case.scales
+        assert scales is not None
+        assert pushed.stress is not None
+        curvature = problem.build / (1.0 + problem.build * problem.clearance) / scales.length
+        area, inertia = math.pi / 4.0 * (0.127**2 - 0.1086**2), math.pi / 64.0 * (0.127**4 - 0.1086**4)
+        bending = scales.stiffness * curvature * 0.0635 / inertia
+        sag = (1.0 - math.cos(0.5 * curvature * scales.length)) / curvature  # the middle lies lowest and bears most
+        hung = problem.weight * scales.factor("force_per_length") * sag
+        axial = (50e3 + hung + scales.stiffness * curvature**2) / area
+        assert pushed.stress.value == pytest.approx(axial + bending, rel=1e-9)
+
+
+def test_tubing_in_a_packer_is_refused() -> None:
     with pytest.raises(InputError, match="curved"):
-        what(Case.from_dict({"rod": ROD, "hole": HOLE} | more))
+        packer(Case.from_dict({"rod": ROD, "hole": HOLE, "packer": {"bore": "82 mm", "motion": "all"}}))

@@ -147,13 +147,35 @@ def plot_torque(states: Sequence[Solution], scales: Scales | None = None, ax: An
     return ax
 
 
+def plot_around(states: Sequence[Solution], scales: Scales | None = None, ax: Any = None, legend: bool = True) -> Any:
+    """Draw the angle around the hole at which the rod lies along its length; return the axes."""
+    ax = new_axes() if ax is None else ax
+    part = shown_part(states)
+    s = drawn_places(states, part)
+    fs, us = axis("z", scales, part)
+    said = Forces(scales, states[0].problem.hung_weight)
+    for state, color in zip(states, _shades(len(states)), strict=True):
+        ax.plot(s * fs, np.degrees(state.fields(s)["xi2"]), color=color, lw=1.5, label=said.label(state.force))
+    ax.axhline(180.0 if states[0].problem.on_top else 0.0, color=GREY, lw=0.8)
+    ax.set_xlim(0.0, part * fs)
+    ax.set_xlabel(f"distance along the rod from s = 0{straight_beyond(part)}  [{us}]")
+    ax.set_ylabel("angle around the hole\nfrom the low side  [°]")
+    if legend:
+        _legend(ax, said)
+    return ax
+
+
 def plot_wall_loads(branch: Branch, scales: Scales | None = None) -> Any:
-    """Draw contact pressure above twisting moment in the cylinder, at the same loads; return the upper axes."""
+    """Draw contact pressure above twisting moment in the cylinder, at the same loads; return the upper axes.
+
+    In a curved hole above the angle around the hole, which says which part of the wall bears it.
+    """
     states = states_to_lift_off(branch)
     upper = new_axes(size=(SIZE[0], 6.2), nrows=2, index=1)
     lower = upper.figure.add_subplot(2, 1, 2, sharex=upper)
     plot_contact_pressure(branch, scales, ax=upper, states=states)
-    plot_torque(states, scales, ax=lower, legend=False)
+    below = plot_torque if branch.problem.hole is None else plot_around
+    below(states, scales, ax=lower, legend=False)
     upper.set_xlabel("")
     upper.set_title(parameters(branch.problem, scales), loc="left", fontsize=8.5)
     return upper

@@ -16,7 +16,7 @@ from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.problem.problem import Problem
-from rodwell.quantities.value import Value
+from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import von_mises
 from rodwell.strength.loaded import LoadedRod, OnMesh, on_mesh
 from rodwell.strength.section import rod_section
@@ -97,11 +97,11 @@ class Use:
 
 
 def uses(case: Case) -> tuple[Use, ...]:
-    """The strengths that a case tells of."""
+    """The strengths that a case tells of; not the cylinder's in a curved hole: its moments are not known there."""
     out, rod, scales = [], rod_section(case), case.scales
     if rod is not None and rod.strength is not None:
         out.append(Use(YIELDS, lambda mesh, n: mesh.largest(rod.used, n)))
-    if case.cylinder is not None and scales is not None:
+    if case.cylinder is not None and scales is not None and case.problem.hole is None:
         cylinder = case.cylinder
         bears = cylinder.yield_strength
         out.append(Use(CYLINDER, lambda mesh, n: mesh.largest(lambda f: von_mises(cylinder, f, scales) / bears, n)))
@@ -111,12 +111,17 @@ def uses(case: Case) -> tuple[Use, ...]:
     return tuple(out)
 
 
-def limits(case: Case, branch: Branch, buckling: Value) -> tuple[Limit, ...]:
+def limits(case: Case, branch: Branch, buckling: Value, left: Peak | None = None) -> tuple[Limit, ...]:
     """Every limit of a rod on the way to lift-off of its first mode, the least compressive first.
 
     The way ends at lift-off, or where the shape loses its stability: what lies beyond is not reached. ``buckling`` is
     the load at which the straight rod buckles; where nothing presses it to the wall, it leaves the wall there.
+    ``left``: it leaves the wall of a curved hole there, before it buckles.
     """
+    if left is not None:
+        gives = [_before_buckling(use, branch.problem, buckling.value) for use in uses(case)]
+        last = Limit(LIFTS_OFF, buckling, left.s, buckled=False)
+        return tuple(sorted([last, *(one for one in gives if one is not None)], key=_force_of, reverse=True))
     end = branch.end_of_the_way
     out = [limit for use in uses(case) if (limit := _limit(use, branch, end, buckling.value)) is not None]
     if end is not None:
@@ -124,15 +129,19 @@ def limits(case: Case, branch: Branch, buckling: Value) -> tuple[Limit, ...]:
         kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
         load = buckling if branch.lift_off_at_buckling else end.load
         out.append(Limit(kind, load, end.s[0] if end.s else None, buckled))
-    return tuple(sorted(out, key=lambda limit: -np.inf if limit.force is None else -limit.force))
+    return tuple(sorted(out, key=_force_of, reverse=True))
+
+
+def _force_of(limit: Limit) -> float:
+    return np.inf if limit.force is None else limit.force
 
 
 def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) -> Limit | None:
     """Where a strength is used up: on the straight rod, or on the branch up to its end; None if it is not."""
     problem = branch.problem
-    at_buckling, place = use.of(LoadedRod("", problem, critical))
-    if at_buckling >= 1.0:
-        return _of_straight(use, problem, critical, at_buckling - 1.0) or Limit(use.kind, None, s=place, buckled=False)
+    before = _before_buckling(use, problem, critical)
+    if before is not None:
+        return before
     if end is not None and end.kind == CRITICAL:
         return None
     last = len(branch) - 1 if end is None else end.after
@@ -143,6 +152,14 @@ def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) 
     if end is not None and use.of(LoadedRod("", problem, end.force, solution=end.solution))[0] >= 1.0:
         return _located(use, branch, last)
     return None
+
+
+def _before_buckling(use: Use, problem: Problem, critical: float) -> Limit | None:
+    """Where a strength is used up by the straight rod; None if it is not by its critical load."""
+    at_buckling, place = use.of(LoadedRod("", problem, critical))
+    if at_buckling < 1.0:
+        return None
+    return _of_straight(use, problem, critical, at_buckling - 1.0) or Limit(use.kind, None, s=place, buckled=False)
 
 
 def _of_straight(use: Use, problem: Problem, critical: float, excess: float) -> Limit | None:

@@ -12,6 +12,7 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.compared import compared, compared_peaks
 from rodwell.analysis.state.fields import ZOOMS, fields_at, largest_of
 from rodwell.analysis.straight.fields import straight_fields
+from rodwell.analysis.straight.lying import lying_contact_in_all
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -51,7 +52,7 @@ class LoadedRod:
     force, error
         End force F at s = 1 in B/L², tension positive, and how well it is known (0: it was given).
     solution
-        The buckled state; None for the straight rod.
+        The buckled state; None for the straight rod, in a curved hole the one that lies along it.
     """
 
     name: str
@@ -67,12 +68,12 @@ class LoadedRod:
 
     @property
     def straight(self) -> bool:
-        """Whether the rod is straight."""
+        """Whether the rod has not buckled: it is straight, or as the hole bends it."""
         return self.solution is None
 
     @property
     def at_bottom(self) -> float:
-        """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α."""
+        """Effective axial force at the lower end s = 0 in B/L², N(0) = F − γ cos α, or less γ times the rod's rise."""
         return self.force - self.problem.hung_weight
 
     @property
@@ -103,6 +104,8 @@ class LoadedRod:
         """Contact force on the wall in all, all directions added, in B/L²."""
         if self.solution is not None:
             return self.solution.total_wall_force
+        if self.problem.hole is not None:
+            return lying_contact_in_all(self.problem, self.force)
         whole = self.problem.lateral_weight * self.problem.rod.whole_weight
         return compared(whole, whole)
 

@@ -58,9 +58,9 @@ class Exceeded:
 
 
 def string_of(case: Case) -> PipeString | None:
-    """The local rod of a case, with its end conditions; None without dimensions or weight, and of a string."""
+    """The local rod of a case, with its end conditions; None without dimensions or weight, of a string, in a bend."""
     problem, scales = case.problem, case.scales
-    if problem.sections or scales is None or not problem.weight > 0.0:
+    if problem.sections or problem.hole is not None or scales is None or not problem.weight > 0.0:
         return None
     weight = problem.weight * scales.factor("force_per_length")
     return PipeString(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)

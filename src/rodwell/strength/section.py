@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.curved import ends_of_lying_rod, height_of_rod
 from rodwell.case.case import Case
 from rodwell.case.pipe import PhysicalRod
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
@@ -53,8 +54,12 @@ class RodSection:
         return self.rod.yield_strength
 
     def drop(self, f: Fields) -> FloatArray:
-        """Height in m of s = 1, as it lies in the straight rod, above places of the rod."""
+        """Height in m of s = 1, as it lies in the rod that has not buckled, above places of the rod."""
         p = self.case.problem
+        if p.hole is not None:
+            start, end = ends_of_lying_rod(p)
+            top = height_of_rod(p, np.array([end]), np.array([math.pi if p.on_top else 0.0]))
+            return self.scales.length * (top - height_of_rod(p, start + f["z"], f["xi2"]))
         alpha = math.radians(p.alpha)
         up = p.clearance * math.sin(alpha) * (1.0 - np.cos(f["xi2"]))
         axial = 0.0 if p.alpha == 90.0 else math.cos(alpha)

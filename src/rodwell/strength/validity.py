@@ -184,7 +184,8 @@ def _strains(case: Case, states: tuple[LoadedRod, ...], forces: tuple[tuple[str,
     acting = [(name, force, 0.0) for name, force in forces] + [(s.name, s.force, s.error) for s in states]
     strains = [_largest_axial(case, rod, span, acting) for rod, span in _parts(case)]
     where, strain = max(strains, key=lambda one: one[1].value, default=("", Value(0.0)))
-    bent = [(state.largest(lambda f: _bending(case, f)), state.name) for state in states if not state.straight]
+    bends = [state for state in states if not state.straight or state.problem.hole is not None]
+    bent = [(state.largest(lambda f: _bending(case, f)), state.name) for state in bends]
     most, at = max(bent, key=lambda one: one[0].value, default=(None, ""))
     bending = Value(0.0) if most is None else Value(most.value, most.error)
     return [_measure("axial_strain", strain, where), _measure("bending_strain", bending, at)]

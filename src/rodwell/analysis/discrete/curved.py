@@ -97,6 +97,14 @@ class PiecewisePolynomial:
         x = (2.0 * s - low - high) / (high - low)
         return np.asarray(np.polynomial.chebyshev.chebval(x, self.coefficients[:, piece], tensor=False))
 
+    def integral_above(self) -> PiecewisePolynomial:
+        """∫ₛ¹ of it."""
+        half = 0.5 * np.diff(self.breaks)
+        whole = np.array(-half * np.polynomial.chebyshev.chebint(self.coefficients, lbnd=1.0))
+        pieces = np.polynomial.chebyshev.chebval(-1.0, whole)
+        whole[0] += np.concatenate([np.cumsum(pieces[::-1])[::-1][1:], [0.0]])
+        return PiecewisePolynomial(self.breaks, whole)
+
 
 def wall_side(problem: Problem) -> float:
     """1 for a rod at θ = 0 below the axis, −1 for one on top: the frame is then turned by half a turn."""
@@ -113,6 +121,21 @@ def hole_at(problem: Problem, places: FloatArray) -> tuple[FloatArray, FloatArra
 def undeformed_place(problem: Problem, s: FloatArray) -> FloatArray:
     """S₀ (m,) on the hole's axis at places ``s`` (m,) of the rod that lies on the generator θ = 0."""
     return places_of_lying_rod(_hole(problem), problem.clearance * wall_side(problem), s)
+
+
+@lru_cache(maxsize=64)
+def ends_of_lying_rod(problem: Problem) -> tuple[float, float]:
+    """Places S₀(0) and S₀(1) on the hole's axis beside the ends of the undeformed rod."""
+    start, end = undeformed_place(problem, np.array([0.0, 1.0]))
+    return float(start), float(end)
+
+
+def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> FloatArray:
+    """Height (m,) in L of the rod's centre beside places S (m,) of the axis, at angles ξ₂ (m,) from the low side."""
+    hole = _hole(problem)
+    up = hole.frame(places)[:, :, 2]
+    inwards = np.cos(angle) * up[:, 0] - np.sin(angle) * up[:, 1]
+    return np.asarray(hole.points(places)[:, 2] - problem.clearance * inwards)
 
 
 @lru_cache(maxsize=64)
@@ -136,25 +159,9 @@ def along_rod(problem: Problem) -> HoleAlong:
     return hole_along(_breaks(problem), functions)
 
 
-def lifted(breaks: FloatArray, rate: Along) -> Along:
-    """∫ₛ¹ of a function of s, by Gauss points between ``breaks``, as a function of s."""
-    nodes, weights = np.polynomial.legendre.leggauss(10)
-
-    def integral(low: FloatArray, high: FloatArray) -> FloatArray:
-        half = 0.5 * (high - low)[:, None]
-        return (
-            np.asarray(rate((low[:, None] + half * (nodes + 1.0)).ravel()).reshape(half.size, -1) @ weights)
-            * half[:, 0]
-        )
-
-    pieces = integral(breaks[:-1], breaks[1:])
-    above = np.concatenate([np.cumsum(pieces[::-1])[::-1], [0.0]])
-
-    def along(s: FloatArray) -> FloatArray:
-        piece = np.clip(np.searchsorted(breaks, s, side="right") - 1, 0, breaks.size - 2)
-        return np.asarray(above[piece + 1] + integral(s, breaks[piece + 1]))
-
-    return along
+def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
+    """∫ₛ¹ of a function of s, smooth between ``breaks``, as a function of s."""
+    return PiecewisePolynomial.of(breaks, rate).integral_above()
 
 
 def _breaks(problem: Problem) -> FloatArray:

@@ -10,7 +10,7 @@ from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at
-from rodwell.analysis.state.in_hole import InHole
+from rodwell.analysis.state.in_hole import end_loads_in_hole, in_hole
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -59,7 +59,7 @@ def energies(solution: Equilibrium) -> dict[str, Value]:
 
 def _energies(problem: Problem, family: Family, state: State) -> dict[str, float]:
     if problem.hole is not None:
-        return InHole(problem, family, state).energies()
+        return in_hole(problem, family, state).energies()
     space, p = state.space, family.parameters(state.lam)
     s, w = space.points, space.weights
     y, y1, y2 = shape(family, state, s, 3)
@@ -114,13 +114,16 @@ def reactions(solution: Equilibrium) -> tuple[Reaction, ...]:
 def _reactions(
     problem: Problem, family: Family, state: State
 ) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
-    if problem.hole is not None:
-        return InHole(problem, family, state).end_loads()
     return end_loads(fields_at(problem, family, state, np.array([0.0, 1.0])))
 
 
 def end_loads(f: dict[str, FloatArray]) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
-    """Force and moment of the supports on rod and cylinder, by (which, s), from the fields at s = 0 and s = 1."""
+    """Force and moment of the supports on rod and cylinder, by (which, s), from the fields at s = 0 and s = 1.
+
+    In a curved hole those on the rod: see :class:`Reaction`.
+    """
+    if "cylinder_F1" not in f:
+        return end_loads_in_hole(f)
     axes = frames(f["xi1"], f["eta"], f["xi2"])
     out = {}
     for end, sign in ((0, -1.0), (1, 1.0)):

@@ -139,7 +139,7 @@ def certificate_of(solution: Equilibrium) -> Certificate:
     """Put a solution into the paper's equations; see :class:`Certificate`."""
     problem = solution.problem
     if problem.hole is not None:
-        own = near_by(problem, solution.meshes, solution.point)
+        own = near_by(problem, *solution.levels[1])
         return Certificate(residuals(problem, *own), max(LIMIT, SLACK * solution.meshes.rtol))
     half, fields = element_fields(problem, solution.meshes.fine, solution.point.fine)
     derivative = gauss_calculus()[3]

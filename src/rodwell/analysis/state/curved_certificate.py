@@ -16,7 +16,8 @@ import numpy as np
 
 from rodwell.analysis.state.fields import gauss_calculus, gauss_places
 from rodwell.analysis.state.in_hole import InHole
-from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.numerics.equilibria.family import Family
+from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, TWIST
 from rodwell.problem.ends import HOLD_ANGLE
 from rodwell.problem.problem import Problem
@@ -25,11 +26,11 @@ from rodwell.quantities.arrays import FloatArray
 _TINY = 1e-300
 
 
-def residuals(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> dict[str, float]:
+def residuals(problem: Problem, family: Family, state: State) -> dict[str, float]:
     """What is left of each balance, divided by the largest of its terms along the rod."""
-    rod = InHole(problem, meshes.fine, point.fine)
-    s = gauss_places(meshes.fine.space)
-    half = 0.5 * np.diff(meshes.fine.space.breaks)
+    rod = InHole(problem, family, state)
+    s = gauss_places(family.space)
+    half = 0.5 * np.diff(family.space.breaks)
     _, whole, running, derivative = gauss_calculus()
 
     def rate(values: FloatArray) -> FloatArray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from rodwell.analysis.discrete.family import given_of
 from rodwell.analysis.discrete.measures import shape
-from rodwell.analysis.state.in_hole import InHole
+from rodwell.analysis.state.in_hole import in_hole
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
@@ -73,7 +73,7 @@ def local(rod: Rod, parameters: FloatArray, s: FloatArray) -> Local:
 def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
     """What acts on the rod at s = 1, and where that is."""
     if problem.hole is not None:
-        last = InHole(problem, family, state).fields(np.array([1.0]))
+        last = in_hole(problem, family, state).fields(np.array([1.0]))
         shear, moment, angle, eta = (float(last[name][0]) for name in ("rod_F3", "rod_M2", "xi2", "eta"))
         return braid.EndForce(shear, moment, angle, float(np.sin(eta)))
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
@@ -92,7 +92,7 @@ def total_wall_force(problem: Problem, family: Family, state: State) -> float:
     """∫|p| ds in B/L², and of a string the forces of the wall at single places, at steps of the stiffness."""
     space, parameters = state.space, family.parameters(state.lam)
     if problem.hole is not None:
-        return float(space.weights @ np.abs(InHole(problem, family, state).fields(space.points)["contact_pressure"]))
+        return float(space.weights @ np.abs(in_hole(problem, family, state).fields(space.points)["contact_pressure"]))
     pressure = pressure_at(problem.rod, parameters, space.points, shape(family, state, space.points, 4))
     total = float(space.weights @ np.abs(pressure))
     if problem.sections:
@@ -130,7 +130,7 @@ def _with_steps(
 def fields_at(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,), in units B = L = 1; of a rod in a curved hole those of the rod."""
     if problem.hole is not None:
-        return InHole(problem, family, state).fields(s)
+        return in_hole(problem, family, state).fields(s)
     space, end, p = state.space, end_force(problem, family, state), family.parameters(state.lam)
     rates = _rates(problem, p, end)
     integrals = _running_integrals(lambda places: rates(places, shape(family, state, places, 4)), s, space)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from functools import cached_property
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import PiecewisePolynomial, hole_at, lifted, undeformed_place, wall_side
+from rodwell.analysis.discrete.curved import PiecewisePolynomial, ends_of_lying_rod, hole_at, lifted, wall_side
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.curved import hole_at as tabulated
@@ -52,11 +53,16 @@ class InHole:
     @cached_property
     def place(self) -> PiecewisePolynomial:
         """S(s): the place of each cross-section on the hole's axis; the end s = 0 stays where it is undeformed."""
-        breaks = self.state.space.breaks
-        start = float(undeformed_place(self.problem, np.array([0.0]))[0])
-        ahead = lifted(breaks, self.step)
-        whole = float(ahead(np.array([0.0]))[0])
-        return PiecewisePolynomial.of(breaks, lambda s: start + whole - ahead(s))
+        ahead = lifted(self.state.space.breaks, self.step)
+        place = -ahead.coefficients
+        place[0] += ends_of_lying_rod(self.problem)[0] + float(ahead(np.array([0.0]))[0])
+        return PiecewisePolynomial(ahead.breaks, place)
+
+    @cached_property
+    def turned(self) -> PiecewisePolynomial:
+        """∫ₛ¹ ω₁: by how much the rod's frame turns about its tangent."""
+        p, breaks = self.parameters, self.state.space.breaks
+        return lifted(breaks, lambda s: strand(s, self.shape(s, 4), self.given(s), p)[0])
 
     def drive(self, s: FloatArray) -> FloatArray:
         """N (m,): the force that drives the rod along the hole, reduced to its axis, as the tables have it."""
@@ -85,8 +91,7 @@ class InHole:
         u, p = self.shape(s, 4), self.parameters
         omega1, omega2, omega3, f1, f2, f3, pressure = strand(s, u, self.given(s), p)
         torsion = self.problem.torsional_stiffness
-        turned = lifted(self.state.space.breaks, lambda x: strand(x, self.shape(x, 4), self.given(x), p)[0])
-        xi1 = p[TWIST] / torsion * s + float(turned(np.array([0.0]))[0]) - turned(s)
+        xi1 = p[TWIST] / torsion * s + float(self.turned(np.array([0.0]))[0]) - self.turned(s)
         material = material_curvatures(xi1, omega2, omega3, p[TWIST], torsion)
         return {
             "y": u[0],
@@ -119,21 +124,6 @@ class InHole:
             return np.asarray(f1 + 0.5 * (omega2**2 + omega3**2) - self.parameters[AXIAL_WEIGHT] * height)
 
         return np.asarray(total(s) - total(np.array([1.0])))
-
-    def end_loads(self) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
-        """Force and moment of the supports on the rod along N₁, N₂, T of the hole at that end, by ("rod", s)."""
-        ends = np.array([0.0, 1.0])
-        fields, frame = self.fields(ends), self.frames(ends)[1]
-        hole = self.problem.hole
-        assert hole is not None
-        out = {}
-        for k, sign in ((0, -1.0), (1, 1.0)):
-            axes = hole.frame(self.place(ends[k : k + 1]))[0]
-            force, moment = (
-                sum(fields[f"rod_{kind}{i + 1}"][k] * frame[k, i] for i in range(3)) for kind in ("F", "M")
-            )
-            out["rod", float(ends[k])] = (sign * axes @ force, sign * axes @ moment)
-        return out
 
     def energies(self) -> dict[str, float]:
         """Parts of the energy relative to θ = 0, by name, with the hole as it was tabulated."""
@@ -171,10 +161,44 @@ class InHole:
     def travel(self) -> float:
         """∫ (1 + Δk₁) dS from S₀(1), where the undeformed rod ends, to where this one does."""
         nodes, weights = np.polynomial.legendre.leggauss(10)
-        low, high = float(undeformed_place(self.problem, np.array([1.0]))[0]), float(self.place(np.array([1.0]))[0])
+        low, high = ends_of_lying_rod(self.problem)[1], float(self.place(np.array([1.0]))[0])
         half = 0.5 * (high - low)
         k1 = hole_at(self.problem, low + half * (nodes + 1.0))[0][0]
         return float(half * weights @ (1.0 + self.clearance * k1))
+
+
+_KEPT: OrderedDict[tuple[int, int], InHole] = OrderedDict()
+"""The states asked last, by the identity of family and state, which they hold: places and turns are integrals."""
+
+MOST_KEPT = 8
+
+
+def in_hole(problem: Problem, family: Family, state: State) -> InHole:
+    """A state in its hole; of the few asked last the same record again, with what it has worked out."""
+    key = (id(family), id(state))
+    found = _KEPT.get(key)
+    if found is None or found.problem != problem:
+        found = _KEPT[key] = InHole(problem, family, state)
+        while len(_KEPT) > MOST_KEPT:
+            _KEPT.popitem(last=False)
+    return found
+
+
+def end_loads_in_hole(f: dict[str, FloatArray]) -> dict[tuple[str, float], tuple[FloatArray, FloatArray]]:
+    """Force and moment of the supports on the rod along N₁, N₂, T of the hole at that end, by ("rod", s).
+
+    From the fields at s = 0 and s = 1: t₁ = sin η u₂ + cos η T, u₁ = cos η u₂ − sin η T, and d₁, u₂ are N₁, N₂ turned
+    by ξ₂.
+    """
+    sin, cos, sin_x, cos_x = np.sin(f["eta"]), np.cos(f["eta"]), np.sin(f["xi2"]), np.cos(f["xi2"])
+
+    def in_hole(kind: str) -> FloatArray:
+        along, inwards, around = (f[f"rod_{kind}{i}"] for i in (1, 2, 3))
+        u2, axial = sin * along + cos * around, cos * along - sin * around
+        return np.array([cos_x * inwards + sin_x * u2, cos_x * u2 - sin_x * inwards, axial])
+
+    force, moment = in_hole("F"), in_hole("M")
+    return {("rod", float(end)): (sign * force[:, end], sign * moment[:, end]) for end, sign in ((0, -1.0), (1, 1.0))}
 
 
 def curvature(

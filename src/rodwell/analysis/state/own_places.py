@@ -90,9 +90,17 @@ def with_own_places(
     """
     if problem.hole is None:
         raise InputError("build", problem.build, "must not be 0: along a straight hole every place is like another")
-    family, state = meshes.fine, point.fine
-    if not state.c.any():  # the rod on θ = 0 lies where the tables have it
+    if not point.fine.c.any():  # the rod on θ = 0 lies where the tables have it
         return meshes, point
+    _, state, tables = _at_own_places(problem, meshes.fine, point.fine, near)
+    own = measured_meshes(_given(meshes.coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
+    both = ((own.coarse, _solved(own.coarse, point.coarse, near)), (own.fine, state))
+    coarse, fine = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
+    return own, own.point(coarse, fine)
+
+
+def _at_own_places(problem: Problem, family: Family, state: State, near: bool) -> tuple[Family, State, HoleAlong]:
+    """The state on one mesh, with the equations and the tables of the hole that it solves."""
     change = np.inf
     for _ in range(MOST_ROUNDS):
         tables = tables_of(InHole(problem, family, state))
@@ -101,19 +109,14 @@ def with_own_places(
         change = float(np.max(np.abs(solved.c - state.c))) / family.scale_c
         state = solved
         if change <= SETTLED:
-            break
-    else:
-        raise NotConvergedError(
-            f"the places of the rod in the hole did not settle: the shape still changes by {change:.1e} rad a round; "
-            "the curvature is too large for this shortening"
-        )
-    own = measured_meshes(_given(meshes.coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
-    both = ((own.coarse, _solved(own.coarse, point.coarse, near)), (own.fine, state))
-    coarse, fine = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
-    return own, own.point(coarse, fine)
+            return family, state, tables
+    raise NotConvergedError(
+        f"the places of the rod in the hole did not settle: the shape still changes by {change:.1e} rad a round; "
+        "the curvature is too large for this shortening"
+    )
 
 
-def near_by(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> tuple[TwoMeshes, MeshedState]:
+def near_by(problem: Problem, family: Family, state: State) -> tuple[Family, State]:
     """Solve for own places near a state of a branch, a little further on where the state is a branch point.
 
     There it is singular, and the places, which know no symmetry, leave nothing of it in its vicinity.
@@ -123,13 +126,15 @@ def near_by(problem: Problem, meshes: TwoMeshes, point: MeshedState) -> tuple[Tw
     NotConvergedError
         As :func:`with_own_places` does.
     """
+    if not state.c.any():
+        return family, state
     try:
-        return with_own_places(problem, meshes, point, near=True)
+        return _at_own_places(problem, family, state, near=True)[:2]
     except NotConvergedError:
-        coarse, fine = meshes.coarse.step(point.coarse, FURTHER), meshes.fine.step(point.fine, FURTHER)
-        if coarse is None or fine is None:
+        further = family.step(state, FURTHER)
+        if further is None:
             raise
-        return with_own_places(problem, meshes, meshes.point(coarse, fine), near=True)
+        return _at_own_places(problem, family, further, near=True)[:2]
 
 
 FURTHER = 0.02

@@ -1,13 +1,16 @@
-"""What the wall and the supports of the cylinder must bear in one state: largest values, places, torque."""
+"""What the wall and the supports of the cylinder must bear in one state: largest values, places, sides, torque."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
-from rodwell.analysis.state.fields import steps_of
+from rodwell.analysis.state.fields import fields_at, steps_of
+from rodwell.errors import InputError
 from rodwell.quantities.value import Peak, Value
 
 SELF_BALANCED = 1e-6
@@ -31,15 +34,76 @@ class WallLoads:
         Largest contact force per length, the size of p.
     total
         Integral of the size of p over s, contact forces of all directions added, and its error estimate.
+    angle
+        ξ₂ where the contact is largest, in rad from the low side: which part of the wall bears it. Positive towards
+        the left, looking towards s = 0. In states of equal contact at several places, at the first.
+    cylinder
+        What the cylinder itself carries; None in a curved hole, whose tube the equations of a straight one do not tell.
+    """
+
+    contact: Peak
+    total: Value
+    angle: Value
+    cylinder: CylinderLoads | None
+
+    @property
+    def carried(self) -> CylinderLoads:
+        """What the cylinder carries.
+
+        Raises
+        ------
+        InputError
+            In a curved hole.
+        """
+        if self.cylinder is None:
+            reason = "moments in the cylinder are computed in straight holes only: contact, total and angle are known"
+            raise InputError("wall", None, reason)
+        return self.cylinder
+
+    @property
+    def twisting(self) -> Peak:
+        """Of :attr:`carried`, as the following ones."""
+        return self.carried.twisting
+
+    @property
+    def bending_mu(self) -> Peak:
+        """Largest |μ|."""
+        return self.carried.bending_mu
+
+    @property
+    def bending_lambda(self) -> Peak:
+        """Largest |λ cos η|."""
+        return self.carried.bending_lambda
+
+    @property
+    def torque(self) -> Value:
+        """T₂(0)."""
+        return self.carried.torque
+
+    @property
+    def needs_torque(self) -> bool:
+        """Whether the support must provide a torque."""
+        return self.carried.needs_torque
+
+    @property
+    def meaning(self) -> str:
+        """What the torque on the cylinder means for its supports, in words; nothing in a curved hole."""
+        return "" if self.cylinder is None else self.cylinder.meaning
+
+
+@dataclass(frozen=True)
+class CylinderLoads:
+    """What a straight cylinder carries in one state, units B = L = 1.
+
+    Attributes
+    ----------
     twisting, bending_mu, bending_lambda
-        Largest sizes of T₂, μ and λ cos η, (59), in the cylinder.
+        Largest sizes of T₂, μ and λ cos η, (59).
     torque
         T₂(0): the cylinder's support at s = 0 exerts −T₂(0) on it, about k; with its error estimate. At s = 1 the
         cylinder is free of load, (B9).
     """
 
-    contact: Peak
-    total: Value
     twisting: Peak
     bending_mu: Peak
     bending_lambda: Peak
@@ -102,13 +166,13 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
 
 def wall_loads(solution: Equilibrium) -> WallLoads:
     """Return the loads on cylinder and supports in a state."""
-    solution.problem.refuse_curved("loads of cylinder and supports are computed")
-    peaks = {name: solution.largest(name) for name in ("contact_pressure", *MOMENTS)}
-    return WallLoads(
-        contact=peaks["contact_pressure"],
-        total=solution.total_wall_force,
-        twisting=peaks["T2"],
-        bending_mu=peaks["mu"],
-        bending_lambda=peaks["cylinder_M3"],
-        torque=solution.number(Measured.TORQUE_0),
-    )
+    contact = solution.largest("contact_pressure")
+    there = np.array([contact.s])
+    angles = (float(fields_at(solution.problem, f, state, there)["xi2"][0]) for f, state in solution.levels)
+    straight = solution.problem.hole is None
+    return WallLoads(contact, solution.total_wall_force, compared(*angles), _carried(solution) if straight else None)
+
+
+def _carried(solution: Equilibrium) -> CylinderLoads:
+    twisting, mu, bending = (solution.largest(name) for name in MOMENTS)
+    return CylinderLoads(twisting, mu, bending, solution.number(Measured.TORQUE_0))

@@ -1,9 +1,10 @@
-"""The straight rod under an end force: every field that is not zero, in closed form."""
+"""The straight rod under an end force, or the one that lies along a curved hole: every field, in closed form."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from rodwell.analysis.straight.lying import lying_fields
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -15,8 +16,11 @@ def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, 
     """Fields of the straight rod at ``s`` (m,), in units B = L = 1; names as in the nomenclature.
 
     ``force`` is the end force at s = 1, tension positive: the axial force is N(s) = F + γ cos α (s − 1) (of
-    sections with their weights), the contact pressure that of the lateral weight.
+    sections with their weights), the contact pressure that of the lateral weight. In a curved hole they are those of
+    :func:`rodwell.analysis.straight.lying.lying_fields`.
     """
+    if problem.hole is not None:
+        return lying_fields(problem, force, s)
     s = np.asarray(s, dtype=float)
     out = {name: np.zeros_like(s) for name in ZERO}
     axial, foundation = problem.axial_weight * (s - 1.0), np.full_like(s, problem.foundation)

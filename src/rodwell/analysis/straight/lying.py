@@ -9,15 +9,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.curved import along_rod, undeformed_place
 from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import InputError
+from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.physics.on_wall.curved import strand
 from rodwell.physics.on_wall.parameters import SIDE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.value import Peak
+from rodwell.quantities.value import Peak, Value
+
+PIECES, POINTS = 64, 8
+"""Pieces, and Gauss points in each, over which the contact is added up; then with twice as many pieces."""
 
 PLACES = 2001
 """Places at which the contact is looked at before its extremes are refined."""
@@ -49,6 +53,48 @@ def lying_contact(problem: Problem, force: float, s: FloatArray) -> FloatArray:
     still = np.zeros((4, s.size))
     p = parameters(problem, force)
     return np.asarray(-p[SIDE] * strand(s, still, rows, p)[-1])
+
+
+def lying_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, FloatArray]:
+    """Fields of the rod that lies on θ = 0 under an end force, at places ``s`` (m,), in units B = L = 1.
+
+    Names and components are those of a buckled rod in the hole. The hole alone bends it: ω₃ = k₁/(1 + Δk₁), about u₁,
+    and ω₂ where the hole turns sideways.
+    """
+    s = np.asarray(s, dtype=float)
+    still, p = np.zeros(s.shape), parameters(problem, force)
+    omega1, omega2, omega3, f1, f2, f3, pressure = (
+        np.broadcast_to(value, s.shape).astype(float)
+        for value in strand(s, np.zeros((4, s.size)), along_rod(problem)(s).T, p)
+    )
+    return {
+        "y": still,
+        "xi2": still + (np.pi if problem.on_top else 0.0),
+        "eta": still,
+        "xi1": problem.twist / problem.torsional_stiffness * s,
+        "z": undeformed_place(problem, s) - undeformed_place(problem, np.array([0.0])),
+        "omega1": omega1,
+        "omega2": omega2,
+        "omega3": omega3,
+        "rod_F1": f1,
+        "rod_F2": f2,
+        "rod_F3": f3,
+        "rod_M1": still - problem.twist,
+        "rod_M2": omega2,
+        "rod_M3": omega3,
+        "contact_pressure": pressure,
+    }
+
+
+def lying_contact_in_all(problem: Problem, force: float) -> Value:
+    """∫|P| ds of the lying rod in B/L², with the error of its quadrature."""
+    sums = []
+    for pieces in (PIECES, 2 * PIECES):
+        nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+        s = ((np.arange(pieces)[:, None] + 0.5 * (nodes + 1.0)) / pieces).ravel()
+        each = np.abs(lying_contact(problem, force, s)).reshape(pieces, POINTS) @ weights
+        sums.append(float(np.sum(each)) / (2.0 * pieces))
+    return Value(sums[1], float(estimated_error(sums[1], sums[0])))
 
 
 def least_contact(problem: Problem, force: float) -> Peak:

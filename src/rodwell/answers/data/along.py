@@ -92,7 +92,9 @@ def _columns(a: Assessment) -> tuple[str, ...]:
         f"contact force per length on the wall, -p [{per_length}]",
         f"bending moment in the rod [{moment}]",
         f"twisting moment in the rod [{moment}]",
-        f"twisting moment in the cylinder T2 [{moment}]",
+        f"twisting moment in the cylinder T2 [{moment}]"
+        if a.case.problem.hole is None
+        else "angle around the hole from the low side, to the left looking towards s = 0 [rad]",
     ]
     if a.section is not None:
         columns += [
@@ -124,7 +126,7 @@ def _rows(case: Case, one: Along) -> list[tuple[Cell, ...]]:
         -f["contact_pressure"] * per_length,
         np.hypot(f["rod_M2"], f["rod_M3"]) * moment,
         np.abs(f["rod_M1"]) * moment,
-        f["T2"] * moment,
+        f["T2"] * moment if case.problem.hole is None else f["xi2"],
     ]
     if one.stresses is not None and one.loading is not None:
         t, strength = one.stresses, one.strength

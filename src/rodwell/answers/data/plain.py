@@ -6,13 +6,16 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.beyond import beyond_dict
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
 from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
 from rodwell.answers.result.spread import Spread
+from rodwell.answers.words.curved import left_out
 from rodwell.answers.words.verdict import verdict
+from rodwell.answers.words.wording import side_of
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.names import UNITS
 from rodwell.quantities.scales import Scales
@@ -61,7 +64,7 @@ def state_dict(a: Assessment, state: LoadedRod) -> dict[str, Any]:
     contact, scales = state.contact, a.case.scales
     out: dict[str, Any] = {
         "name": state.name,
-        "shape": "straight" if state.straight else "buckled",
+        "shape": "buckled" if not state.straight else "straight" if a.case.problem.hole is None else "along the hole",
         "force": _quantity(scales, state.load),
         "force_at_bottom": _quantity(scales, Value(state.at_bottom, state.error)),
         "largest_wall_force": _quantity(scales, contact, "force_per_length") | {"s": contact.s},
@@ -131,7 +134,7 @@ def _formula(scales: Scales | None, row: FormulaRow) -> dict[str, Any]:
 def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
     """Return the answer as plain data, for JSON; with ``path``, what happens beyond lift-off too."""
     case, problem = answer.case, answer.case.problem
-    lift, load, assessment = answer.lift_off, answer.lift_off_load, assessment_dict(answer.assessment)
+    load, assessment = answer.lift_off_load, assessment_dict(answer.assessment)
     return {
         "title": case.title,
         "verdict": assessment.pop("verdict"),
@@ -152,13 +155,14 @@ def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
         **_critical_loads(answer),
         "until": _until(answer),
         "lift_off": None
-        if lift is None or load is None
+        if load is None
         else {
             "force": load.value,
             "error": load.error,
-            "s": list(lift.s),
-            "coincides_with_buckling": answer.first.lift_off_at_buckling,
+            "s": list(answer.lift_off_places),
+            "coincides_with_buckling": answer.off_at_once,
         },
+        **({} if problem.hole is None else {"lying": _lying(answer)}),
         "other_arm": _other_arm(answer),
         "conversions": [fact.as_dict() for fact in case.facts],
         "yield_strength_Pa": case.yield_strength,
@@ -184,7 +188,22 @@ def _critical_loads(answer: Answer) -> dict[str, Any]:
     if answer.untouched:
         kept_on_wall = {"loads": loads["critical_loads"], "error": loads["critical_errors"]}
         out = {"critical_loads": [met.force], "critical_errors": [met.error], "kept_on_wall": kept_on_wall}
-    return out | {"without_wall": {"loads": [alone.force], "error": [alone.error]}}
+    return out | {"without_wall": None if alone is None else {"loads": [alone.force], "error": [alone.error]}}
+
+
+def _lying(answer: Answer) -> dict[str, Any]:
+    """Between which end forces the rod lies on the wall of a curved hole by itself, and what is not told there."""
+    low, high = lies_between(answer.case.problem)
+    ends = {"lowest_force": low, "highest_force": high}
+    return {
+        "side": side_of(answer.case),
+        **{
+            name: None if one is None else {"value": one.value, "error": one.error, "s": one.s}
+            for name, one in ends.items()
+        },
+        "leaves_before_buckling": answer.left_before is not None,
+        "left_out": left_out(answer),
+    }
 
 
 def _other_arm(answer: Answer) -> dict[str, Any] | None:

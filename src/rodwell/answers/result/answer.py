@@ -17,6 +17,7 @@ from rodwell.answers.result.key_numbers import (
     critical_length,
     critical_number,
     first_met,
+    in_curved_hole,
     real_force,
     rotations,
     state_numbers,
@@ -63,14 +64,16 @@ class Answer(Computed, Shown):
         """The key numbers by name."""
         out = [critical_number(mode, kept=self.untouched) for mode in self.critical]
         met = first_met(self.first_met) if self.untouched else out[0]
-        out += ([met] if self.untouched else []) + [without_wall(self.without_wall)]
+        out += [met] if self.untouched else []
+        out += [] if self.without_wall is None else [without_wall(self.without_wall)]
         out += real_force(met, self.case) + ([] if self.untouched else critical_length(self.case.problem))
-        lift = self.lift_off
-        if lift is not None:
-            at_once = self.first.lift_off_at_buckling
-            note = "coincides with buckling: no lateral weight presses the rod to the wall" if at_once else ""
-            places = () if at_once else tuple(lift.s)
-            label, load = "Lift-off load, end force at s = 1", self.lift_off_load or lift.load
+        load = self.lift_off_load
+        if load is not None:
+            note, places, label = "", self.lift_off_places, "Lift-off load, end force at s = 1"
+            if self.left_before is not None:
+                note = "before it buckles: compression presses it away from this side of the hole"
+            elif self.off_at_once:
+                note, places = "coincides with buckling: no lateral weight presses the rod to the wall", ()
             out.append(KeyNumber("lift_off_load", label, load, "force", force_scale(load.value), note, places))
             out += real_force(out[-1], self.case)
         other = None if self.other_arm is None else self.other_arm.lift_off
@@ -80,7 +83,10 @@ class Answer(Computed, Shown):
         if self.at_lift_off is not None:
             out += [*state_numbers(self.at_lift_off), *rotations(self.at_lift_off)]
         out += assessment_numbers(self.assessment)
-        if self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
+        if self.case.problem.hole is not None:
+            lying = self.assessment.at_buckling
+            out += in_curved_hole(lying, self.lift_off_at_own_places, self.left_in_tension)
+        elif self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
             out.append(stress_number(self.at_lift_off, self.case.cylinder, self.case.scales))
         return {key.name: key for key in out}
 

@@ -11,18 +11,21 @@ from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.reach import UNSOLVED, out_of_reach, passes, why_out_of_reach
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import Stress, cylinder_stress
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
-from rodwell.strength.loaded import LoadedRod
+from rodwell.strength.loaded import Fields, LoadedRod
 from rodwell.strength.local import Exceeded, LocalLimits, exceeded, local_limits
 from rodwell.strength.section import RodSection, RodStress, StringSections, rod_section
 from rodwell.strength.supports import Support, support_loads
 from rodwell.strength.validity import Validity, validity
 
 STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN = "straight", "buckled", "other shape", "left the wall", "unknown"
+PULLED = "pulled off the wall"
 """What has become of the rod at a load: straight and stable; buckled, on the wall and stable; mode 1 has lost its
-stability before; it has left the wall; the branch does not reach so far."""
+stability before; it has left the wall; the branch does not reach so far; tension has taken it off the wall of a curved
+hole."""
 
 KNOWN = ("dawson_paslay", "he_kyllingstad", "chen_lin_cheatham", "wu_juvkam_wold", "mitchell_loading")
 """Formulas shown beside the exact loads even where the rod is outside their validity."""
@@ -91,7 +94,7 @@ class AtLoad:
     load
         The load.
     what
-        One of STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN.
+        One of STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN, PULLED.
     state
         The straight or buckled state; None for the others.
     why
@@ -121,8 +124,9 @@ class Assessment:
 
     @cached_property
     def at_buckling(self) -> LoadedRod:
-        """The straight rod at its first critical load."""
-        return LoadedRod("at buckling", self.case.problem, self.buckling.value, self.buckling.error)
+        """The straight rod at its first critical load; in a curved hole where it leaves the wall, if that is before."""
+        name = "at buckling" if self.computed.left_before is None else "where it leaves the wall"
+        return LoadedRod(name, self.case.problem, self.buckling.value, self.buckling.error)
 
     @cached_property
     def at_lift_off(self) -> LoadedRod | None:
@@ -154,12 +158,19 @@ class Assessment:
         return name if len(self.case.applied) == 1 else f"{name} {1 + self.case.applied.index(load)}"
 
     def _at(self, load: AppliedLoad) -> AtLoad:
-        problem, branch, name = self.case.problem, self.branch, self._name(load)
+        problem, name = self.case.problem, self._name(load)
+        if self.computed.pulled_off(load.force):
+            return AtLoad(load, PULLED)
         if load.force >= self.buckling.value:
             return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+        return self._buckled(load, name)
+
+    def _buckled(self, load: AppliedLoad, name: str) -> AtLoad:
+        """The rod at a load that the straight one does not bear."""
+        problem, branch = self.case.problem, self.branch
         reached = not out_of_reach(branch, load.force)
         why = "" if reached else why_out_of_reach(branch, self.case.scales)
-        if branch.lift_off_at_buckling:
+        if self.computed.off_at_once:
             return AtLoad(load, LEFT, None, why, reached)
         end = self.window.end
         if end is not None and end.force is not None and load.force <= end.force:
@@ -184,10 +195,15 @@ class Assessment:
     def _stresses(self) -> dict[str, RodStress]:
         return {}
 
+    def bending_stress(self, f: Fields) -> FloatArray:
+        """Largest bending stress of each cross-section in Pa, (m,), from fields along the rod."""
+        assert self.section is not None
+        return self.section.stresses(f).bending
+
     def cylinder(self, state: LoadedRod) -> Stress | None:
-        """Largest equivalent stress in the cylinder in a buckled state, None where its section is not given."""
+        """Largest equivalent stress in the cylinder in a buckled state; None if its section is unknown or it curves."""
         case = self.case
-        if case.cylinder is None or case.scales is None or state.solution is None:
+        if case.cylinder is None or case.scales is None or state.solution is None or case.problem.hole is not None:
             return None
         return cylinder_stress(state.solution, case.cylinder, case.scales)
 
@@ -200,7 +216,7 @@ class Assessment:
     @cached_property
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
-        gives = limits(self.case, self.branch, self.buckling)
+        gives = limits(self.case, self.branch, self.buckling, left=self.computed.left_before)
         bottom = self.case.problem.hung_weight - self.buckling.value
         return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
@@ -224,9 +240,10 @@ class Assessment:
         if self.case.problem.sections:
             return ()
         weight = self.case.problem.hung_weight
-        loads = [ExactLoad("critical", "first critical load", self.buckling.value, self.buckling.error, weight)]
+        first = self.buckling if self.computed.left_before is None else self.computed.critical[0].load
+        loads = [ExactLoad("critical", "first critical load", first.value, first.error, weight)]
         lift = self.computed.lift_off
-        if lift is not None and not self.branch.lift_off_at_buckling:
+        if lift is not None and not self.computed.off_at_once:
             loads.append(ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, weight))
         rows = load_rows(self.case, tuple(loads))
         shown = [row for row in rows if row.value and row.main is not None and (row.valid or row.formula.key in KNOWN)]

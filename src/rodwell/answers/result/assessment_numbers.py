@@ -31,7 +31,9 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
     if weight == 0.0:
         return []
     note = "N(0) = F − mg L cos α: the most compressed place"
-    loads = [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
+    if a.case.problem.hole is not None:
+        note = "F less the weight over the height of the rod in its hole"
+    loads = [] if a.computed.left_before else [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
     if a.window.lift_off is not None:
         loads.append(("lift_off_load", "Lift-off load", a.window.lift_off))
     out = []
@@ -46,7 +48,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
     """Width of the window, and the limits on the way."""
     out, window = [], a.window
     width, end = window.width, window.end
-    if width is not None and end is not None and not a.branch.lift_off_at_buckling:
+    if width is not None and end is not None and not a.computed.off_at_once:
         parts = [] if window.share is None else [f"{percent(window.share, 4)} of the compression at s = 0 at buckling"]
         parts.append(f"ends by {end.name}")
         if a.limiting is not None:

@@ -108,6 +108,8 @@ def beyond(computed: Computed) -> Beyond:
     is raised: what was computed on the wall must not be lost.
     """
     lift = computed.lift_off
+    if computed.case.problem.hole is not None:
+        return Beyond(None, "states off the wall are computed in straight holes only, and this one is curved")
     if lift is None:
         return Beyond(None, "no lift-off was found on the first branch, so there is nothing beyond it")
     begun = time.process_time()

@@ -17,14 +17,17 @@ from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
+from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
+from rodwell.analysis.straight.lying import lies_between
 from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
 from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.quantities.value import Value
+from rodwell.problem.problem import Problem
+from rodwell.quantities.value import Peak, Value
 
 
 @dataclass(frozen=True)
@@ -69,24 +72,68 @@ class Computed:
         try:
             return self.critical.first_met
         except NotConvergedError:
-            return self.without_wall
+            return loads_without_wall(self.case.problem).modes[0]
 
     @property
-    def without_wall(self) -> SpatialMode:
-        """The mode that the straight rod would meet first without the wall's help."""
-        return loads_without_wall(self.case.problem).modes[0]
+    def without_wall(self) -> SpatialMode | None:
+        """The mode that the straight rod would meet first without the wall's help; in a curved hole it is not known."""
+        return None if self.case.problem.hole is not None else loads_without_wall(self.case.problem).modes[0]
+
+    @cached_property
+    def left_before(self) -> Peak | None:
+        """Where the rod leaves the wall of a curved hole by itself before it buckles: end force and place; or None."""
+        return left_before(self.case.problem, self.critical)
+
+    @cached_property
+    def left_in_tension(self) -> Peak | None:
+        """Where tension takes the rod off the wall of a curved hole: end force and place; None where nothing does."""
+        return None if self.case.problem.hole is None else lies_between(self.case.problem)[1]
+
+    def pulled_off(self, force: float) -> bool:
+        """Whether an end force is a tension that has taken the rod off the wall of a curved hole."""
+        return self.left_in_tension is not None and force > self.left_in_tension.value
+
+    @property
+    def off_at_once(self) -> bool:
+        """Whether the rod leaves the wall as soon as it buckles, or before: nothing presses it there by then."""
+        return self.left_before is not None or self.first.lift_off_at_buckling
 
     @property
     def buckling(self) -> Value:
-        """The first load that the straight rod meets: end force F at s = 1 in B/L², tension positive."""
+        """The first load that the straight rod meets: end force F at s = 1 in B/L², tension positive.
+
+        It buckles, or before that leaves the wall of a curved hole.
+        """
+        if self.left_before is not None:
+            return Value(self.left_before.value, self.left_before.error)
         return Value(self.first_met.force, self.first_met.error)
 
     @property
     def lift_off_load(self) -> Value | None:
         """Lift-off of the first branch; where nothing presses the rod to the wall that is where it buckles."""
-        if self.lift_off is None:
+        if self.off_at_once:
+            return self.buckling
+        return None if self.lift_off is None else self.lift_off.load
+
+    @property
+    def lift_off_places(self) -> tuple[float, ...]:
+        """Where it lifts off, s/L; none where that is as soon as it buckles."""
+        if self.left_before is not None:
+            return (self.left_before.s,)
+        return () if self.lift_off is None else tuple(self.lift_off.s)
+
+    @cached_property
+    def lift_off_at_own_places(self) -> Value | None:
+        """Lift-off in a curved hole with every cross-section at its own place along it; None where it is not known.
+
+        Branches take the hole where the undeformed rod is: the difference is what that costs.
+        """
+        if self.case.problem.hole is None or self.at_lift_off is None:
             return None
-        return self.buckling if self.first.lift_off_at_buckling else self.lift_off.load
+        try:
+            return lift_off_with_own_places(self.case.problem, self.at_lift_off.meshes, self.at_lift_off.point)
+        except NotConvergedError:
+            return None
 
     @property
     def first(self) -> Branch:
@@ -95,13 +142,13 @@ class Computed:
 
     @property
     def lift_off(self) -> SpecialPoint | None:
-        """Lift-off of the first mode."""
-        return self.first.lift_off
+        """Lift-off of the first mode; None where the rod has left the wall of a curved hole before it buckles."""
+        return None if self.left_before is not None else self.first.lift_off
 
     @cached_property
     def at_lift_off(self) -> Solution | None:
         """The state of the first mode at lift-off, None where lift-off coincides with buckling."""
-        if self.lift_off is None or self.first.lift_off_at_buckling:
+        if self.lift_off is None or self.off_at_once:
             return None
         return self.lift_off.solution
 
@@ -122,7 +169,9 @@ class Computed:
 
     @cached_property
     def sensitivities(self) -> tuple[Sensitivity, ...]:
-        """How the first critical load and the lift-off load change with the inputs."""
+        """How the first critical load and the lift-off load change with the inputs; not known in a curved hole."""
+        if self.case.problem.hole is not None:
+            return ()
         out = [of_critical_load(self.critical[0])]
         if isinstance(self.first_met, SpatialMode):
             out.append(of_first_met(self.first_met))
@@ -136,19 +185,27 @@ class Computed:
         return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
 
 
-def _refuse_curved(case: Case) -> None:
-    """Raise for a curved hole: stress without the hole's part of the bending would be on the unsafe side."""
-    if case.problem.hole is None:
+def _check_lying(case: Case) -> None:
+    """Raise where the wall would have to pull the rod at every end force: none lies on this side of the hole."""
+    low, high = (None, None) if case.problem.hole is None else lies_between(case.problem)
+    if low is None or high is None or low.value < high.value:
         return
     given = case.given.get("hole", {})
-    key = next((name for name in ("survey", "centerline", "build", "walk") if name in given), "build")
+    key = next((name for name in ("survey", "centerline", "build") if name in given), "build")
+    side = "high" if case.problem.on_top else "low"
     raise InputError(
         f"hole.{key}",
         given.get(key),
-        "makes the hole curved, and reports with strength are those of straight holes: `rodwell audit` takes this case "
-        "(critical load, lift-off, formulas beside them), a range of values as a study too, and in Python its problem "
-        "does, rodwell.critical_loads(case.problem), rodwell.follow(case.problem)",
+        f"bends the hole so that a rod lies on its {side} side at no end force: below {high.value:.6g} B/L² it leaves "
+        f"the wall at s/L = {low.s:.4g}, above at s/L = {high.s:.4g}; take a shorter piece of the hole, or give the "
+        "rod its weight",
     )
+
+
+def left_before(problem: Problem, critical: CriticalLoads) -> Peak | None:
+    """The end force at which the rod leaves the wall of a curved hole before it buckles, with the place; or None."""
+    low = None if problem.hole is None else lies_between(problem)[0]
+    return None if low is None or low.value < critical[0].force else low
 
 
 def compute(case: Case, progress: Progress | None = None) -> Computed:
@@ -164,16 +221,17 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     Raises
     ------
     InputError
-        For a curved hole, whose bending of the rod the assessment of strength does not have.
+        For a hole that leaves the vertical plane, where the rod has no critical load, and one in which it lies on this
+        side at no end force.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
         ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
     """
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
-    _refuse_curved(case)
     first_run.begin(case.problem)
     tell("critical loads", 0.0)
+    _check_lying(case)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
     first, other, until = _first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))
@@ -201,20 +259,23 @@ def _first_branch(
     """
     first = critical[0]
     until, asked = case.until, case.until is not None and case.until < first.force
+    if left_before(case.problem, critical) is not None:  # what follows needs a wall that pulls: there is no lift-off
+        until = until if until is not None and asked else _reach(critical, None)
+        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
     if until is not None and asked and not arms_differ(case.problem, first.parity):
         return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
     lifted, other = to_lift_off(case.problem, first, case.rtol, progress=report)
     if until is not None and asked:
         mirror = lifted.origin.mirror
         return follow(case.problem, first, until=until, mirror=mirror, rtol=case.rtol), other, until
-    until = _reach(critical, lifted)
+    until = _reach(critical, lifted.lift_off)
     branch = extended(lifted, until) if lifted.reached_end else lifted
     return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), other, until
 
 
-def _reach(critical: CriticalLoads, to_lift_off: Branch) -> float:
+def _reach(critical: CriticalLoads, lift: SpecialPoint | None) -> float:
     """End force past lift-off and all modes."""
-    first, lift = critical[0].force, to_lift_off.lift_off
+    first = critical[0].force
     beyond = [1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2]
     if lift is not None:
         beyond.append(1.3 * (first - lift.force))

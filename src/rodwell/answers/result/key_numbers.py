@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.state.wall import CylinderLoads
 from rodwell.analysis.straight.critical import Mode
 from rodwell.analysis.straight.scale import EULER
 from rodwell.analysis.straight.without_wall import SpatialMode
@@ -16,6 +19,7 @@ from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import percent, plain
 from rodwell.quantities.value import Peak, Value
 from rodwell.strength.cylinder import cylinder_stress
+from rodwell.strength.loaded import LoadedRod
 
 
 def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
@@ -70,6 +74,24 @@ def critical_length(problem: Problem) -> list[KeyNumber]:
     return [KeyNumber("critical_length", label, value, "length", length, note)]
 
 
+def in_curved_hole(lying: LoadedRod, own: Value | None, tension: Peak | None) -> list[KeyNumber]:
+    """What the hole's curvature does: bending of the lying rod, lift-off with own places, where tension lifts it off.
+
+    ``lying`` is the rod before it buckles, ``own`` the lift-off load with every cross-section at its own place.
+    """
+    bending = lying.largest(lambda f: np.hypot(f["rod_M2"], f["rod_M3"]))
+    label = "Largest bending moment in the rod as it lies, from the hole's curvature alone"
+    out = [KeyNumber("hole_bending", label, bending, "moment", bending.value, s=(bending.s,))]
+    if own is not None:
+        label = "Lift-off load with every cross-section at its own place along the hole, end force at s = 1"
+        out.append(KeyNumber("lift_off_load_own_places", label, own, "force", force_scale(own.value)))
+    if tension is not None:
+        label = "Tension that takes the rod off this side of the hole, end force at s = 1"
+        load = Value(tension.value, tension.error)
+        out.append(KeyNumber("leaves_wall_in_tension", label, load, "force", force_scale(load.value), s=(tension.s,)))
+    return out
+
+
 def real_force(key: KeyNumber, case: Case) -> list[KeyNumber]:
     """The force in the wall of the pipe at s = 1 that belongs to an effective one, where pressures tell them apart."""
     if case.rod is None or case.scales is None:
@@ -115,20 +137,10 @@ def rotations(state: Solution) -> list[KeyNumber]:
 def state_numbers(state: Solution) -> list[KeyNumber]:
     """Wall and support loads of one state."""
     wall, shortening, end = state.wall, state.number(Measured.SHORTENING), state.problem.ends[1]
-
-    def largest(name: str, field: str, label: str, peak: Peak, scale: float | None = None) -> KeyNumber:
-        return KeyNumber(name, label, peak, QUANTITIES[field].dimension, scale or peak.value, s=(peak.s,))
-
     in_rod = state.largest("rod_M2")
-    torque = Value(wall.torque.value if wall.needs_torque else 0.0, wall.torque.error)
-    balanced = "" if wall.needs_torque else "none: the twisting moment balances itself"
+    label = "Largest contact force on the wall per length, outward"
     return [
-        largest(
-            "largest_wall_force",
-            "contact_pressure",
-            "Largest contact force on the wall per length, outward",
-            wall.contact,
-        ),
+        _largest("largest_wall_force", "contact_pressure", label, wall.contact, wall.contact.value),
         KeyNumber(
             "total_wall_force",
             "Total contact force on the wall, all directions added",
@@ -136,27 +148,11 @@ def state_numbers(state: Solution) -> list[KeyNumber]:
             "force",
             wall.total.value,
         ),
-        largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", wall.twisting),
-        KeyNumber(
-            "support_torque",
-            "Torque that the cylinder's support at s = 0 must provide, T₂(0)",
-            torque,
-            "moment",
-            wall.twisting.value,
-            balanced,
+        *([] if state.problem.hole is None else _bent(state)),
+        *([] if wall.cylinder is None else _cylinder_numbers(wall.cylinder, in_rod.value)),
+        _largest(
+            "largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod, in_rod.value
         ),
-        # μ and λ are differences of moments of the size of the rod's: they are judged against that
-        largest(
-            "largest_mu", "mu", "Largest bending moment in the cylinder about d₁, |μ|", wall.bending_mu, in_rod.value
-        ),
-        largest(
-            "largest_lambda",
-            "cylinder_M3",
-            "Largest bending moment in the cylinder about u₂, |λ cos η|",
-            wall.bending_lambda,
-            in_rod.value,
-        ),
-        largest("largest_bending", "rod_M2", "Largest bending moment in the rod about d₁, |M₂⁽¹⁾|", in_rod),
         KeyNumber(
             "end_shear",
             f"Sideways force at the end s = 1 ({end}), F₃(1)",
@@ -172,4 +168,33 @@ def state_numbers(state: Solution) -> list[KeyNumber]:
             in_rod.value,
         ),
         KeyNumber("end_shortening", "Approach of the ends, 1 − z(1)", shortening, "length", shortening.value),
+    ]
+
+
+def _largest(name: str, field: str, label: str, peak: Peak, scale: float) -> KeyNumber:
+    return KeyNumber(name, label, peak, QUANTITIES[field].dimension, scale, s=(peak.s,))
+
+
+def _bent(state: Solution) -> list[KeyNumber]:
+    """In a curved hole: which part of the wall is pressed hardest, and how far around the rod lies."""
+    wall, farthest = state.wall, state.largest("xi2")
+    label = "Where around the hole that is, from the low side"
+    note = "positive to the left, looking towards s = 0"
+    return [
+        KeyNumber("largest_wall_force_angle", label, wall.angle, "angle", RADIAN, note, (wall.contact.s,)),
+        _largest("largest_angle", "xi2", "Largest angle around the hole from the low side, |ξ₂|", farthest, RADIAN),
+    ]
+
+
+def _cylinder_numbers(carried: CylinderLoads, in_rod: float) -> list[KeyNumber]:
+    """What a straight cylinder carries. μ and λ are differences of moments of the size of the rod's, ``in_rod``."""
+    torque = Value(carried.torque.value if carried.needs_torque else 0.0, carried.torque.error)
+    balanced = "" if carried.needs_torque else "none: the twisting moment balances itself"
+    label, largest = "Torque that the cylinder's support at s = 0 must provide, T₂(0)", carried.twisting
+    mu, bent = "Largest bending moment in the cylinder about d₁, |μ|", "Largest bending moment in the cylinder about u₂"
+    return [
+        _largest("largest_torque", "T2", "Largest twisting moment in the cylinder, |T₂|", largest, largest.value),
+        KeyNumber("support_torque", label, torque, "moment", largest.value, balanced),
+        _largest("largest_mu", "mu", mu, carried.bending_mu, in_rod),
+        _largest("largest_lambda", "cylinder_M3", f"{bent}, |λ cos η|", carried.bending_lambda, in_rod),
     ]

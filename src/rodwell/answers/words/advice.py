@@ -62,15 +62,10 @@ def most_compressive(case: Case) -> AppliedLoad | None:
 
 
 def _buckling(computed: Computed) -> Status:
-    load, limit, said = judged(computed.case), computed.buckling, forces_of(computed.case)
-    where = said.load(limit)
-    if load is None:
-        reason = f"straight as long as it keeps {said.below(limit)}"
-        return Status("Buckling", OPEN, "no load given", reason)
-    if load >= limit.value:
-        level, margin = _margin(computed.case, load, limit)
-        word = "straight" if level == GOOD else "straight, close to buckling"
-        return Status("Buckling", level, word, f"{margin} the load at which it buckles, {where}")
+    load, limit = judged(computed.case), computed.buckling
+    where = forces_of(computed.case).load(limit)
+    if load is None or load >= limit.value or computed.left_before is not None:
+        return _not_buckled(computed, load)
     reason = f"beyond the load at which it buckles, {where}"
     if computed.untouched:
         return Status("Buckling", BAD, "buckled, off the wall", f"{reason}: nothing presses it to the wall")
@@ -82,6 +77,36 @@ def _buckling(computed: Computed) -> Status:
     return Status("Buckling", BAD, "buckled, shape unstable", f"{reason}: the rod takes another shape")
 
 
+def _not_buckled(computed: Computed, load: float | None) -> Status:
+    """A rod that has not buckled: straight or as the hole is; or off the wall of a curved hole before it could."""
+    limit, said = computed.buckling, forces_of(computed.case)
+    if load is None:
+        reason = f"{_unbuckled(computed.case)} as long as it keeps {said.below(limit)}"
+        return Status("Buckling", OPEN, "no load given", reason)
+    if load < limit.value or computed.pulled_off(load):
+        return Status(
+            "Buckling", BAD, "off the wall", f"{_off(computed, load)}: the curve presses it away from the wall"
+        )
+    level, margin = _margin(computed.case, load, limit)
+    word, does, next_up = _unbuckled(computed.case), "buckles", "buckling"
+    if computed.left_before is not None:
+        does, next_up = "leaves the wall", "leaving the wall"
+    word += "" if level == GOOD else f", close to {next_up}"
+    return Status("Buckling", level, word, f"{margin} the load at which it {does}, {said.load(limit)}")
+
+
+def _off(computed: Computed, load: float) -> str:
+    """By which load a rod has left the wall of a curved hole without buckling."""
+    pulled = computed.left_in_tension if computed.pulled_off(load) else None
+    at = computed.buckling if pulled is None else Value(pulled.value, pulled.error)
+    return f"beyond {forces_of(computed.case).load(at)}"
+
+
+def _unbuckled(case: Case) -> str:
+    """What the rod is that has not buckled."""
+    return "straight" if case.problem.hole is None else "along the hole"
+
+
 def _state(computed: Computed, load: float) -> Solution | None:
     """The buckled state of mode 1 at an end force; None where it is not known."""
     try:
@@ -91,7 +116,7 @@ def _state(computed: Computed, load: float) -> Solution | None:
 
 
 def _contact(computed: Computed) -> Status:
-    load, lift, subject = judged(computed.case), computed.lift_off, "Contact"
+    load, subject = judged(computed.case), "Contact"
     limit = computed.lift_off_load
     where = "" if limit is None else forces_of(computed.case).load(limit)
     if load is None:
@@ -99,12 +124,13 @@ def _contact(computed: Computed) -> Status:
         return Status(subject, OPEN, "no load given", reason)
     if load >= computed.buckling.value and computed.first.lift_off_at_buckling:
         return Status(subject, GOOD, "straight", "no lateral weight: nothing presses it to the wall")
-    if lift is None and not passes(computed.first, min(load, computed.first.force[0])):
+    if computed.pulled_off(load) or (limit is not None and load <= limit.value):
+        reason = _off(computed, load) if computed.pulled_off(load) else f"lift-off is at {where}"
+        return Status(subject, BAD, "leaves the wall", reason)
+    if limit is None and not passes(computed.first, min(load, computed.first.force[0])):
         return Status(subject, BAD, "not known", "no lift-off was found, but the branch could not be followed so far")
     if limit is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
-    if load <= limit.value:
-        return Status(subject, BAD, "leaves the wall", f"lift-off is at {where}")
     level, margin = _margin(computed.case, load, limit)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
     return Status(subject, level, word, f"{margin} the lift-off load, {where}")
@@ -169,7 +195,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
             f"{plain(case.rtol)}."
         )
     out += _about_the_load(answer)
-    if not case.uncertain and case.scales is not None:
+    if not case.uncertain and case.scales is not None and case.problem.hole is None:
         out.append(
             "Give inputs that are not known well with their uncertainty "
             f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
@@ -188,7 +214,8 @@ def _about_the_load(computed: Computed) -> list[str]:
         return ["Give the end force that acts as load.applied in the case file: this page then judges it."]
     if load >= limit.value:
         return []
-    out = [f"To keep the rod straight, keep {said.below(limit)}."]
+    lies = "straight" if computed.case.problem.hole is None else "lying along the hole"
+    out = [f"To keep the rod {lies}, keep {said.below(limit)}."]
     if lift is not None and load <= lift.value and lift.value < limit.value:
         out.append(f"To keep it on the wall, keep {said.below(lift)}.")
     return out

@@ -20,7 +20,7 @@ KEPT = (
 def without_wall(computed: Computed) -> str:
     """Both loads where twist counts, or would: with the wall's help and without; empty for a rod without twist."""
     said = forces_of(computed.case)
-    if computed.case.problem.twist == 0.0:
+    if computed.case.problem.twist == 0.0 or computed.without_wall is None:
         return ""
     alone = Value(computed.without_wall.force, computed.without_wall.error)
     if not computed.untouched:

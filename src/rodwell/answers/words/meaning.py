@@ -13,12 +13,13 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
+from rodwell.answers.words.curved import in_curved_hole
 from rodwell.answers.words.first_met import other_arm, without_wall
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
-from rodwell.answers.words.wording import forces_of, place_text, places_text, size_text
+from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.scales import Scales
@@ -28,7 +29,7 @@ from rodwell.quantities.value import Value
 ASSUMPTIONS = (
     "end force and end torque are dead loads at the upper end s = 1",
     "rod inextensible, unshearable, linearly elastic, straight when free",
-    "cylinder rigid and straight; contact without friction",
+    "{hole}; contact without friction",
     "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
 )
 
@@ -60,7 +61,8 @@ def assumptions(case: Case) -> tuple[str, ...]:
     more = (EFFECTIVE,) if case.with_fluids else ()
     if case.problem.sections:
         more = (*more, HELD_AT_STEPS)
-    return (ends_text(case.problem, ENDS_HOLD), *more, *ASSUMPTIONS)
+    hole = "cylinder rigid and straight" if case.problem.hole is None else "hole rigid, curved as given"
+    return (ends_text(case.problem, ENDS_HOLD), *more, *(text.format(hole=hole) for text in ASSUMPTIONS))
 
 
 def sentences(answer: Answer) -> list[str]:
@@ -71,13 +73,14 @@ def sentences(answer: Answer) -> list[str]:
         *load_sentences(a),
         *unreached(a),
         without_wall(answer),
-        _mode(answer.critical, answer.case, kept=answer.untouched),
+        "" if answer.left_before else _mode(answer.critical, answer.case, kept=answer.untouched),
         _asked(answer),
         _lift_off(answer),
         "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case),
     ]
-    out += [_stability(answer), *window_sentences(a)]
-    out += [_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "", _inputs(answer)]
+    out += ["" if answer.left_before else _stability(answer), *window_sentences(a)]
+    out.append(_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "")
+    out += in_curved_hole(answer) if answer.case.problem.hole is not None else [_inputs(answer)]
     out.append(a.validity.sentence)
     return [sentence for sentence in out if sentence]
 
@@ -92,6 +95,7 @@ def _mode(critical: Sequence[Mode], case: Case, *, kept: bool) -> str:
     error = shape_error(critical)
     about = "" if error < FADED else "about "
     why = "axial weight" if case.problem.axial_weight != 0.0 else "unequal ends"
+    why = "as the hole is" if case.problem.axis else why
     shape = {1: "symmetric", -1: "antisymmetric", 0: f"unsymmetric ({why})"}[first.parity]
     plural = "" if waves == 1 else "s"
     text = "Kept on the wall it would buckle" if kept else "It buckles"
@@ -129,13 +133,16 @@ def _asked(computed: Computed) -> str:
     if until is None or until < computed.buckling.value:
         return ""
     return (
-        f"At the end force asked for, {said.load(Value(until), other=True)}, the straight rod is stable; the "
+        f"At the end force asked for, {said.load(Value(until), other=True)}, the "
+        f"{'straight rod is stable' if computed.case.problem.hole is None else 'rod lies along the hole'}; the "
         "diagrams go beyond it to show what follows."
     )
 
 
 def _lift_off(computed: Computed) -> str:
     lift, first, said = computed.lift_off, computed.first, forces_of(computed.case)
+    if computed.left_before is not None:
+        return ""
     if lift is None and not first.reached_end:
         lowest, highest = (said.load(Value(force)) for force in first.reach)
         return (
@@ -212,6 +219,14 @@ def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
     def text(name: str, unit: str) -> str:
         return size_text(scales, numbers[name].number, numbers[name].dimension, unit)
 
+    bears = (
+        f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
+        f"{text('total_wall_force', 'B/L²')} in all"
+    )
+    if "support_torque" not in numbers:
+        side = around_text(numbers["largest_wall_force_angle"].number)
+        far = around_text(numbers["largest_angle"].number).replace(" to the left of", " from")
+        return f"{bears}, the most on {side}; the rod lies up to {far}."
     support = (
         "the cylinder's supports need no torque"
         if numbers["support_torque"].value == 0.0
@@ -223,7 +238,6 @@ def _wall(numbers: Mapping[str, KeyNumber], scales: Scales | None) -> str:
         note = numbers["cylinder_stress"].note
         stress = f" Its equivalent stress is then {text('cylinder_stress', '')}, {note}."
     return (
-        f"At lift-off the wall bears at most {text('largest_wall_force', 'B/L³')}, "
-        f"{text('total_wall_force', 'B/L²')} in all; the cylinder carries a twisting moment of up to "
+        f"{bears}; the cylinder carries a twisting moment of up to "
         f"{text('largest_torque', 'B/L')}, and {support}.{stress}"
     )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.steps import has_steps
-from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
@@ -61,6 +61,8 @@ def _assumed(case: Case) -> str:
 def _range(a: Assessment) -> str:
     """Where the straight rod buckles, and how far it is from there to lift-off."""
     load, said = a.window.buckling, forces_of(a.case)
+    if a.case.problem.hole is not None:
+        return _range_in_curved_hole(a) + _window(a)
     if said.compression(load).value < 0.0:
         cause = "own weight" if not a.computed.untouched else "weight and twist" if a.case.problem.weight else "twist"
         text = (
@@ -74,9 +76,41 @@ def _range(a: Assessment) -> str:
     return text + _window(a)
 
 
+def _range_in_curved_hole(a: Assessment) -> str:
+    """Up to which load the rod lies along its hole."""
+    load, said, left = a.window.buckling, forces_of(a.case), a.computed.left_before
+    what = "on the wall, stable" if left is None else "on the wall"
+    held = said.compression(load)
+    if held.value < 0.0:
+        text = f"The rod lies along the hole, {what}, only under a tension of at least {said.size(load)}{said.at_end}"
+    else:
+        text = f"The rod lies along the hole, {what}, until the compression{said.at_end} reaches {said.size(load)}"
+    text += said.other(load)
+    return text if left is None else f"{text}; there it leaves {_side(a, left.s)}"
+
+
+def _side(a: Assessment, s: float) -> str:
+    """The side of a curved hole that the rod leaves, and where first: the curve presses it away from the wall."""
+    return (
+        f"the {side_of(a.case)} side at {place_text(a.case, Value(s))}, pressed away from it by the curve: what it "
+        "does beyond that is not given"
+    )
+
+
+def in_tension(a: Assessment) -> str:
+    """Where tension takes the rod off its side of a curved hole, as a sentence; nothing where it does not."""
+    off, said = a.computed.left_in_tension, forces_of(a.case)
+    if off is None:
+        return ""
+    load = Value(off.value, off.error)
+    return f"Under more than {said.load(load, other=True)} the rod leaves {_side(a, off.s)}."
+
+
 def _window(a: Assessment) -> str:
     """The way from buckling to lift-off as the end of a sentence."""
     window, scales = a.window, a.case.scales
+    if a.computed.left_before is not None:
+        return ""
     if a.branch.lift_off_at_buckling:
         return "; it leaves the wall as soon as it buckles"
     end, width = window.end, window.width
@@ -127,7 +161,7 @@ def load_text(case: Case, load: AppliedLoad) -> str:
     if case.scales is None:
         return f"{plain(load.given, 6)} B/L² at {'s = 0' if load.bottom else 's = 1'} ({sign})"
     kind = ", real force in the wall" if load.real else ""
-    at = "" if case.problem.axial_weight == 0.0 and not load.real else f" at {end}"
+    at = "" if case.problem.hung_weight == 0.0 and not load.real else f" at {end}"
     return f"{case.scales.system.text(abs(load.given), 'force', 6)} of {sign}{at}{kind}"
 
 
@@ -135,7 +169,9 @@ def _at(a: Assessment, at: AtLoad) -> str:
     """What becomes of the rod at a load that acts."""
     start = f"At {load_text(a.case, at.load)}"
     if at.what == STRAIGHT:
-        text = f"{start} the rod is straight and stable, {_apart(a.case, at, a.window.buckling, 'buckling')}"
+        state = "is straight and stable" if a.case.problem.hole is None else "lies along the hole"
+        next_up = "buckling" if a.computed.left_before is None else "leaving the wall"
+        text = f"{start} the rod {state}, {_apart(a.case, at, a.window.buckling, next_up)}"
     elif at.what == BUCKLED:
         far, last = "", a.window.end
         if last is not None and last.load is not None:
@@ -149,6 +185,9 @@ def _at(a: Assessment, at: AtLoad) -> str:
         return f"{text}: it takes another shape, not given here"
     elif at.what == LEFT:
         return f"{start} {_left(a, at)}"
+    elif at.what == PULLED:
+        assert a.computed.left_in_tension is not None
+        return f"{start} the rod has left {_side(a, a.computed.left_in_tension.s)}"
     else:
         return f"{start} the state of the rod is not known: {at.why}"
     assert at.state is not None
@@ -158,7 +197,7 @@ def _at(a: Assessment, at: AtLoad) -> str:
 def _left(a: Assessment, at: AtLoad) -> str:
     """A rod that has left the wall at a load that acts."""
     assert a.window.lift_off is not None
-    at_once = a.branch.lift_off_at_buckling
+    at_once = a.computed.left_before is None and a.computed.off_at_once
     text = f"the rod has left the wall, {_apart(a.case, at, a.window.lift_off, 'buckling' if at_once else 'lift-off')}"
     text += ", where nothing presses it to the wall" if at_once else ""
     return text + ": its shape and stresses are no longer those of a rod on the wall and are not given"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from rodwell.quantities.forces import Forces
@@ -45,6 +46,27 @@ def place_text(case: Case, place: Value) -> str:
         return "the bottom" if place.value <= 0.0 else "the top"
     depth = size_text(scales, Value(1.0 - place.value, place.error), "length")
     return f"{above} above the bottom ({depth} below the top)"
+
+
+def side_of(case: Case) -> str:
+    """The side of the hole that the rod lies on before it buckles: "low" or "high"."""
+    return "high" if case.problem.on_top else "low"
+
+
+def around_text(angle: Value) -> str:
+    """Where around the hole an angle ξ₂ from the low side is: "the low side", "12° to the left of the low side"."""
+    degrees = angle.times(180.0 / math.pi)
+    turned = (degrees.value + 180.0) % 360.0 - 180.0
+    if abs(turned) < NEARLY:
+        return "the low side"
+    if abs(abs(turned) - 180.0) < NEARLY:
+        return "the high side"
+    side = "left" if turned > 0.0 else "right"
+    return f"{amount(Value(abs(turned), degrees.error), 3)}° to the {side} of the low side"
+
+
+NEARLY = 0.05
+"""Degrees around the hole that nobody tells apart."""
 
 
 def places_text(case: Case, point: SpecialPoint) -> str:

@@ -34,10 +34,11 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
             "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
-            "cylinder": plot_cylinder_moments(answer.shown, scales),
             "rod-3d": plot_rod(answer.shown, scales),
             "along-rod": _along(answer.assessment),
         }
+        if answer.case.problem.hole is None:
+            axes["cylinder"] = plot_cylinder_moments(answer.shown, scales)
         if answer.case.string is not None:
             axes["string"] = plot_string(answer.case)
         out = {}

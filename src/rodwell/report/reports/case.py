@@ -52,7 +52,7 @@ def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False
             _pictures(answer),
             key_numbers(answer),
             _special_points(answer),
-            _inputs_and_loads(answer),
+            *_inputs_and_loads(answer),
             _inputs(case),
             *_conversions(case),
             _validity(answer),
@@ -115,7 +115,7 @@ def _grid(head: tuple[str, ...], lines: list[dict[str, str]]) -> Grid:
 def _pictures(computed: Computed) -> ReportSection:
     at = " at lift-off" if computed.at_lift_off else ""
     kept = f" {KEPT}" if computed.untouched else ""
-    wall = computed.shown.wall.meaning
+    wall, straight = computed.shown.wall.meaning, computed.case.problem.hole is None
     ordinate = ORDINATES[telling(computed.branches, computed.case.scales)][1]
     dimensions = computed.case.scales is not None
     pushed = "push on the wall per length" if dimensions else "contact pressure p; the wall pushes with −p per length"
@@ -131,25 +131,43 @@ def _pictures(computed: Computed) -> ReportSection:
             ),
             Picture(
                 "wall-loads",
-                "Push on the wall, and twisting moment in the cylinder, along the rod",
-                f"First mode at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: twisting "
-                "moment T₂ that the rod's weight sets up in the cylinder; its value at s = 0 is the torque that the "
-                "cylinder's support must provide.",
+                f"Push on the wall, and {'twisting moment in the cylinder' if straight else 'angle around the hole'}, "
+                "along the rod",
+                f"First mode at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: "
+                + (BELOW if straight else BELOW_IN_CURVED_HOLE),
             ),
-            Picture(
-                "cylinder",
-                "Moments in the cylinder along its length",
-                f"What the cylinder carries{at}, first mode: twisting moment T₂ and bending moments μ and λ cos η "
-                "(59), for a cylinder whose bedding takes up the rod's weight place by place. "
-                f"{wall[:1].upper()}{wall[1:]}.",
+            *(
+                [
+                    Picture(
+                        "cylinder",
+                        "Moments in the cylinder along its length",
+                        f"What the cylinder carries{at}, first mode: twisting moment T₂ and bending moments μ and "
+                        "λ cos η (59), for a cylinder whose bedding takes up the rod's weight place by place. "
+                        f"{wall[:1].upper()}{wall[1:]}.",
+                    )
+                ]
+                if straight
+                else []
             ),
             Picture(
                 "modes",
                 "Buckling modes",
-                "Buckling modes of the straight rod, each scaled to a largest deflection of 1.",
+                f"Buckling modes of the {'straight rod' if straight else 'rod as it lies'}, each scaled to a largest "
+                "deflection of 1.",
             ),
         ),
     )
+
+
+BELOW = (
+    "twisting moment T₂ that the rod's weight sets up in the cylinder; its value at s = 0 is the torque that the "
+    "cylinder's support must provide."
+)
+
+BELOW_IN_CURVED_HOLE = (
+    "which part of the wall bears it, as the angle around the hole from the low side, positive to the left looking "
+    "towards s = 0."
+)
 
 
 def _special_points(computed: Computed) -> ReportSection:
@@ -172,7 +190,9 @@ def _special_points(computed: Computed) -> ReportSection:
     return ReportSection("Special points of every branch", (table, Words(note, "small"), *kept))
 
 
-def _inputs_and_loads(computed: Computed) -> ReportSection:
+def _inputs_and_loads(computed: Computed) -> tuple[ReportSection, ...]:
+    if not computed.sensitivities:
+        return ()
     uncertain = computed.case.uncertain
     head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
     head += ["± from the inputs"] if uncertain else []
@@ -186,7 +206,7 @@ def _inputs_and_loads(computed: Computed) -> ReportSection:
         note += f" The last column carries the uncertainties of the inputs ({written}) through to first order, as "
         note += "independent of each other."
     table = Grid(tuple(head), tuple(lines), numeric=tuple(range(1, len(head))))
-    return ReportSection("What the inputs do to the loads", (table, Words(note, "small")))
+    return (ReportSection("What the inputs do to the loads", (table, Words(note, "small"))),)
 
 
 def _inputs(case: Case) -> ReportSection:
@@ -215,11 +235,23 @@ def _validity(answer: Answer) -> ReportSection:
     return ReportSection("What the theory assumes, and how far it holds here", (words, table))
 
 
+SYSTEM = (
+    "Every state was put into the paper's own system, which the solver does not use: fifteen differential equations, "
+    "fifteen end conditions, and the relations between rod, cylinder and contact."
+)
+
+SYSTEM_IN_CURVED_HOLE = (
+    "Every state was put into space, on the wall of the curved hole, and its force and moment were held against weight "
+    "and contact as vectors, and against what its ends hold; none of these equations is the solver's."
+)
+
+
 def _trust(answer: Answer) -> ReportSection:
     left = certificate(answer.worst_certificate)
     tolerance = plain(answer.case.rtol)
     passed = "passed" if left["passed"] else "not passed"
     met = "is met by every number" if answer.converged else "is not met by every number"
+    straight = answer.case.problem.hole is None
     return ReportSection(
         "How far the numbers can be trusted",
         (
@@ -228,17 +260,20 @@ def _trust(answer: Answer) -> ReportSection:
                 f"difference; the tolerance asked for was {tolerance} and {met}."
             ),
             Words(
-                "Every state was put into the paper's own system, which the solver does not use: fifteen "
-                "differential equations, fifteen end conditions, and the relations between rod, cylinder and "
-                "contact. What is left of each, divided by its largest term along the rod, is at most "
+                f"{SYSTEM if straight else SYSTEM_IN_CURVED_HOLE} "
+                "What is left of each, divided by its largest term along the rod, is at most "
                 f"{left['worst']} (in {left['where']}); the limit is {left['limit']}: {passed}. For the state that "
                 "fits least well:"
             ),
-            Grid(("Equations of the paper", "What is left"), tuple(left["groups"]), numeric=(1,)),
+            Grid(
+                ("Equations of the paper" if straight else "Balance", "What is left"),
+                tuple(left["groups"]),
+                numeric=(1,),
+            ),
             Words(
                 "The theory is geometrically exact for a rod that stays on the wall: no small-angle or "
                 "small-deflection assumption is made. Pressures and mud act through effective force and buoyed "
-                "weight. Not included: friction, joints, curvature of the hole, dynamics."
+                f"weight. Not included: friction, joints, {'curvature of the hole, ' if straight else ''}dynamics."
             ),
         ),
     )

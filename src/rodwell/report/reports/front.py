@@ -14,6 +14,7 @@ from rodwell.answers.words.steps import has_steps
 from rodwell.answers.words.verdict import load_text, share_shown
 from rodwell.answers.words.wording import forces_of, quantity, size_text
 from rodwell.case.case import Case
+from rodwell.plots.sketch import bend_text
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
@@ -49,8 +50,10 @@ def inputs_in_words(case: Case) -> tuple[tuple[str, str], ...]:
     """What is computed, as pairs of what and how much."""
     p, scales, rod = case.problem, case.scales, case.rod
     lying = {0.0: "vertical", 90.0: "horizontal"}.get(p.alpha, f"{plain(p.alpha)}° from the vertical")
+    bent = ", straight" if p.hole is None else f" at mid-length, {bend_text(case)}"
     if scales is None or rod is None:
-        return (("Weight γ = mg L³/B", plain(p.weight, 6)), ("Hole", lying), ("Clearance Δ/L", plain(p.clearance, 6)),
+        return (("Weight γ = mg L³/B", plain(p.weight, 6)), ("Hole", lying if p.hole is None else f"{lying}{bent}"),
+                ("Clearance Δ/L", plain(p.clearance, 6)),
                 ("Ends", ends_text(p)), *_loads(case))  # fmt: skip
     text = scales.system.text
     pipe = next((str(fact.value) for fact in case.facts if fact.label == "pipe"), "")
@@ -65,7 +68,7 @@ def inputs_in_words(case: Case) -> tuple[tuple[str, str], ...]:
         ("Rod", f"{pipe or section}, {scales.text(1.0, 'length')} long"),
         *([("Section", section)] if pipe and across else []),
         ("Weight per length", weight),
-        ("Hole", f"{hole}{lying}, straight"),
+        ("Hole", f"{hole}{lying}{bent}"),
         ("Clearance of the axes", scales.text(p.clearance, "length")),
         ("Ends", ends_text(p)),
     ]
@@ -84,9 +87,10 @@ def _numbers(answer: Answer) -> tuple[Number, ...]:
     """Where it buckles, where that ends, and how strong it is there: three at most."""
     a, said = answer.assessment, forces_of(answer.case)
     spreads = {load.name: (load, spread) for load, spread in shown_sensitivities(answer)}
-    out = [_load("Buckles at", answer, a.window.buckling, spreads.get("critical load of mode 1"))]
+    first = "Buckles at" if answer.left_before is None else "Leaves the wall at"
+    out = [_load(first, answer, a.window.buckling, spreads.get("critical load of mode 1"))]
     end = a.window.end
-    if end is not None and end.load is not None and not a.branch.lift_off_at_buckling:
+    if end is not None and end.load is not None and not answer.off_at_once:
         leaves = "Leaves the wall between steps at" if has_steps(answer.case.problem) else "Leaves the wall at"
         label = leaves if end.kind == LIFTS_OFF else "Loses its stability at"
         out.append(_load(label, answer, end.load, spreads.get("lift-off load") if end.kind == LIFTS_OFF else None))
@@ -126,14 +130,15 @@ def _most(a: Assessment) -> AtLoad | None:
 def _limits(a: Assessment) -> str:
     """What limits, and by how much."""
     window, said, at = a.window, forces_of(a.case), _most(a)
-    names = {STRAIGHT: "buckling", BUCKLED: "lift-off"}
+    names = {STRAIGHT: "buckling" if a.computed.left_before is None else "leaving the wall", BUCKLED: "lift-off"}
     first = a.limiting
     if at is None or at.what not in names:
         width, end = window.width, window.end
         if first is not None and first.load is not None:
             return f"What limits first: {first.name}, at {said.load(first.load, other=True)}."
-        if width is None or end is None or not end.buckled or a.branch.lift_off_at_buckling:
-            return "What limits: buckling." if at is None else ""
+        if width is None or end is None or not end.buckled or a.computed.off_at_once:
+            what = "buckling" if a.computed.left_before is None else "leaving the wall"
+            return f"What limits: {what}." if at is None else ""
         share = share_shown(a)
         part = "" if share is None else f", {percent(share)} of the load at buckling"
         return f"What limits: {end.name}, {size_text(a.case.scales, width)} beyond buckling{part}."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
-from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_text, local_sentence, share_shown
 from rodwell.answers.words.wording import forces_of, place_text, quantity
@@ -20,7 +20,14 @@ WORDS = {
     BUCKLED: "buckled, on the wall, stable",
     OTHER_SHAPE: "beyond the stable part of mode 1: it takes another shape",
     LEFT: "has left the wall",
+    PULLED: "has left the wall in tension",
 }
+
+
+def _words(a: Assessment, at: AtLoad) -> str:
+    if at.what == STRAIGHT and a.case.problem.hole is not None:
+        return "lies along the hole"
+    return WORDS.get(at.what, f"not known: {at.why}")
 
 
 def strength_sections(a: Assessment) -> tuple[ReportSection, ...]:
@@ -36,7 +43,7 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
     borne = a.case.cylinder is not None or a.case.supports is not None
     columns = [
         ("Load as given", "given", True),
-        ("The other end bears", "other", a.case.scales is not None and a.case.problem.axial_weight != 0.0),
+        ("The other end bears", "other", a.case.scales is not None and a.case.problem.hung_weight != 0.0),
         ("Effective, at s = 1", "force", a.case.scales is None),
         ("The rod", "what", True),
         ("Largest contact per length", "contact", True),
@@ -93,6 +100,7 @@ def _stress_section(a: Assessment) -> tuple[ReportSection, ...]:
         "the rod, at the inner and the outer surface; shear force and the pressing on the wall are neglected; nominal "
         "dimensions. "
     )
+    note += "" if a.case.problem.hole is None else "Bending contains that by the hole. "
     if _strong(a):
         head.append("Safety factor")
         strength = _system(a).text(a.case.yield_strength or 0.0, "stress")
@@ -159,7 +167,7 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
         "given": load_text(a.case, load),
         "other": forces_of(a.case).other(Value(load.force)).strip(" ()"),
         "force": _text(a, load.force, "force"),
-        "what": WORDS.get(at.what, f"not known: {at.why}"),
+        "what": _words(a, at),
     }
     if state is None:
         return row
@@ -179,6 +187,8 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
 def _window_text(a: Assessment) -> str:
     """The window in words."""
     window = a.window
+    if a.computed.left_before is not None:
+        return "There is none: the curve of the hole takes the rod off this side of the wall before it buckles."
     if a.branch.lift_off_at_buckling:
         return "There is none: nothing presses the rod to the wall, and it leaves it as soon as it buckles."
     end, width = window.end, window.width
@@ -198,9 +208,13 @@ def _window_text(a: Assessment) -> str:
 def _limits(a: Assessment) -> Grid:
     """Buckling, and what gives after it, or before it, at both ends where they differ."""
     said, first = forces_of(a.case), Limit("buckling", a.window.buckling)
+    straight, left = a.case.problem.hole is None, a.computed.left_before is not None
+    buckles = f"Buckling: first critical load of the {'straight rod' if straight else 'rod as it lies'}"
     two = said.scales is None or said.weight != 0.0
     rows = []
-    for limit in sorted([first, *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)):
+    for limit in sorted(
+        [*([] if left else [first]), *a.window.limits], key=lambda one: -(one.force if one.force is not None else 1e300)
+    ):
         if limit.load is None:
             rows.append((_upper(limit.name), "at any force", *([""] if two else []), "", ""))
             continue
@@ -209,7 +223,7 @@ def _limits(a: Assessment) -> Grid:
             note += "; before the rod buckles, which it then does not do elastically"
         rows.append(
             (
-                "Buckling: first critical load of the straight rod" if limit is first else _upper(limit.name),
+                buckles if limit is first else _upper(limit.name),
                 *(_beside_error(a, load, "force") for load in _both_ends(a, limit.load)[: 1 + two]),
                 _text(a, limit.load.error, "force", 1),
                 note.removeprefix("; "),
@@ -239,13 +253,19 @@ def _stress(a: Assessment, state: LoadedRod) -> tuple[str, ...]:
     stress, system = a.stress(state), _system(a)
     assert stress is not None
     row = (
-        f"{state.name}, {'straight' if state.straight else 'buckled'}",
+        f"{state.name}, {_shape(a, state)}",
         system.beside_error(stress, "stress"),
         system.text(stress.error, "stress", 1),
         f"{place_text(a.case, Value(stress.s))}, {stress.fibre}",
         *(system.text(part, "stress") for part in (stress.axial, stress.bending, stress.torsion)),
     )
     return row if stress.safety is None else (*row, amount(stress.safety))
+
+
+def _shape(a: Assessment, state: LoadedRod) -> str:
+    if not state.straight:
+        return "buckled"
+    return "straight" if a.case.problem.hole is None else "along the hole"
 
 
 def _formula(a: Assessment, row: FormulaRow) -> tuple[str, ...]:

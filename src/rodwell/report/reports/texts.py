@@ -195,7 +195,9 @@ def special(branches: Iterable[Branch], case: Case) -> list[dict[str, Any]]:
             out.append(
                 {
                     "mode": str(branch.mode.number),
-                    "kind": KINDS[point.kind],
+                    "kind": KINDS[point.kind]
+                    if case.problem.hole is None
+                    else KINDS[point.kind].replace("straight rod", "lying rod"),
                     "load": f"{number(point.load)}" if scales is None else scales.beside_error(shown, "force"),
                     "error": ""
                     if point.kind == "end"

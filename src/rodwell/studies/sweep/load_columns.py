@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, STRAIGHT, UNKNOWN
+from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, UNKNOWN
 from rodwell.quantities.table import Cell
 from rodwell.quantities.text import error_digit, number_text, plain
 from rodwell.quantities.value import Value
@@ -16,11 +16,19 @@ STATES = {
     BUCKLED: "buckled, on the wall, stable",
     OTHER_SHAPE: "buckled into another shape",
     LEFT: "off the wall",
+    PULLED: "off the wall in tension",
     UNKNOWN: "unknown",
 }
 """What the rod is at a load, as tables and summary say it."""
 
-WORDS = {STRAIGHT: "straight", BUCKLED: "buckled", OTHER_SHAPE: "reshaped", LEFT: "off wall", UNKNOWN: "unknown"}
+WORDS = {
+    STRAIGHT: "straight",
+    BUCKLED: "buckled",
+    OTHER_SHAPE: "reshaped",
+    LEFT: "off wall",
+    PULLED: "off wall",
+    UNKNOWN: "unknown",
+}
 """The same in a word or two."""
 
 STATE = "the rod is"
@@ -129,7 +137,7 @@ def fails(state: LoadResult) -> bool:
     """Whether the rod leaves the wall, takes another shape or is not known, or a strength is exceeded."""
     over = any(spare.value < 0.0 for kind, spare in state.spare.items() if kind not in (BUCKLES, LIFTS_OFF, UNSTABLE))
     weak = state.safety is not None and state.safety.value < 1.0
-    return state.what in (LEFT, OTHER_SHAPE, UNKNOWN) or bool(state.exceeded) or over or weak
+    return state.what in (LEFT, PULLED, OTHER_SHAPE, UNKNOWN) or bool(state.exceeded) or over or weak
 
 
 def cells(study: Study, point: StudyPoint, scale: float) -> list[list[str]]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.straight.critical import CriticalLoads
-from rodwell.answers.result.assessment import STRAIGHT, UNKNOWN, Assessment, AtLoad
+from rodwell.answers.result.assessment import LEFT, PULLED, STRAIGHT, UNKNOWN, Assessment, AtLoad
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -29,7 +29,7 @@ class LoadResult:
     load
         The load.
     what
-        STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT or UNKNOWN, as in :mod:`rodwell.answers.result.assessment`.
+        STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN or PULLED, as in :mod:`rodwell.answers.result.assessment`.
     why
         For UNKNOWN, why; else what is amiss with the state, if anything.
     spare
@@ -88,21 +88,24 @@ def _of_state(state: LoadedRod | None, stress: RodStress | None) -> tuple[Value 
     return contact, stress, None if stress is None else stress.safety
 
 
-def without_branch(
-    case: Case, critical: CriticalLoads, first: Value, why: str
-) -> tuple[tuple[LoadResult, ...], Validity]:
+def without_branch(computed: Computed, why: str) -> tuple[tuple[LoadResult, ...], Validity]:
     """The same where the buckled states could not be computed, for the reason ``why``: the straight ones are known.
 
-    ``first`` is the load at which the rod buckles.
+    ``computed`` is without branches. A rod that leaves the wall of a curved hole by itself has left it beyond that.
     """
+    case, first = computed.case, computed.buckling
     out, section = [], rod_section(case)
     straight = LoadedRod("at buckling", case.problem, first.value, first.error)
     acting = [("at the applied load", load.force) for load in case.applied]
-    valid = validity(case, (straight,), acting, critical[0].wavenumber)
+    valid = validity(case, (straight,), acting, computed.critical[0].wavenumber)
     for load in case.applied:
         spare = {BUCKLES: _to_spare(load.force, first)}
+        if computed.pulled_off(load.force):
+            out.append(LoadResult(load, PULLED, why, spare))
+            continue
         if load.force < first.value:
-            out.append(LoadResult(load, UNKNOWN, why, spare, reached=False))
+            left = computed.left_before is not None
+            out.append(LoadResult(load, LEFT if left else UNKNOWN, why, spare, reached=left))
             continue
         state = LoadedRod("at the applied load", case.problem, load.force)
         stress = None if section is None else section.largest(state)

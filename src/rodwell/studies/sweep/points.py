@@ -11,7 +11,6 @@ from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.analysis.straight.scale import load_scale
-from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
@@ -162,13 +161,21 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     out = StudyPoint(number, at, case)
     if shared.critical is None:
         return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
-    mode, first = shared.critical[0], Computed(case, shared.critical, (), 0.0).buckling
+    computed = Computed(case, shared.critical, (), 0.0)
+    mode, first = shared.critical[0], computed.buckling
     reasons: dict[str, str] = {}
     out = replace(out, critical=first, half_waves=mode.wavenumber / math.pi)
-    if case.problem.hole is not None:
-        return _in_curved_hole(out, case, shared, first)
-    alone, other = loads_without_wall(case.problem).modes[0], None if shared.other is None else shared.other.lift_off
-    out = replace(out, without_wall=Value(alone.force, alone.error), other_arm=None if other is None else other.load)
+    alone, other = computed.without_wall, None if shared.other is None else shared.other.lift_off
+    out = replace(
+        out,
+        without_wall=None if alone is None else Value(alone.force, alone.error),
+        other_arm=None if other is None else other.load,
+    )
+    if computed.left_before is not None:
+        reasons = {"contact": "the curve of the hole takes the rod off the wall before it buckles"}
+        loads, valid = without_branch(computed, reasons["contact"])
+        out = replace(out, lift_off=first, places=computed.lift_off_places, loads=loads, validity=valid)
+        return replace(out, reasons=reasons)
     try:
         if shared.branch is None:
             raise NotConvergedError(shared.why)
@@ -178,21 +185,12 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads, validity=valid)
     except (InputError, NotConvergedError) as error:
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
-        loads, valid = without_branch(case, shared.critical, first, str(error))
+        loads, valid = without_branch(computed, str(error))
         out = replace(out, loads=loads, validity=valid)
     amiss = "; ".join(dict.fromkeys(state.why for state in out.loads if state.why))
     if amiss:
         reasons["applied"] = amiss
     return replace(out, reasons=reasons or None)
-
-
-def _in_curved_hole(out: StudyPoint, case: Case, shared: SharedResults, first: Value) -> StudyPoint:
-    """Buckling, lift-off and contact there; stress of a rod that the hole bends is not assessed."""
-    reasons = {"applied": "loads that act are assessed in straight holes only"} if case.applied else {}
-    if shared.branch is None:
-        return replace(out, reasons={"lift_off": shared.why, "contact": "no lift-off"} | reasons)
-    lift_off, places, contact = _at_lift_off(case, shared.branch, first, reasons)
-    return replace(out, lift_off=lift_off, places=places, contact=contact, reasons=reasons or None)
 
 
 def _used(case: Case, branch: Branch) -> dict[str, Value]:

@@ -1,0 +1,58 @@
+"""What the curve of a hole does to the rod in it, and what is not told of a curved hole, in sentences."""
+
+from __future__ import annotations
+
+from rodwell.answers.result.answer import Answer
+from rodwell.answers.words.verdict import in_tension
+from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
+from rodwell.quantities.text import percent
+from rodwell.quantities.value import Value
+
+
+def in_curved_hole(answer: Answer) -> list[str]:
+    """The bending by the hole, what tension does, what the rod's own places change, and what is left out."""
+    return [
+        text for text in (_bending(answer), in_tension(answer.assessment), _places(answer), left_out(answer)) if text
+    ]
+
+
+def _bending(answer: Answer) -> str:
+    """How much the hole alone bends the rod: moment and stress, which all stresses told contain."""
+    case, a = answer.case, answer.assessment
+    bending = answer.key_numbers["hole_bending"]
+    text = f"The hole alone bends the rod by up to {size_text(case.scales, bending.number, 'moment', 'B/L')}"
+    text += f", at {place_text(case, Value(bending.s[0]))}" if case.problem.axis else ""
+    if a.section is None or case.scales is None:
+        return f"{text}."
+    peak = a.at_buckling.largest(a.bending_stress)
+    part = f", {quantity(case.scales.system, peak, 'stress', 3)} of bending stress"
+    strength = case.yield_strength
+    if strength is not None:
+        part += f" ({percent(Value(peak.value / strength, peak.error / strength), 2)} of the yield strength)"
+    return f"{text}{part}; every stress and safety factor contains it."
+
+
+def _places(answer: Answer) -> str:
+    """By how much branches are off, which take the hole where the undeformed rod is."""
+    if answer.at_lift_off is None or answer.lift_off is None:
+        return ""
+    own, lift = answer.lift_off_at_own_places, answer.lift_off.load
+    text = "Buckled states take the hole where the rod is before it buckles"
+    if own is None:
+        return f"{text}; what that changes of the lift-off load could not be computed."
+    change = Value(abs(own.value - lift.value), own.error + lift.error)
+    return (
+        f"{text}; with every cross-section at its own place lift-off is at {forces_of(answer.case).load(own)}, "
+        f"{size_text(answer.case.scales, change)} away."
+    )
+
+
+def left_out(answer: Answer) -> str:
+    """What a straight hole's answer has and this one has not."""
+    parts = ["states off the wall", "the load without the wall's help", "moments in the cylinder",
+             "derivatives by the inputs"]  # fmt: skip
+    if answer.case.uncertain:
+        parts[-1] += ", so that the uncertainties given are not carried through"
+    if answer.case.cylinder is not None:
+        parts[2] += " and its stress"
+    return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."
