@@ -24,7 +24,7 @@ from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "grows_at_end", "touches", "leaves"
 UNHELD = "unheld"
@@ -126,33 +126,34 @@ def _at_end(state: PatternedState, last: bool) -> Condition | None:
 
 def pressing(state: PatternedState, stretch: int) -> list[Condition]:
     """The least contact forces per length −p on a stretch on the wall, and where: all minima, the lowest first."""
-    shape, elements = state.solved.shape, state.elements_of(stretch)
+    elements = np.array(state.elements_of(stretch))
     xi = np.linspace(0.0, 1.0, PER_ELEMENT + 1)
-    functions = [_pressure(state, element) for element in elements]
-    values = np.concatenate([function(xi[:-1]) for function in functions] + [functions[-1](xi[-1:])])
-    low = np.r_[True, values[1:] <= values[:-1]] & np.r_[values[:-1] <= values[1:], True]
-    found = []
-    for k in np.flatnonzero(low):
-        best = (float(values[k]), np.nan)
-        for e in {
-            min(max(int(k) - 1, 0) // PER_ELEMENT, len(functions) - 1),
-            min(int(k) // PER_ELEMENT, len(functions) - 1),
-        }:
-            part = int(k) - e * PER_ELEMENT
-            around = float(xi[max(part - 1, 0)]), float(xi[min(part + 1, PER_ELEMENT)])
-            value, where = lowest(functions[e], np.linspace(*around, CLOSER))
-            left, right = shape.places[elements[e]], shape.places[elements[e] + 1]
-            if value <= best[0] or np.isnan(best[1]):
-                best = (value, float(left + (right - left) * where))
-        found.append(Condition(OPENS, stretch, *best))
+    samples = -pressure_on(state, elements)(np.broadcast_to(xi, (elements.size, xi.size)))
+    values = np.concatenate([samples[:, :-1].ravel(), samples[-1, -1:]])
+    low = np.flatnonzero(np.r_[True, values[1:] <= values[:-1]] & np.r_[values[:-1] <= values[1:], True])
+    # a minimum between two elements is looked at in both
+    at = np.stack([np.maximum(low - 1, 0), low], axis=1) // PER_ELEMENT
+    at = np.minimum(at, elements.size - 1).ravel()
+    part = np.repeat(low, 2) - at * PER_ELEMENT
+    around = xi[np.maximum(part - 1, 0)], xi[np.minimum(part + 1, PER_ELEMENT)]
+    function = pressure_on(state, elements[at])
+    least, where = lowest(lambda xi: -function(xi), np.linspace(*around, CLOSER, axis=1))
+    left, right = state.solved.shape.places[elements[at]], state.solved.shape.places[elements[at] + 1]
+    places, first = left + (right - left) * where, np.arange(0, least.size, 2)
+    best = np.where(least[1::2] <= least[::2], first + 1, first)
+    found = [Condition(OPENS, stretch, float(least[i]), float(places[i])) for i in best]
     return sorted(found, key=lambda one: one.value)
 
 
-def _pressure(state: PatternedState, element: int) -> Callable[[FloatArray], FloatArray]:
-    """The contact force per length −p of an element as a function of ξ."""
+def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArray], FloatArray]:
+    """The contact pressure p on elements in contact (k,) as a function of ξ (k, n), negative in contact."""
     shape = state.solved.shape
-    left, h = shape.places[element], shape.places[element + 1] - shape.places[element]
-    return lambda xi: -state.model.pressure(left + h * xi, shape.at(element, xi)[0], shape.load)
+    left, right = shape.places[elements, None], shape.places[elements + 1, None]
+
+    def pressure(xi: FloatArray) -> FloatArray:
+        return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load)
+
+    return pressure
 
 
 def apart(state: PatternedState, stretch: int) -> Condition:
@@ -161,24 +162,24 @@ def apart(state: PatternedState, stretch: int) -> Condition:
     Positive everywhere if and only if the gap is; unlike the gap itself it does not vanish at the ends.
     """
     left, right = state.bounds[stretch : stretch + 2]
-    best, where = np.inf, np.nan
-    shape = state.solved.shape
+    shape, elements = state.solved.shape, np.array(state.elements_of(stretch))
     powers = [_power(state, stretch, last) for last in (False, True)]
-    for element in state.elements_of(stretch):
-        start, h = shape.places[element], shape.places[element + 1] - shape.places[element]
+    inset = EDGE * (right - left)
+    low, high = left + (inset if powers[0] else 0.0), right - (inset if powers[1] else 0.0)
+    elements = elements[(shape.places[elements] < high) & (shape.places[elements + 1] > low)]
+    start, end = shape.places[elements], shape.places[elements + 1]
+    length = end - start
 
-        def gap(part: FloatArray, element: int = element, start: float = start, h: float = h) -> FloatArray:
-            x, y = shape.at(element, part, 1)[:, 0]
-            at = (start + h * part - left) / (right - left)
-            return np.asarray((1.0 - np.hypot(x, y)) / (at ** powers[0] * (1.0 - at) ** powers[1]))
+    def gap(xi: FloatArray) -> FloatArray:
+        x, y = shape.along(elements, xi, 1)[:, 0]
+        at = (start[:, None] + length[:, None] * xi - left) / (right - left)
+        return np.asarray((1.0 - np.hypot(x, y)) / (at ** powers[0] * (1.0 - at) ** powers[1]))
 
-        low = max(0.0, (left + EDGE * (right - left) - start) / h) if powers[0] else 0.0
-        high = min(1.0, (right - EDGE * (right - left) - start) / h) if powers[1] else 1.0
-        if high > low:
-            value, part = lowest(gap, np.linspace(low, high, PER_ELEMENT + 1))
-            if value < best:
-                best, where = value, start + h * part
-    return Condition(TOUCHES, stretch, 0.0 if abs(best) < NOISE else best, where)
+    inside = (np.maximum(low, start) - start) / length, (np.minimum(high, end) - start) / length
+    values, parts = lowest(gap, np.linspace(*inside, PER_ELEMENT + 1, axis=1))
+    k = int(np.argmin(values))
+    best = 0.0 if abs(values[k]) < NOISE else float(values[k])
+    return Condition(TOUCHES, stretch, best, float(start[k] + length[k] * parts[k]))
 
 
 def _power(state: PatternedState, stretch: int, last: bool) -> int:
@@ -191,21 +192,23 @@ def _power(state: PatternedState, stretch: int, last: bool) -> int:
     return 2 if held[0] and held[2] else (1 if held[0] else 0)
 
 
-def lowest(function: Callable[[FloatArray], FloatArray], xi: FloatArray) -> tuple[float, float]:
-    """Least value of a smooth function over samples, looked at more closely, and where; a parabola is the last step."""
+def lowest(function: Callable[[FloatArray], FloatArray], xi: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Least values (m,) of smooth functions over samples (m, n), looked at more closely, and where.
+
+    A row for each function; a parabola is the last step.
+    """
+    rows = np.arange(xi.shape[0])
     for zoom in range(ZOOMS):
         values = function(xi)
-        k = int(np.argmin(values))
-        low, high = max(k - 1, 0), min(k + 1, xi.size - 1)
+        k = np.argmin(values, axis=1)
+        low, high = np.maximum(k - 1, 0), np.minimum(k + 1, xi.shape[1] - 1)
         if zoom < ZOOMS - 1:
-            xi = np.linspace(xi[low], xi[high], CLOSER)
-    if high - low < 2:
-        return float(values[k]), float(xi[k])
-    a, b, c = values[k - 1 : k + 2]
+            xi = np.linspace(xi[rows, low], xi[rows, high], CLOSER, axis=1)
+    a, b, c = values[rows, low], values[rows, k], values[rows, high]
     bend, tilt = a - 2.0 * b + c, 0.5 * (c - a)
-    if not bend > 0.0:
-        return float(b), float(xi[k])
-    return float(b - 0.5 * tilt**2 / bend), float(xi[k] - tilt / bend * (xi[k] - xi[k - 1]))
+    within = (high - low == 2) & (bend > 0.0)
+    shift = np.where(within, tilt, 0.0) / np.where(within, bend, 1.0)
+    return b - 0.5 * tilt * shift, xi[rows, k] - shift * (xi[rows, k] - xi[rows, low])
 
 
 def watched(condition: Condition, state: PatternedState) -> float:

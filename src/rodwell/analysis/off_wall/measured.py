@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import PatternedState, lowest
+from rodwell.analysis.off_wall.conditions import PatternedState, lowest, pressure_on
 from rodwell.numerics.stretches.basis import reference_element
-from rodwell.numerics.stretches.carry import elements_at, rim_fields
-from rodwell.quantities.arrays import FloatArray
+from rodwell.numerics.stretches.carry import fields_at
+from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES = 16
 """Places in an element among which the largest gap and the largest pressure are first sought."""
@@ -42,18 +42,19 @@ def measured(state: PatternedState) -> Numbers:
     highest, at = 0.0, float("nan")
     element = reference_element(shape.chain.degree)
     for i, on in enumerate(state.pattern.touching):
-        for e in state.elements_of(i):
-            left, h = shape.places[e], shape.places[e + 1] - shape.places[e]
-            if on:
-                pressure = _pressure(state, e, left, h)
-                forces[i] += h * float(element.weights @ np.abs(pressure(element.points)))
-                low, xi = lowest(pressure, np.linspace(0.0, 1.0, SAMPLES + 1))
-                if -low > highest:
-                    highest, at = -low, left + h * xi
-            else:
-                low, xi = lowest(_inside(state, e), np.linspace(0.0, 1.0, SAMPLES + 1))
-                if -low > gaps[i]:
-                    gaps[i], places[i] = -low, left + h * xi
+        elements = np.array(state.elements_of(i))
+        left, length = shape.places[elements], np.diff(shape.places)[elements]
+        function = pressure_on(state, elements) if on else _inside(state, elements)
+        low, xi = lowest(function, np.broadcast_to(np.linspace(0.0, 1.0, SAMPLES + 1), (elements.size, SAMPLES + 1)))
+        k = int(np.argmin(low))
+        largest, where = float(-low[k]), float(left[k] + length[k] * xi[k])
+        if on:
+            pressure = function(np.broadcast_to(element.points, (elements.size, element.points.size)))
+            forces[i] = float(length @ np.abs(pressure) @ element.weights)
+            if largest > highest:
+                highest, at = largest, where
+        elif largest > 0.0:
+            gaps[i], places[i] = largest, where
     return Numbers(
         out.energy * d**2, out.energy_by_load * d**2, state.bounds, d * state.solved.forces, forces, gaps, places,
         highest, at,
@@ -70,21 +71,11 @@ def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
     return np.asarray(np.interp(places, grid, np.concatenate([[0.0], np.cumsum(rate)])))
 
 
-def _pressure(state: PatternedState, e: int, left: float, h: float) -> Callable[[FloatArray], FloatArray]:
-    """Contact pressure of an element as a function of ξ."""
-    shape = state.solved.shape
-
-    def pressure(xi: FloatArray) -> FloatArray:
-        return state.model.pressure(left + h * xi, shape.at(e, xi)[0], shape.load)
-
-    return pressure
-
-
-def _inside(state: PatternedState, e: int) -> Callable[[FloatArray], FloatArray]:
-    """How far beyond the wall an element is, in Δ (negative: a gap), as a function of ξ."""
+def _inside(state: PatternedState, elements: IntArray) -> Callable[[FloatArray], FloatArray]:
+    """How far beyond the wall elements (k,) are, in Δ (negative: a gap), as a function of ξ (k, n)."""
 
     def inside(xi: FloatArray) -> FloatArray:
-        x, y = state.solved.shape.at(e, xi, 1)[:, 0]
+        x, y = state.solved.shape.along(elements, xi, 1)[:, 0]
         return np.asarray(np.hypot(x, y) - 1.0)
 
     return inside
@@ -93,20 +84,13 @@ def _inside(state: PatternedState, e: int) -> Callable[[FloatArray], FloatArray]
 def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Position x and y in L with three derivatives, (4, k) each, and contact pressure (k,), 0 where free."""
     d, shape = state.model.problem.clearance, state.solved.shape
-    fields, pressure = np.zeros((2, 4, s.size)), np.zeros(s.size)
-    elements = elements_at(shape, s)
-    for e in np.unique(elements):
-        here = elements == e
-        left, h = shape.places[e], shape.places[e + 1] - shape.places[e]
-        found = shape.at(int(e), (s[here] - left) / h)
-        if shape.chain.touching[e]:
-            phi, phi1, phi2, phi3 = found[0]
-            fields[:, :3, here] = rim_fields(found[0, :3])
-            sin, cos = np.sin(phi), np.cos(phi)
-            around, radial = phi3 - phi1**3, -3.0 * phi1 * phi2
-            fields[0, 3, here] = around * sin - radial * cos
-            fields[1, 3, here] = around * cos + radial * sin
-            pressure[here] = state.model.pressure(s[here], found[0], shape.load)
-        else:
-            fields[..., here] = found
+    fields, angle = fields_at(shape, s, 4)
+    on = np.isfinite(angle[0])
+    pressure = np.zeros(s.size)
+    if on.any():
+        _, phi1, phi2, phi3 = angle[:, on]
+        sin, cos = np.sin(angle[0, on]), np.cos(angle[0, on])
+        around, radial = phi3 - phi1**3, -3.0 * phi1 * phi2
+        fields[:, 3, on] = around * sin - radial * cos, around * cos + radial * sin
+        pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load)
     return d * fields[0], d * fields[1], pressure

@@ -90,27 +90,23 @@ class RodInHole:
                 hessian[f, k, other, order] = h[i][j]
         return e / d**2, rate / d**2, gradient / d, mixed / d, hessian
 
-    def rim_reaction(self, u: FloatArray) -> tuple[float, float, float]:
-        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there.
+    def rim_reaction(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.
 
         They are ∂e/∂u″ · r̂, and Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′: what a variation of r and r′ at
-        the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4,). Weight and end
-        force do not enter; seen from the place itself, φ = 0 there.
+        the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4, k). Weight and end
+        force do not enter; seen from the place itself, φ = 0 there, r̂ = (−1, 0) and θ̂ = (0, 1).
         """
         d = self.problem.clearance
         phi1, phi2, phi3 = u[1:4]
-        radial, around = np.array([-1.0, 0.0]), np.array([0.0, 1.0])
-        first = d * phi1 * around
-        second = d * (phi2 * around - phi1**2 * radial)
-        third = d * ((phi3 - phi1**3) * around - 3.0 * phi1 * phi2 * radial)
-        (x1, y1), (x2, y2) = first, second
-        _, _, g, _, h = hole_density(1.0, -d, x1, x2, y1, y2, self.at_load(0.0), self._rates)
-        moment, by_slope = np.array([g[2], g[4]]), np.array([g[1], g[3]])
-        mixed = np.array([[h[1][0], h[1][2]], [h[3][0], h[3][2]]])  # of x″, y″ by x′, y′
-        bend = np.array([[h[1][1], h[1][3]], [h[3][1], h[3][3]]])
-        shear = by_slope - mixed @ second - bend @ third
-        by_rate = radial @ (mixed @ around - 2.0 * phi1 * bend @ radial)
-        return float(moment @ radial) / d, float(by_rate), float(shear @ radial + phi1 * moment @ around) / d
+        nil = np.zeros_like(phi1)
+        x2, y2 = d * phi1**2, d * phi2
+        x3, y3 = 3.0 * d * phi1 * phi2, d * (phi3 - phi1**3)
+        _, _, g, _, h = hole_density(1.0, -d, nil, x2, d * phi1, y2, self.at_load(0.0), self._rates)
+        by_slopes, by_bends = (h[1][0], h[1][2]), (h[1][1], h[1][3])  # second derivatives by x″ and x′, y′ or x″, y″
+        shear = g[1] - by_slopes[0] * x2 - by_slopes[1] * y2 - by_bends[0] * x3 - by_bends[1] * y3
+        by_rate = -by_slopes[1] - 2.0 * phi1 * by_bends[0]
+        return -g[2] / d, by_rate, (phi1 * g[4] - shear) / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""

@@ -47,7 +47,8 @@ def _located(step: Step) -> PathEvent | str | None:
     """What is seen to happen within a step by what holds at its ends; the first of it along the tangent."""
     state, new = step.state, step.new
     broken = [one for one in conditions(new) if one.value < 0.0]
-    candidates = [(one.kind, watch(one, state)) for one in broken]
+    first = {(one.kind, one.number): k for k, one in reversed(list(enumerate(broken)))}  # one function for all minima
+    candidates = [(broken[k].kind, watch(broken[k], state)) for k in first.values()]
     candidates += turning_points(step.control, (state, step.along), (new, step.turned), step.sense)
     if (step.control.value(new.solved) - step.until) * step.sense >= 0.0:
         candidates.append((END, lambda one: step.control.value(one) - step.until))
@@ -64,9 +65,9 @@ def _located(step: Step) -> PathEvent | str | None:
         return None
     number = int(np.argmin([order for order, _ in located]))
     event = located[number][1]
-    if number >= len(broken):
+    if number >= len(first):
         return event
-    at_once = together(event.state, broken, number)
+    at_once = together(event.state, broken, list(first.values())[number])
     return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
 
 

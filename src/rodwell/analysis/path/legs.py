@@ -27,7 +27,7 @@ from rodwell.analysis.path.events import (
     Leg,
     PathPoint,
 )
-from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, Snap, snapped
+from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, NEAR, Snap, snapped
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.stretches.carry import rim_fields
@@ -223,9 +223,9 @@ def _to(
     out: Walked, event: PatternedState, sense: float, how: How, load: Value, held: float, *, fold: bool = False
 ) -> None:
     """Go where the flow leads from a state that gives way at a load, with ``held`` of what is controlled."""
-    control, snap = how.control, None
-    for beyond in BEYOND_BUCKLING if _flat(event) else (BEYOND,):
-        snap = snap or snapped(event, sense, how.seeds, control, beyond)
+    control = how.control
+    where = (BEYOND_BUCKLING, 0.0) if _flat(event) else (BEYOND, NEAR)
+    snap = snapped(event, sense, how.seeds, control, *where)
     if snap is None:
         out.ended = (
             f"the rod gives way at F = {load.value:.8g} B/L², and where it goes was not resolved: no minimum found by "

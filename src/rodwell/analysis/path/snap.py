@@ -17,20 +17,27 @@ from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.recognise import recognised
 from rodwell.numerics.stretches.assembly import bubbles_of
-from rodwell.numerics.stretches.carry import Sampler, sampler
+from rodwell.numerics.stretches.carry import Sampler, fields_at, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.descent import descended
 from rodwell.numerics.stretches.newton import Solved, softest
 from rodwell.quantities.arrays import FloatArray
 
-BEYOND = 1e-3
-"""How far beyond the loss of stability the flow starts, relative to the load, or the shortening."""
+BEYOND = (1e-3, 1e-2)
+"""How far beyond the loss of stability the flow starts, relative to the load, or the shortening.
+
+The second where the first is too near: a soft wall holds the rod a little longer than a hard one.
+"""
 
 BEYOND_BUCKLING = (2e-4, 2e-3, 1e-2)
 """The same for the straight rod, tried one after the other: what branches off from it is small at first."""
 
 KICK, NOISE = 0.05, 0.02
 """Largest displacement, in Δ, of the kick along the softest direction, and size of the random ones."""
+
+NEAR, SAMPLES = 0.1, 101
+"""Distance from the state that gives way, in Δ, below which a minimum behind a soft wall is that state, still held; and
+at how many places it is measured."""
 
 WAVES = 5
 """Half-waves of the random disturbances."""
@@ -59,26 +66,45 @@ class Snap:
     others: tuple[float, ...]
 
 
-def snapped(event: PatternedState, sense: float, seeds: int, control: Control, beyond: float = BEYOND) -> Snap | None:
+def snapped(
+    event: PatternedState, sense: float, seeds: int, control: Control, beyond: tuple[float, ...], near: float
+) -> Snap | None:
     """The state to which the rod goes from one that has just ceased to be stable.
 
-    ``sense`` is that in which the controlled quantity changes.
+    ``sense`` is that in which the controlled quantity changes; the flow starts ``beyond`` the event, farther where it
+    ended ``near`` it.
     None if no start led to a state that could be solved.
     """
-    value = control.value(event.solved)
-    value += sense * beyond * control.scale(value, event.load)
+    for part in beyond:
+        value = control.value(event.solved)
+        value += sense * part * control.scale(value, event.load)
+        minima = _minima(event, seeds, control, value, near if part != beyond[-1] else 0.0)
+        for group in _alike(minima, event.solved, control):
+            state = recognised(event.model, group[0].shape, control, value)
+            if state is not None:
+                others = tuple(sorted({round(control.potential(one), 9) for one in minima if one not in group}))
+                return Snap(state, 2 * seeds, len(group), others)
+    return None
+
+
+def _minima(event: PatternedState, seeds: int, control: Control, value: float, near: float) -> list[Solved]:
+    """Minima behind a soft wall to which the disturbed state flows; none if the first is ``near`` that state."""
     minima: list[Solved] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
             low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), control, value)
             if low is not None:
                 minima.append(low)
-    for group in _alike(minima, event.solved, control):
-        state = recognised(event.model, group[0].shape, control, value)
-        if state is not None:
-            others = tuple(sorted({round(control.potential(one), 9) for one in minima if one not in group}))
-            return Snap(state, 2 * seeds, len(group), others)
-    return None
+            if near and len(minima) == 1 and _distance(minima[0], event.solved) < near:
+                return []
+    return minima
+
+
+def _distance(one: Solved, other: Solved) -> float:
+    """Largest distance between two shapes at the same places along the rod, in Δ."""
+    s = np.linspace(0.0, 1.0, SAMPLES)
+    first, second = (fields_at(state.shape, s)[0][:, 0] for state in (one, other))
+    return float(np.max(np.hypot(*(first - second))))
 
 
 def _alike(minima: list[Solved], event: Solved, control: Control) -> list[list[Solved]]:

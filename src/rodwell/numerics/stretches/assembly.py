@@ -6,7 +6,7 @@ A model offers, in units where the disc has radius 1,
   derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields and two
   derivatives;
 * ``load_per_length``: the density depends on s only through load + load_per_length · s;
-* ``rim_reaction(u)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`reactions`.
+* ``rim_reaction(u)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from rodwell.numerics.stretches.basis import ENDS, reference_element
-from rodwell.numerics.stretches.chain import RADIAL_SLOPE, Shape, cartesian_curvature, cartesian_derivatives
+from rodwell.numerics.stretches.chain import RADIAL_SLOPE, Shape, cartesian_curvature
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 RIM_SLOTS = np.array([1, 3, 5, 7])
@@ -56,6 +56,7 @@ class Assembled:
     ``by_break`` (n, 4, m); ``plain`` (n, 4): the gradient before bubbles are condensed, whose held entries are
     reactions. ``work_by_break`` (m,), ``work_by_load`` and ``work_residual``: derivatives of ``energy_by_load`` besides
     ``by_load``, which is that by the nodes, and what it lacks as long as the bubbles are not in equilibrium.
+    ``moments``, ``moment_rates`` and ``forces`` (m,): radial reactions at the moving nodes, see :func:`_react`.
     """
 
     shape: Shape
@@ -70,6 +71,9 @@ class Assembled:
     work_by_break: FloatArray
     groups: tuple[Condensed, ...]
     largest_bubble_residual: float
+    moments: FloatArray
+    moment_rates: FloatArray
+    forces: FloatArray
 
     @property
     def work_by_load(self) -> float:
@@ -99,14 +103,15 @@ def assemble(model: Any, shape: Shape) -> Assembled:
             energy, by_load, bubble = energy + e, by_load + e_load, max(bubble, worst)
     out = Assembled(
         shape, energy, by_load, np.zeros((n, 4, 4)), np.zeros((n - 1, 4, 4)), np.zeros((n, 4)), np.zeros((n, 4)),
-        np.zeros((n, 4, m)), np.zeros((n, 4)), np.zeros(m), tuple(groups), bubble,
+        np.zeros((n, 4, m)), np.zeros((n, 4)), np.zeros(m), tuple(groups), bubble, *np.zeros((3, m)),
     )  # fmt: skip
-    to_polar = cartesian_derivatives(shape.nodes, chain.polar)
     covector = np.zeros((n, 4))
     for one in groups:
-        _add(out, one, to_polar, covector)
+        _add(out, one, covector)
     if chain.free.size:
         out.diagonal += cartesian_curvature(shape.nodes, chain.polar, covector)
+    if m:
+        _react(model, out)
     return out
 
 
@@ -182,7 +187,7 @@ def _negative(blocks: FloatArray) -> int:
     return 0
 
 
-def _add(out: Assembled, one: Condensed, to_polar: FloatArray, covector: FloatArray) -> None:
+def _add(out: Assembled, one: Condensed, covector: FloatArray) -> None:
     """Add elements of a kind to the chain's blocks, in the coordinates of its nodes."""
     group, chain = one.group, out.shape.chain
     k = group.size
@@ -195,6 +200,7 @@ def _add(out: Assembled, one: Condensed, to_polar: FloatArray, covector: FloatAr
     if one.fields == 2:
         for end in range(2):
             np.add.at(covector, group + end, vectors[:, end, :, 4])
+        to_polar = out.shape.to_cartesian
         turn = np.stack([to_polar[group], to_polar[group + 1]], axis=1)  # (k, end, cartesian, coordinate)
         block = np.einsum("kaic,kaibj->kacbj", turn, block)
         block = np.einsum("kacbj,kbjd->kacbd", block, turn)
@@ -218,7 +224,7 @@ def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: floa
     ``residual`` is 1 in Newton's method, 0 for a tangent.
     """
     chain = out.shape.chain
-    cart = np.einsum("nij,nj->ni", cartesian_derivatives(out.shape.nodes, chain.polar), nodes)
+    cart = (out.shape.to_cartesian @ nodes[..., None])[..., 0]
     result = np.zeros((chain.elements, 2, chain.bubbles))
     shift = chain.shares @ breaks
     for one in out.groups:
@@ -234,22 +240,21 @@ def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: floa
     return result
 
 
-def reactions(model: Any, out: Assembled) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _react(model: Any, out: Assembled) -> None:
     """Radial reactions at the moving nodes, that must vanish or be positive.
 
-    Returns the moments (m,), derivative of the energy by the radial slope, zero in equilibrium; their derivative by the
-    angle's rate from stretches on the rim (m,); and the outward forces (m,) with which the rod presses on the rim.
-    The energy of a stretch on the rim does not know r and r′: its part comes from the cut, ``rim_reaction``.
+    The moments, derivative of the energy by the radial slope, zero in equilibrium; their derivative by the angle's rate
+    from stretches on the rim; and the outward forces with which the rod presses on the rim. The energy of a stretch on
+    the rim does not know r and r′: its part comes from the cut, ``rim_reaction``.
     """
-    chain = out.shape.chain
-    moment, rate, force = np.zeros((3, chain.moving.size))
-    for i, node in enumerate(chain.moving):
-        moment[i], force[i] = out.residual[node, RADIAL_SLOPE], -out.plain[node, 0]
-        for element, sign, xi in ((node - 1, 1.0, 1.0), (node, -1.0, 0.0)):
-            if chain.touching[element]:
-                u = out.shape.at(element, np.array([xi]))[0, :, 0]
-                turn, by_rate, shear = model.rim_reaction(u)
-                moment[i] += sign * turn
-                rate[i] += sign * by_rate
-                force[i] -= sign * shear
-    return moment, rate, force
+    chain, moving = out.shape.chain, out.shape.chain.moving
+    out.moments += out.residual[moving, RADIAL_SLOPE]
+    out.forces -= out.plain[moving, 0]
+    before, after = np.flatnonzero(chain.touching[moving - 1]), np.flatnonzero(chain.touching[moving])
+    cut, ahead = np.concatenate([before, after]), np.repeat([1, 0], [before.size, after.size])
+    if cut.size:  # at the end of the element before the node, or at the start of that after it
+        u = out.shape.along(moving[cut] - ahead, ahead[:, None].astype(float))[0, ..., 0]
+        turn, by_rate, shear = model.rim_reaction(u)
+        sign = 2.0 * ahead - 1.0
+        for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, -shear)):
+            np.add.at(total, cut, sign * part)

@@ -42,17 +42,16 @@ def elements_at(shape: Shape, s: FloatArray) -> IntArray:
 
 def fields_at(shape: Shape, s: FloatArray, orders: int = 3) -> tuple[FloatArray, FloatArray]:
     """X, Y with derivatives, (2, orders, k), and, on the rim, the angle with derivatives, (orders, k), else NaN."""
-    elements = elements_at(shape, s)
-    fields, angle = np.zeros((2, max(orders, 3), s.size)), np.full((max(orders, 3), s.size), np.nan)
-    for element in np.unique(elements):
-        here = elements == element
-        left, right = shape.places[element : element + 2]
-        found = shape.at(int(element), (s[here] - left) / (right - left), max(orders, 3))
-        if shape.chain.touching[element]:
-            angle[:, here] = found[0]
-            fields[:, :3, here] = rim_fields(found[0, :3])
-        else:
-            fields[..., here] = found
+    elements, orders = elements_at(shape, s), max(orders, 3)
+    fields, angle = np.zeros((2, orders, s.size)), np.full((orders, s.size), np.nan)
+    left = shape.places[elements]
+    xi = ((s - left) / (shape.places[elements + 1] - left))[:, None]
+    on = shape.chain.touching[elements]
+    if on.any():
+        angle[:, on] = shape.along(elements[on], xi[on], orders)[0, ..., 0]
+        fields[:, :3, on] = rim_fields(angle[:3, on])
+    if not on.all():
+        fields[..., ~on] = shape.along(elements[~on], xi[~on], orders)[..., 0]
     return fields, angle
 
 

@@ -13,7 +13,7 @@ fixed parts: places are ``base + shares @ breaks``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -106,12 +106,14 @@ class Shape:
         """(X, Y, X′, Y′) at the nodes, (e+1, 4)."""
         return cartesian(self.nodes, self.chain.polar)
 
+    @cached_property
+    def to_cartesian(self) -> FloatArray:
+        """Derivatives of ``cartesian`` by the nodes' coordinates, (e+1, 4, 4)."""
+        return cartesian_derivatives(self.nodes, self.chain.polar)
+
     def moved(self, nodes: FloatArray, bubbles: FloatArray, breaks: FloatArray, load: float) -> Shape:
         """The shape after an increment."""
-        return replace(
-            self, nodes=self.nodes + nodes, bubbles=self.bubbles + bubbles, breaks=self.breaks + breaks,
-            load=self.load + load,
-        )  # fmt: skip
+        return Shape(self.chain, self.nodes + nodes, self.bubbles + bubbles, self.breaks + breaks, self.load + load)
 
     def local(self, group: IntArray) -> tuple[FloatArray, FloatArray]:
         """Coefficients of elements of one kind, (k, fields, p+1), and their derivatives by the length."""
@@ -132,12 +134,17 @@ class Shape:
         a[..., 1:4:2] *= h[:, None, None]
         return a, rate
 
+    def along(self, elements: IntArray, xi: FloatArray, orders: int = 4) -> FloatArray:
+        """Fields and derivatives by s at parts ``xi`` (k, n) of elements of one kind (k,): (fields, orders, k, n)."""
+        a = self.local(elements)[0]
+        h = self.places[elements + 1] - self.places[elements]
+        table = tabulate(self.chain.degree, xi.ravel(), orders).reshape(orders, *xi.shape, -1)
+        values = np.moveaxis(table @ a.transpose(0, 2, 1), -1, 0)
+        return np.asarray(values * (h ** -np.arange(orders)[:, None])[..., None])
+
     def at(self, element: int, xi: FloatArray, orders: int = 4) -> FloatArray:
         """Fields of one element and derivatives by s at parts ``xi`` (k,) of it: (fields, orders, k)."""
-        a = self.local(np.array([element]))[0][0]
-        h = self.places[element + 1] - self.places[element]
-        table = tabulate(self.chain.degree, xi, orders)
-        return np.asarray(np.einsum("dki,fi->fdk", table, a) / h ** np.arange(orders)[:, None])
+        return self.along(np.array([element]), np.asarray(xi)[None], orders)[:, :, 0]
 
 
 def cartesian(nodes: FloatArray, polar: BoolArray) -> FloatArray:
@@ -151,18 +158,18 @@ def cartesian(nodes: FloatArray, polar: BoolArray) -> FloatArray:
 
 def cartesian_derivatives(nodes: FloatArray, polar: BoolArray) -> FloatArray:
     """Derivatives of (X, Y, X′, Y′) by the nodes' coordinates, (k, 4, 4)."""
-    out = np.broadcast_to(np.eye(4), (nodes.shape[0], 4, 4)).copy()
+    out = np.zeros((nodes.shape[0], 4, 4))
+    out[:, np.arange(4), np.arange(4)] = 1.0
     r, phi, r1, phi1 = nodes[polar].T
-    sin, cos, nil = np.sin(phi), np.cos(phi), np.zeros_like(r)
-    out[polar] = np.stack(
-        [
-            np.stack([-cos, r * sin, nil, nil], axis=1),
-            np.stack([sin, r * cos, nil, nil], axis=1),
-            np.stack([sin * phi1, r1 * sin + r * cos * phi1, -cos, r * sin], axis=1),
-            np.stack([cos * phi1, r1 * cos - r * sin * phi1, sin, r * cos], axis=1),
-        ],
-        axis=1,
-    )
+    sin, cos = np.sin(phi), np.cos(phi)
+    block = np.zeros((r.size, 4, 4))
+    block[:, 0, 0] = block[:, 2, 2] = -cos
+    block[:, 1, 0] = block[:, 3, 2] = sin
+    block[:, 0, 1] = block[:, 2, 3] = r * sin
+    block[:, 1, 1] = block[:, 3, 3] = r * cos
+    block[:, 2, 0], block[:, 3, 0] = sin * phi1, cos * phi1
+    block[:, 2, 1], block[:, 3, 1] = r1 * sin + r * cos * phi1, r1 * cos - r * sin * phi1
+    out[polar] = block
     return out
 
 

@@ -1,4 +1,4 @@
-"""Downhill from a shape that is no equilibrium: implicit Euler steps on the gradient flow, behind a soft rim.
+"""Downhill from a shape that is no equilibrium: linearly implicit Euler steps on the gradient flow, behind a soft rim.
 
 The disc's rim is a spring here, ½k(R − 1)² per length where R > 1: whatever touches it, and where, is found by the
 flow, not prescribed. A minimum found like this is close to one behind the hard rim, as 1/k, and tells the pattern of
@@ -13,29 +13,35 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.numerics.stretches.basis import reference_element
+from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.newton import Row, Solved, solve
+from rodwell.numerics.stretches.newton import MOST_MOVED, Row, Solved, bordered, residuals, solve
 from rodwell.quantities.arrays import FloatArray
 
 FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9
 """Inverse step of time: the first, one at which the flow is like Newton's method, and one at which it gives up."""
 
-FLOW_TOLERANCE = 1e-7
-MOST_EULER_STEPS = 400
+MOST_EULER_STEPS = 1000
+
+WANTED, MOST = 0.15, 0.5
+"""By which part of itself a step would be corrected if the equations were solved exactly: wanted, and accepted."""
+
+AT_REST = 1e-7
+"""Steps below this, in coordinates of nodes, are round-off: what corrects them tells nothing."""
+
+SLOWER, FASTER = 4.0, 0.1
+"""Most by which the rate grows, and falls, from a step to the next."""
+
+POSITION_MASS, SLOPE_MASS = 0.5, 1.0 / 105.0
+"""Mass at a node from an element beside it: of values, times its length, and of slopes, times its cube."""
 
 
 @dataclass(frozen=True)
 class SoftRim:
-    """A model behind a soft rim, pulled back towards a shape by the step of time.
-
-    ``before`` holds the fields at the end of the last step, (2, e, q); ``rate`` the inverse of the step.
-    """
+    """A model behind a soft rim."""
 
     model: Any
     stiffness: float
-    rate: float = 0.0
-    before: FloatArray | None = None
 
     @property
     def load_per_length(self) -> float:
@@ -48,7 +54,7 @@ class SoftRim:
         return kept
 
     def interior(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
-        """Density with rim and pull."""
+        """Density with rim."""
         energy, by_load, gradient, mixed, hessian = self.model.interior(s, u, load)
         place = u[:, 0]
         radius = np.maximum(np.hypot(*place), 1e-12)
@@ -62,19 +68,18 @@ class SoftRim:
         for i in range(2):
             for j in range(2):
                 hessian[i, 0, j, 0] += hard * normal[i] * normal[j] + (self.stiffness * across if i == j else 0.0)
-        if self.before is not None and self.rate > 0.0:
-            away = place - self.before
-            energy = energy + 0.5 * self.rate * np.sum(away**2, axis=0)
-            gradient[:, 0] += self.rate * away
-            for i in range(2):
-                hessian[i, 0, i, 0] += self.rate
         return energy, by_load, gradient, mixed, hessian
 
 
-def _at_points(shape: Shape) -> FloatArray:
-    """X and Y at the Gauss points, (2, e, q)."""
-    a, _ = shape.local(shape.chain.free)
-    return np.asarray(np.einsum("qi,kfi->fkq", reference_element(shape.chain.degree).table[0], a))
+def _mass(shape: Shape) -> FloatArray:
+    """Mass of the nodes' coordinates as blocks (n, 4, 4): lumped, and none for the bubbles, which follow at once."""
+    h = np.diff(shape.places)
+    out = np.zeros((h.size + 1, 4, 4))
+    for k in range(4):
+        mass = POSITION_MASS * h if k < 2 else SLOPE_MASS * h**3
+        out[:-1, k, k] += mass
+        out[1:, k, k] += mass
+    return out
 
 
 def descended(model: Any, shape: Shape, stiffness: float, row: Row, index: Callable[[Solved], int]) -> Solved | None:
@@ -84,19 +89,41 @@ def descended(model: Any, shape: Shape, stiffness: float, row: Row, index: Calla
     rest.
     """
     rim, rate = SoftRim(model, stiffness), FIRST_RATE
+    out, mass = assemble(rim, shape), _mass(shape)
     for _ in range(MOST_EULER_STEPS):
-        pulled = replace(rim, rate=rate, before=_at_points(shape))
-        after = solve(pulled, shape, row, FLOW_TOLERANCE, 8)[1]
-        if after is None or index(after) > 0:
-            rate *= 4.0
+        pulled = replace(out, diagonal=out.diagonal + rate * mass)
+        ahead, wrong = None, np.inf
+        if index(Solved(rim, pulled)) == 0:
+            ahead, wrong = _euler_step(rim, pulled, row, rate * mass)
+        if ahead is None or wrong > MOST:
+            rate *= SLOWER
             if rate > HIGHEST_RATE:
                 return None
             continue
-        shape = after.shape
-        rate *= 0.5
+        out = ahead
+        rate *= min(max(wrong / WANTED, FASTER), SLOWER)
         if rate < LOWEST_RATE:
-            rest = solve(rim, shape, row)[1]
+            rest = solve(rim, out.shape, row)[1]
             if rest is not None and index(rest) == 0:
                 return rest
             rate *= 64.0
     return None
+
+
+def _euler_step(rim: SoftRim, pulled: Assembled, row: Row, pull: FloatArray) -> tuple[Assembled | None, float]:
+    """One Newton step of implicit Euler, and what part of it another one with the same matrix would add.
+
+    ``pull`` (n, 4, 4) is the mass over the step of time, which ``pulled`` has in its Hessian.
+    """
+    matrix, shape = bordered(pulled, row), pulled.shape
+    nodes, breaks, load = matrix.increments(*residuals(pulled, row))
+    size = float(np.max(np.abs(nodes)))
+    if not np.isfinite(size) or float(np.max(np.abs(nodes[:, :2]))) > MOST_MOVED:
+        return None, np.inf
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        ahead = assemble(rim, shape.moved(nodes, bubbles_of(pulled, nodes, breaks, load, 1.0), breaks, load))
+    if not np.isfinite(ahead.energy):
+        return None, np.inf
+    residual, moments, lacks = residuals(ahead, row)
+    more = matrix.increments(residual + (pull @ nodes[..., None])[..., 0], moments, lacks)[0]
+    return ahead, float(np.max(np.abs(more))) / max(size, AT_REST)

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from rodwell.numerics.splines import banded
-from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of, reactions
+from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain, Shape
 from rodwell.quantities.arrays import BoolArray, FloatArray
 
@@ -27,6 +27,10 @@ WIDTH = 8
 
 TOLERANCE = 1e-10
 """Increment of the nodes' coordinates, relative, at which Newton's method has converged."""
+
+SURE = 0.01
+"""Part of the tolerance below which the next increment, foretold from two that shrink quadratically, is not waited for.
+"""
 
 ROUND_OFF, RESIDUAL = 1e-4, 1e-13
 """Increments below the first that no longer shrink are round-off, if the residual is below the second, relative to the
@@ -86,10 +90,10 @@ class Solved:
         """The state itself."""
         return self.out.shape
 
-    @cached_property
+    @property
     def forces(self) -> FloatArray:
         """Outward point forces at the moving nodes (m,)."""
-        return reactions(self.model, self.out)[2]
+        return self.out.forces
 
     @cached_property
     def openings(self) -> FloatArray:
@@ -122,7 +126,8 @@ class Solved:
 
     def tangent(self, row: Row) -> tuple[FloatArray, FloatArray, float, FloatArray]:
         """Derivatives of nodes, breaks, load and bubbles along the path, for which ``row`` gives 1."""
-        nodes, breaks, load = _solve(self.model, self.out, row, 1.0, residual=0.0)
+        none = np.zeros_like(self.shape.nodes), np.zeros_like(self.shape.breaks)
+        nodes, breaks, load = bordered(self.out, row).increments(*none, 1.0)
         return nodes, breaks, load, bubbles_of(self.out, nodes, breaks, load, 0.0)
 
     def work_rate(self, nodes: FloatArray, breaks: FloatArray, load: float) -> float:
@@ -166,43 +171,70 @@ def _general(band: FloatArray) -> tuple[FloatArray, Any]:
     return lu, pivots
 
 
-def _solve(
-    model: Any, out: Assembled, row: Row, target: float, *, residual: float
-) -> tuple[FloatArray, FloatArray, float]:
-    """Increments of nodes, breaks and load: Newton's for ``residual`` 1, the tangent for 0."""
+@dataclass(frozen=True, eq=False, repr=False)
+class Bordered:
+    """The bordered matrix of an assembly and a row, factorised.
+
+    ``lines`` (m, n, 4) are the rows of the breaks' equations in the nodes, ``answers`` (n, 4, m+1) what the banded part
+    makes of its columns for breaks and load, ``small`` (m+1, m+1) what remains of the border. ``row`` has the weights
+    of its work, if any, added to those of the unknowns.
+    """
+
+    chain: Chain
+    row: Row
+    factors: tuple[FloatArray, Any]
+    lines: FloatArray
+    answers: FloatArray
+    small: FloatArray
+
+    def increments(
+        self, residual: FloatArray, moments: FloatArray, target: float
+    ) -> tuple[FloatArray, FloatArray, float]:
+        """Increments of nodes, breaks and load that cancel residuals (n, 4) and (m,), and for which the row is met."""
+        m, free = moments.size, ~self.chain.held
+        first = _banded_answer(self.factors, residual * free)
+        known = np.append(np.tensordot(self.lines, first, 2) - moments, target + np.sum(self.row.nodes * free * first))
+        extra = np.linalg.solve(self.small, known)
+        nodes = -(first + self.answers @ extra)
+        return np.asarray(nodes * free), np.asarray(extra[:m], dtype=float), float(extra[m])
+
+
+def _banded_answer(factors: tuple[FloatArray, Any], columns: FloatArray) -> FloatArray:
+    """Solve with the factors of the band: columns (n, 4, …) at once."""
+    flat = columns.reshape(4 * columns.shape[0], -1)
+    return np.asarray(dgbtrs(factors[0], WIDTH - 1, WIDTH - 1, flat, factors[1])[0].reshape(columns.shape))
+
+
+def bordered(out: Assembled, row: Row) -> Bordered:
+    """Factorise the matrix of Newton's method: banded in the nodes, a border of one row for each break and the load."""
     chain = out.shape.chain
     if row.work:
         row = Row(
             row.nodes + row.work * out.by_load, row.breaks + row.work * out.work_by_break,
             row.load + row.work * out.work_by_load, row.target,
         )  # fmt: skip
-    n, m, reach = chain.elements + 1, chain.moving.size, WIDTH - 1
-    free = (~chain.held).astype(float)
-    columns = np.concatenate([residual * out.residual[..., None], out.by_break, out.by_load[..., None]], axis=2)
-    right = (columns * free[..., None]).reshape(4 * n, m + 2)
-    lu, pivots = _general(lower_band(out.diagonal, out.below, chain.held))
-    solved, _ = dgbtrs(lu, reach, reach, right, pivots)
-    solved = solved.reshape(n, 4, m + 2)
-    small, known = np.empty((m + 1, m + 1)), np.empty(m + 1)
-    moment, rate, _ = reactions(model, out)
-    for i, node in enumerate(chain.moving):
-        line = np.zeros((n, 4))
-        line[node] = out.diagonal[node, RADIAL_SLOPE]
-        line[node - 1] = out.below[node - 1, RADIAL_SLOPE]
-        line[node + 1] = out.below[node, :, RADIAL_SLOPE] if node < n - 1 else 0.0
-        line[node, ANGLE_RATE] += rate[i]
-        line *= free
-        reached = np.einsum("nc,ncv->v", line, solved)
-        small[i, :m] = out.by_break[node, RADIAL_SLOPE] - reached[1:-1]
-        small[i, m] = out.by_load[node, RADIAL_SLOPE] - reached[-1]
-        known[i] = reached[0] - residual * moment[i]
-    reached = np.einsum("nc,ncv->v", row.nodes * free, solved)
-    small[m, :m] = row.breaks - reached[1:-1]
-    small[m, m] = row.load - reached[-1]
-    known[m] = target + reached[0]
-    extra = np.linalg.solve(small, known)
-    nodes = -(solved[..., 0] + solved[..., 1:] @ extra)
-    return np.asarray(nodes * free), np.asarray(extra[:m], dtype=float), float(extra[m])
+    n, m, free = chain.elements + 1, chain.moving.size, ~chain.held
+    columns = np.concatenate([out.by_break, out.by_load[..., None]], axis=2)
+    factors = _general(lower_band(out.diagonal, out.below, chain.held))
+    answers = _banded_answer(factors, columns * free[..., None])
+    moving, breaks = chain.moving, np.arange(m)
+    lines = np.zeros((m, n, 4))
+    lines[breaks, moving] = out.diagonal[moving, RADIAL_SLOPE]
+    lines[breaks, moving - 1] = out.below[moving - 1, RADIAL_SLOPE]
+    lines[breaks, moving + 1] = out.below[moving, :, RADIAL_SLOPE]
+    lines[breaks, moving, ANGLE_RATE] += out.moment_rates
+    lines *= free
+    small = np.vstack([columns[moving, RADIAL_SLOPE], np.append(row.breaks, row.load)])
+    small[:m] -= np.tensordot(lines, answers, 2)
+    small[m] -= np.tensordot(row.nodes * free, answers, 2)
+    return Bordered(chain, row, factors, lines, answers, small)
+
+
+def residuals(out: Assembled, row: Row) -> tuple[FloatArray, FloatArray, float]:
+    """What is left of the equations of nodes and breaks, and what the row lacks."""
+    shape = out.shape
+    lacks = row.target - row.of(shape.nodes, shape.breaks, shape.load)
+    return out.residual, out.moments, lacks - row.work * (out.energy_by_load + out.work_residual)
 
 
 def solve(
@@ -217,19 +249,18 @@ def solve(
         if not np.isfinite(out.energy):
             return Outcome.OUT_OF_RANGE, None, step
         try:
-            target = row.target - row.of(shape.nodes, shape.breaks, shape.load)
-            target -= row.work * (out.energy_by_load + out.work_residual)
-            nodes, breaks, load = _solve(model, out, row, target, residual=1.0)
+            nodes, breaks, load = bordered(out, row).increments(*residuals(out, row))
         except np.linalg.LinAlgError:
             return Outcome.NOT_CONVERGED, None, step
         size = max(float(np.max(np.abs(nodes) / scale)), float(np.max(np.abs(breaks), initial=0.0)))
         if not np.isfinite(size) or size > 1e3:
             return Outcome.NOT_CONVERGED, None, step
-        small = size < tolerance and abs(load) <= tolerance * (1.0 + abs(shape.load))
+        size = max(size, abs(load) / (1.0 + abs(shape.load)))
         part = _safe_part(shape, nodes, breaks)
         bubbles = bubbles_of(out, nodes, breaks, load, 1.0)
         shape = shape.moved(part * nodes, part * bubbles, part * breaks, part * load)
-        if small or (size < ROUND_OFF and size > 0.3 * before and _balanced(out)):
+        sure = part == 1.0 and before < np.inf and size * (size / before) ** 2 < SURE * tolerance
+        if size < tolerance or sure or (size < ROUND_OFF and size > 0.3 * before and _balanced(out)):
             return Outcome.CONVERGED, Solved(model, assemble(model, shape)), step
         before = size
     return Outcome.NOT_CONVERGED, None, most

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -15,8 +16,8 @@ from rodwell.quantities.arrays import FloatArray
 BREAK_SCALE, LOAD_SCALE = 0.1, 0.1
 """What counts as one unit of arclength: a break moved by a tenth of the length, the load changed by a tenth."""
 
-LOCATED = 1e-10
-"""Part of a step to which a zero is located."""
+LOCATED, MOST_OF_STEP = 1e-11, 1e-3
+"""Arclength to which a zero is located; but no coarser than to this part of a step."""
 
 AS_GOOD_AS_ZERO = 1e-7
 """Part of its values at the ends of a step below which a function counts as zero where Newton's method fails."""
@@ -93,13 +94,22 @@ def between(first: Shape, second: Shape) -> Motion:
     )  # fmt: skip
 
 
+def _interpolated(known: dict[float, Shape], part: float) -> Shape:
+    """A shape between known ones of a chain: by the parabola through the three nearest, or the chord of two."""
+    near = sorted(known, key=lambda other: abs(other - part))[:3]
+    shape = known[near[0]]
+    for k, at in enumerate(near[1:], 1):
+        others = [other for i, other in enumerate(near) if i != k]
+        weight = math.prod((part - other) / (at - other) for other in others)
+        shape = _moved(shape, between(known[near[0]], known[at]), weight)
+    return shape
+
+
 class _Lost(Exception):  # noqa: N818 - says what happened, and never leaves this file
     """Newton's method failed within a step."""
 
 
-def locate(
-    model: Any, first: Solved, second: Solved, function: Callable[[Solved], float], xtol: float = LOCATED
-) -> Solved | None:
+def locate(model: Any, first: Solved, second: Solved, function: Callable[[Solved], float]) -> Solved | None:
     """The state between two where ``function`` vanishes, sought in the part of the step from the first.
 
     None if Newton's method fails on the way, or if the function does not change its sign between the two.
@@ -110,14 +120,14 @@ def locate(
     base = row_of(chord, first.shape.chain, first.shape.load)
     low, high = (base.of(one.shape.nodes, one.shape.breaks, one.shape.load) for one in (first, second))
     known = {0.0: (first, function(first)), 1.0: (second, function(second))}
+    xtol = min(LOCATED / length(chord, first.shape.chain, first.shape.load), MOST_OF_STEP)
     if not known[0.0][1] * known[1.0][1] < 0.0:
         return next((state for state, value in known.values() if value == 0.0), None)
 
     def value(part: float) -> float:
         if part not in known:
-            near = min(known, key=lambda other: abs(other - part))
             row = replace(base, target=low + part * (high - low))
-            state = solve(model, _moved(known[near][0].shape, chord, part - near), row)[1]
+            state = solve(model, _interpolated({other: known[other][0].shape for other in known}, part), row)[1]
             if state is None:
                 raise _Lost
             known[part] = state, function(state)
