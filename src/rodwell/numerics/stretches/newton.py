@@ -177,10 +177,10 @@ def _solve(
             row.load + row.work * out.work_by_load, row.target,
         )  # fmt: skip
     n, m, reach = chain.elements + 1, chain.moving.size, WIDTH - 1
-    free = (~chain.held).astype(float)
+    free = (~chain.unmoved).astype(float)
     columns = np.concatenate([residual * out.residual[..., None], out.by_break, out.by_load[..., None]], axis=2)
     right = (columns * free[..., None]).reshape(4 * n, m + 2)
-    lu, pivots = _general(lower_band(out.diagonal, out.below, chain.held))
+    lu, pivots = _general(lower_band(out.diagonal, out.below, chain.unmoved))
     solved, _ = dgbtrs(lu, reach, reach, right, pivots)
     solved = solved.reshape(n, 4, m + 2)
     small, known = np.empty((m + 1, m + 1)), np.empty(m + 1)
@@ -237,7 +237,7 @@ def solve(
 
 def _balanced(out: Assembled) -> bool:
     """Whether the nodes' equations are met to round-off."""
-    left = float(np.max(np.abs(out.residual[~out.shape.chain.held]), initial=0.0))
+    left = float(np.max(np.abs(out.residual[~out.shape.chain.unmoved]), initial=0.0))
     return left <= RESIDUAL * float(np.max(np.abs(out.diagonal)))
 
 
