@@ -1,11 +1,12 @@
 """The weightless rod, clamped at the wall, within a plane: contact in closed form by elliptic integrals.
 
-Until the rod touches the opposite wall any plane is as good as another, so ``load_path`` refuses it; states within a
-plane are equilibria all the same. A clamped elastica of modulus k has F = −16K², K = K(k), and rises by k/K at
-mid-length (four quarter waves in its length); it reaches the opposite wall where k/K = 2Δ. Pressed on, it is two spans,
-each held parallel to the wall at both ends; the contact at mid-length has no curvature left, and grows to a line, at
-−157.818791660462 for Δ = 0.01 (exact elastica, theory of the rod in a hole), and at −16π² for small slopes: a span of
-length ½ is then one whole wave.
+Until the rod touches the opposite wall any plane is as good as another; here states are held in none, and solved for
+from planar starts. What ``load_path`` makes of such rods is in ``test_arching_rods``.
+
+A clamped elastica of modulus k has F = −16K², K = K(k), and rises by k/K at mid-length (four quarter waves in its
+length); it reaches the opposite wall where k/K = 2Δ. Pressed on, it is two spans, each held parallel to the wall at
+both ends; the contact at mid-length has no curvature left, and grows to a line, at −157.818791660462 for Δ = 0.01
+(exact elastica, theory of the rod in a hole), and at −16π² for small slopes: a span of length ½ is then one whole wave.
 """
 
 from __future__ import annotations

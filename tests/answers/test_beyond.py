@@ -194,10 +194,23 @@ def test_a_path_that_fails_loses_nothing(failure: Exception, monkeypatch: pytest
 
 
 def test_what_has_no_path_says_why() -> None:
-    """Nothing presses a rod in a vertical hole to the wall: the path refuses it, and that is told."""
-    found = rodwell.answer(Case.from_dict({"dimensionless": {"weight": 5.0, "alpha": 0.0}, "analysis": {"modes": 1}}))
+    """Twisted, and pressed to the wall by nothing: the path refuses it, and that is told."""
+    given = {"dimensionless": {"weight": 5.0, "alpha": 0.0}, "load": {"twist": 1.0}, "analysis": {"modes": 1}}
+    found = rodwell.answer(Case.from_dict(given))
     assert found.beyond.path is None
     assert "nothing presses the rod to the wall" in found.beyond.why
+
+
+def test_the_story_of_a_weightless_rod() -> None:
+    """It arches to the opposite wall (−16K², k/K = 2Δ) and leaves the plane; it comes back without a snap."""
+    found = rodwell.answer(Case.from_dict({"dimensionless": {"weight": 0.0}, "analysis": {"modes": 1}}))
+    told = beyond_sentences(found.case, found.beyond)[0]
+    assert "lifts off at 39.4784 B/L²; touches the wall anew at 39.4979 B/L²; leaves the plane of its arch at" in told
+    assert "without a jump; keeps partial contact at 86.8525 B/L²" in told
+    assert found.beyond.path is not None
+    up, down = found.beyond.path.meaning
+    assert "leaves the plane of its arch at 80.6522 B/L², without a jump" in up
+    assert down.endswith("is straight again at 39.4784 B/L².")
 
 
 def test_the_key_of_the_case_file() -> None:

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
-from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
+from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS, checked_ends, refuse_off_wall
 from rodwell.problem.hole import Hole, Points, checked_points
 from rodwell.problem.lying import rise_of_lying_rod
 from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
@@ -221,6 +221,11 @@ class Problem:
     def holds_angle(self) -> bool:
         """Whether an end holds y, the place around the cylinder."""
         return self.ends[0] in HOLD_ANGLE or self.ends[1] in HOLD_ANGLE
+
+    @property
+    def isotropic_ends(self) -> bool:
+        """Whether both ends hold all lateral directions alike: clamped, or ends that only a rod off the wall has."""
+        return all(end == "clamped" or end in OFF_WALL_ENDS for end in self.ends)
 
     @property
     def symmetric(self) -> bool:

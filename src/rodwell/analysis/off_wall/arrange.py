@@ -60,7 +60,7 @@ def solved(
     It is at the load; or, where ``fixed`` names two ends of stretches (−1 and the number of breaks: the ends of the
     rod), at the distance they have now.
     """
-    pattern = replace(pattern, turns=turns_of(model, sample))
+    pattern = pattern if pattern.planar else replace(pattern, turns=turns_of(model, sample))
     shape, elements = arranged(model, pattern, breaks, load, sample, degree=degree, elements=elements)
     row = fixed_load(shape.chain, load) if fixed is None else _fixed_distance(shape, *fixed)
     state: Solved | None = solve(model, shape, row)[1]

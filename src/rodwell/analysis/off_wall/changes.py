@@ -9,7 +9,7 @@ before it has no length.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
 
+SPLITS = "splits"
+"""What a point of contact does that cannot grow to a stretch, since that would pull."""
+
 FIRST_GAP = 0.25
 """Half the length of a gap that opens, in wavelengths of a beam column over 2π."""
 
@@ -44,7 +47,7 @@ HALVINGS, ROUNDS = 5, 3
 """Sizes of a first gap, each half the one before; and how often others that would open next open with it."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
-         GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
+         SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
 """What a change is called along a path."""
 
 
@@ -96,16 +99,18 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
             plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
             for condition in sorted(vanished, key=lambda one: -one.s):
                 _EDITS[condition.kind](plan, condition)
-            pattern = Pattern(tuple(plan.touching), state.pattern.turns)
+            pattern = replace(state.pattern, touching=tuple(plan.touching))
             sample = lowered(sampler(state.solved.shape), plan.bumps)
             found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
             if found is None:
                 continue
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
             last = Changed(found, _growing(first, found, plan), NAMES[first.kind])
-            if not hurt or first.kind not in (OPENS, GROWS, GROWS_AT_END):
+            if not hurt or first.kind not in (OPENS, GROWS, SPLITS, GROWS_AT_END):
                 return last
             spots = [one.s for one in hurt if one.kind == OPENS] or spots
+        if first.kind == GROWS and spots:
+            return changed(state, [one._replace(kind=SPLITS) for one in vanished], part) or last
         following = _next(state, vanished, spots, size)
         if not following:
             break
@@ -184,6 +189,15 @@ def _grow(plan: _Plan, condition: Condition) -> None:
     plan.pair = (s - half, s + half)
 
 
+def _split(plan: _Plan, condition: Condition) -> None:
+    """A point of contact becomes two with a gap between them: in contact the stretch between them would pull."""
+    i, half = condition.number, 0.5 * plan.contact
+    s = plan.breaks[i]
+    plan.touching.insert(i + 1, False)
+    plan.breaks[i : i + 1] = [s - half, s + half]
+    plan.pair = (s - half, s + half)
+
+
 def _grow_at_end(plan: _Plan, condition: Condition) -> None:
     """Contact grows from a radially held end."""
     size = plan.contact
@@ -212,13 +226,15 @@ def _release(plan: _Plan, condition: Condition) -> None:
         plan.pair = (0.0, length)
 
 
-_EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, GROWS_AT_END: _grow_at_end}
+_EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, SPLITS: _split,
+          GROWS_AT_END: _grow_at_end}  # fmt: skip
 
 
 def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:
     """The pattern without stretches that have become very short, and the condition that vanishes where the first goes.
 
-    A contact stretch becomes a point, or nothing at an end; a gap closes.
+    A contact stretch becomes a point, or nothing at an end; a gap closes; two points of contact with a gap between them
+    become one.
     """
     shape, bounds = state.solved.shape, state.bounds
     touching, breaks = list(state.pattern.touching), list(shape.breaks)
@@ -230,15 +246,19 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
             breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         elif touching[i]:
             del touching[i], breaks[-1 if last else 0]
+        elif between_points(state.pattern, i):
+            del touching[i]
+            breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         else:
             _close(touching, breaks, i)
-    new = Pattern(tuple(touching), state.pattern.turns)
+    new = replace(state.pattern, touching=tuple(touching))
     found = solved(state.model, new, np.array(breaks), state.load, sampler(shape))
     if found is None:
         return None
     on, ends = state.pattern.touching[first], first in (0, len(state.pattern.touching) - 1)
-    kind = (GROWS_AT_END if ends else GROWS) if on else OPENS
-    name = ("contact_lost" if ends else "contact_point") if on else "gap_closes"
+    merged = between_points(state.pattern, first)
+    kind = (GROWS_AT_END if ends else GROWS) if on or merged else OPENS
+    name = ("contact_lost" if ends else "contact_point") if on else "contacts_merge" if merged else "gap_closes"
     near = [one for one in conditions(found) if one.kind == kind]
     if not near:
         return None
@@ -248,6 +268,11 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
         return watched(condition, PatternedState(new, found.elements, one))
 
     return Changed(found, value, name), condition
+
+
+def between_points(pattern: Pattern, i: int) -> bool:
+    """Whether a stretch is a gap between two points of contact."""
+    return 0 < i < pattern.breaks and pattern.is_point(i - 1) and pattern.is_point(i)
 
 
 def _close(touching: list[bool], breaks: list[float], i: int) -> None:

@@ -24,11 +24,13 @@ WAVES = 0.55
 class Pattern:
     """Stretches from s = 0: True in contact. Between two free ones lies a point of contact.
 
-    ``turns`` is the angle at s = 1 over 2π where the end holds it.
+    ``turns`` is the angle at s = 1 over 2π where the end holds it. ``planar``: the rod lies in the plane through its
+    ends and the hole's axis, and nothing but a disturbance takes it out.
     """
 
     touching: tuple[bool, ...]
     turns: int = 0
+    planar: bool = False
 
     @property
     def breaks(self) -> int:
@@ -104,4 +106,7 @@ def chain(problem: Problem, pattern: Pattern, elements: tuple[int, ...], degree:
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = 1.0, 0.0
-    return Chain(degree, touching, polar, held, first[1:-1].astype(np.int64), base, shares), values
+    if pattern.planar and pattern.touching == (False,):  # it may turn about the line between its ends at no cost
+        held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
+    moving = first[1:-1].astype(np.int64)
+    return Chain(degree, touching, polar, held, moving, base, shares, pattern.planar), values

@@ -8,12 +8,17 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
-from rodwell.analysis.off_wall.happening import END, TOGETHER, PathEvent, together, watch
+from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, TOGETHER, PathEvent, together, watch
 from rodwell.analysis.off_wall.turning import turning_points
-from rodwell.numerics.stretches.walk import Motion, locate, row_of, tangent
+from rodwell.numerics.stretches.walk import Motion, between, locate, row_of, tangent
+from rodwell.quantities.arrays import FloatArray
 
 MOST_EARLIER = 6
 """How often within a step something is found that happens before what was found first."""
+
+
+AT_ONCE = 1e-6
+"""Part of a step within which two things happen in the same place."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,6 +61,8 @@ def _located(step: Step) -> PathEvent | str | None:
     row = row_of(step.along, state.solved.shape.chain, state.load)
     for kind, value in candidates:
         at = locate(state.model, state.solved, new.solved, value)
+        if at is None and kind == BRANCH_POINT and _steadier(step):
+            continue  # from a contact without force, where stability is round-off; nothing follows from it
         if at is None:
             return f"{kind} beyond F = {state.load:.8g} B/L² could not be located"
         there = PatternedState(state.pattern, state.elements, at)
@@ -63,12 +70,31 @@ def _located(step: Step) -> PathEvent | str | None:
         located.append((order, PathEvent(kind, there, (), value, [], step.along, (state, new))))
     if not located:
         return None
-    number = int(np.argmin([order for order, _ in located]))
+    number = _first([order for order, _ in located], len(broken), AT_ONCE * row.of(*_motion(state, new)))
     event = located[number][1]
     if number >= len(first):
         return event
     at_once = together(event.state, broken, list(first.values())[number])
     return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
+
+
+def _steadier(step: Step) -> bool:
+    """Whether fewer disturbances grow at the end of a step than at its start."""
+    places = (step.state, step.along), (step.new, step.turned)
+    before, after = (step.control.index(at.solved, motion, step.sense) for at, motion in places)
+    return after < before
+
+
+def _motion(state: PatternedState, new: PatternedState) -> tuple[FloatArray, FloatArray, float]:
+    chord = between(state.solved.shape, new.solved.shape)
+    return chord.nodes, chord.breaks, chord.load
+
+
+def _first(orders: list[float], conditions: int, close: float) -> int:
+    """The number of what happens first; a condition on contact, should the state lose stability in the same place."""
+    first = int(np.argmin(orders))
+    lead = int(np.argmin(orders[:conditions])) if conditions else first
+    return lead if orders[lead] <= orders[first] + close else first
 
 
 def _earlier(event: PathEvent, step: Step) -> bool:

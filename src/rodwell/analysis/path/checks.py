@@ -33,13 +33,13 @@ def checked_problem(problem: Problem) -> None:
         raise InputError("on_top", True, "nothing presses a rod on top to the wall: its path begins at the bottom")
     if problem.turns:
         raise InputError("turns", problem.turns, "a load path begins with the straight rod: leave turns at 0")
-    if problem.lateral_weight == 0.0:
-        field, value = ("weight", problem.weight) if problem.weight == 0.0 else ("alpha", problem.alpha)
+    if problem.lateral_weight == 0.0 and problem.twist:
         raise InputError(
-            field,
-            value,
-            "nothing presses the rod to the wall: until it touches the opposite side any plane of buckling is as good "
-            "as another, and no path is followed through such states; give it some lateral weight",
+            "twist",
+            problem.twist,
+            "nothing presses the rod to the wall, and with twist it buckles into a curve in space that may turn as a "
+            "whole until the wall stops it: no path is followed through such states; leave twist at 0, or give the "
+            "rod some lateral weight",
         )
     if "loose" in problem.ends:
         raise InputError("ends", "-".join(problem.ends), "loose ends have no load path yet: take ball or free")

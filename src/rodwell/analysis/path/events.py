@@ -24,7 +24,7 @@ ROUND_OFF = 1e-12
 
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
 LOAD_PEAK = "load_peak"
-TOUCH_DOWN = "touch_down"
+TOUCHES, TOUCH_DOWN = "touches", "touch_down"
 
 MEANING = {
     CRITICAL: "the straight rod buckles",
@@ -33,8 +33,10 @@ MEANING = {
     "gap_closes": "a gap closes",
     "contact_point": "a stretch in contact has shrunk to a point",
     "contact_line": "a point of contact grows to a stretch",
+    "contact_splits": "a point of contact becomes two",
+    "contacts_merge": "two points of contact become one",
     "contact_lost": "a contact is lost",
-    "touches": "the rod touches the wall anew",
+    TOUCHES: "the rod touches the wall anew",
     TOUCH_DOWN: "contact is complete again",
     FOLD: "limit point: no equilibrium nearby beyond it",
     LOAD_PEAK: "the load passes an extremum",

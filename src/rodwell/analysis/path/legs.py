@@ -27,6 +27,7 @@ from rodwell.analysis.path.events import (
     Leg,
     PathPoint,
 )
+from rodwell.analysis.path.plane import back_in_plane, out_of_plane
 from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, NEAR, Snap, snapped
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import NotConvergedError
@@ -181,7 +182,7 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
     for event in path.events:
         if event.kind == END or (event.kind == BRANCH_POINT and event is not path.events[-1]):
             continue
-        if event.kind == BRANCH_POINT or (event.kind == FOLD and _straightens(event.state, how)):
+        if event.kind == BRANCH_POINT or (event.kind == FOLD and _met_another(event.state, how)):
             continue
         one = resolved_event(event, how.rtol)
         kind = event.kind
@@ -194,13 +195,21 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
 
 
 def _flat(state: PatternedState, angle: float = FLAT) -> bool:
-    """Whether the rod lies within an angle around the hole, in contact."""
-    return state.pattern.full and not state.pattern.turns and float(np.ptp(state.solved.shape.nodes[:, 1])) < angle
+    """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
+    shape, pattern = state.solved.shape, state.pattern
+    if not pattern.full:
+        return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
+    return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
 
 
 def _straightens(state: PatternedState, how: How) -> bool:
     """Whether a path that ends here meets the straight rod, at its buckling load; a fold nearby is another one's."""
     return _flat(state) and abs(state.load - how.mode.force) <= AT_BUCKLING * abs(how.mode.force)
+
+
+def _met_another(state: PatternedState, how: How) -> bool:
+    """Whether a path that folds has met another one: the straight rod, or states in the plane of its ends."""
+    return _straightens(state, how) or back_in_plane(state, 0.0) is not None
 
 
 def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
@@ -216,7 +225,22 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
         resolved = resolved_event(path.events[-1], how.rtol)
         load, finer = resolved.load, resolved.event.state
     held = load.value if how.control.by_force else how.control.value(finer.solved)
+    beside = _beside_plane(path, sense, how, held)
+    if beside is not None:
+        out.events.append(PathPoint(BRANCH_POINT, load, (), out.leg.name, None, contact_state(beside)))
+        out.last = beside
+        return
     _to(out, last, sense, how, load, held, fold=path.ended == FOLD)
+
+
+def _beside_plane(path: Followed, sense: float, how: How, held: float) -> PatternedState | None:
+    """The first state after a planar path has lost stability sideways, or another one has come back to the plane."""
+    last, by_force = path.last, how.control.by_force
+    if path.ended == FOLD:
+        return back_in_plane(last, sense if by_force else -sense)
+    beside = out_of_plane(last) if last.pattern.planar else None
+    on = beside is not None and (how.control.value(beside.solved) - held) * sense > 0.0
+    return beside if on else None
 
 
 def _to(

@@ -137,7 +137,7 @@ class LoadPath(Shown):
     @property
     def meaning(self) -> tuple[str, ...]:
         """What happens, in sentences: loads as compression at s = 1 in B/L²."""
-        return sentences(self.events)
+        return sentences(self.problem, self.events)
 
     def _on(self, leg: Leg, value: float, control: Control) -> ContactState:
         model = RodInHole(self.problem)

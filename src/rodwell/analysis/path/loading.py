@@ -6,7 +6,7 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, walked
-from rodwell.analysis.path.start import OnWall, carried, on_wall, released
+from rodwell.analysis.path.start import OnWall, arched, carried, on_wall, released
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 
@@ -23,7 +23,9 @@ def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
         return (until - control.value(state.solved)) * sense > 0.0
 
     begun, start = None, None
-    if "ball" in problem.ends:
+    if problem.lateral_weight == 0.0:
+        start = arched(problem, how.mode)
+    elif "ball" in problem.ends:
         start = released(problem, mirror, how.rtol)
     elif problem.pressed:
         begun = on_wall(problem, 1, mirror, how.rtol, before)

@@ -10,19 +10,28 @@ import numpy as np
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.off_wall.arrange import solved
+from rodwell.analysis.off_wall.arrange import arranged, solved
 from rodwell.analysis.off_wall.changes import changed
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.turning import growing_direction
-from rodwell.numerics.stretches.carry import Sampler, rim_fields
+from rodwell.analysis.straight.critical import Mode
+from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
+from rodwell.numerics.stretches.chain import RADIUS
+from rodwell.numerics.stretches.newton import Row, solve
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 ENOUGH, MOST = 0.02, 0.6
 """Largest angle around the hole, in radians, from which on a buckled state is a start for a chain; and up to which the
 rod with ball joints is sought beside it."""
+
+ARCH = 0.02
+"""Height, in clearances, of the first state of a rod that arches away from the wall."""
+
+ONE_SIDED = 1e-6
+"""Part of its height by which a mode may reach to the other side by round-off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +110,38 @@ def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | No
         if all(one.value > 0.0 for one in conditions(after.state)):
             return after.state if growing_direction(after, -1.0).load < 0.0 else None
     return None
+
+
+def arched(problem: Problem, mode: Mode) -> PatternedState | None:
+    """The first state of a rod that nothing presses to the wall and that arches away from it; None if it cannot.
+
+    Where its ends hold all lateral directions alike one plane of buckling is as good as another until the rod touches
+    the wall. In the plane through the hole's axis it does so last, and to that plane contact turns it. None where
+    the mode lies on both sides of the straight rod: there the wall is in its way at once.
+    """
+    if problem.lateral_weight > 0.0 or not problem.isotropic_ends:
+        return None
+    sense = 1.0 if np.sum(mode.shape(_EVENLY)) > 0.0 else -1.0
+    if np.min(sense * mode.shape(_EVENLY)) < -ONE_SIDED:
+        return None
+    height = sense * ARCH / np.max(np.abs(mode.space.evaluate(mode.coefficients, _EVENLY, 1)[0]))
+
+    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        fields = np.zeros((2, 3, s.size))
+        fields[0] = height * np.array(mode.space.evaluate(mode.coefficients, s, 3))
+        fields[0, 0] -= 1.0
+        return fields, angle_of(fields)
+
+    model, pattern = RodInHole(problem), Pattern((False,), planar=True)
+    shape, elements = arranged(model, pattern, np.zeros(0), mode.force, sample)
+    weights = np.zeros_like(shape.nodes)
+    weights[1:-1, RADIUS] = 1.0  # X there
+    height_held = Row(weights, np.zeros(0), 0.0, float(np.sum(weights * shape.nodes)))
+    found = solve(model, shape, height_held)[1]
+    return None if found is None else PatternedState(pattern, elements, found)
+
+
+_EVENLY = np.linspace(0.0, 1.0, 1001)
 
 
 def _amplitude(solution: Solution) -> float:

@@ -4,21 +4,51 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, UNLOADING, PathPoint
+from rodwell.analysis.path.events import (
+    BRANCH_POINT,
+    CRITICAL,
+    LIFT_OFF,
+    LOADING,
+    SNAP,
+    TOUCH_DOWN,
+    TOUCHES,
+    UNLOADING,
+    PathPoint,
+)
+from rodwell.problem.problem import Problem
 from rodwell.quantities.text import amount
 
 
-def sentences(events: Sequence[PathPoint]) -> tuple[str, ...]:
+def sentences(problem: Problem, events: Sequence[PathPoint]) -> tuple[str, ...]:
     """What happens on loading and on unloading, in a few sentences; compression at s = 1 in B/L²."""
+    told = [CRITICAL, LIFT_OFF, SNAP, *gradual(problem)]
     out = []
     up, down = ([one for one in events if one.leg == leg] for leg in (LOADING, UNLOADING))
-    parts = [_clause(one) for one in up if one.kind in (CRITICAL, LIFT_OFF, SNAP)]
+    parts = [_clause(one) for one in up if one.kind in told]
     if parts:
         out.append("Under growing compression the rod " + "; ".join(parts) + ".")
-    parts = [_clause(one) for one in down if one.kind in (CRITICAL, LIFT_OFF, SNAP)]
+    parts = [_clause(one) for one in down if one.kind in told]
     if parts:
         out.append("When the load is taken off it " + "; ".join(parts) + ".")
     return tuple(out)
+
+
+def gradual(problem: Problem) -> tuple[str, ...]:
+    """Events by which a rod that nothing presses to the wall goes over from one shape to another without a jump."""
+    if not problem.untouched:
+        return ()
+    return (TOUCHES, TOUCH_DOWN, BRANCH_POINT) if problem.isotropic_ends else (TOUCHES, TOUCH_DOWN)
+
+
+def gradually(event: PathPoint, load: str) -> str:
+    """What happens at one of them, with its load as text: the end of "the rod …"."""
+    if event.kind == TOUCHES:
+        return f"touches the wall anew at {load}"
+    if event.kind == BRANCH_POINT:
+        return f"{'leaves' if event.leg == LOADING else 'is back in'} the plane of its arch at {load}, without a jump"
+    turns = 0 if event.state is None else abs(event.state.turns)
+    shape = f", a helix of {turns} turn{'s' if turns != 1 else ''}" if turns else ""
+    return f"lies against the wall everywhere from {load} on{shape}"
 
 
 def _clause(event: PathPoint) -> str:
@@ -27,7 +57,8 @@ def _clause(event: PathPoint) -> str:
         return f"buckles at {load} B/L²" if event.leg == LOADING else f"is straight again at {load} B/L²"
     if event.kind == LIFT_OFF:
         return f"lifts off the wall at {load} B/L²"
-    assert event.to is not None
+    if event.to is None:
+        return gradually(event, f"{load} B/L²")
     if event.to.kind == "straight":
         return f"falls back to the straight shape at {load} B/L²"
     turns = f" of {abs(event.to.turns)} turn{'s' if abs(event.to.turns) != 1 else ''}" if event.to.turns else ""

@@ -24,7 +24,6 @@ from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.splines import pair
 from rodwell.numerics.splines.spaces import Prolongation, SplineSpace
 from rodwell.physics.off_wall.linear import torque_density
-from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import ComplexArray, FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_rtol
@@ -251,8 +250,7 @@ def _rigid(problem: Problem, space: SplineSpace, mode: ComplexArray) -> bool:
 
 def _alike(problem: Problem) -> int:
     """How many modes each load has: two where every end holds x and y alike."""
-    clear = all(end == "clamped" or end in OFF_WALL_ENDS for end in problem.ends)
-    return DOUBLE if clear else SINGLE
+    return DOUBLE if problem.isotropic_ends else SINGLE
 
 
 def _pencil(problem: Problem) -> Pencil:

@@ -18,6 +18,9 @@ from rodwell.strength.section import RodSection, RodStress, StringSections, rod_
 REACH = 1.5
 """Compression to which the rod is loaded, as a part of that at lift-off, both at mid-length."""
 
+REACH_ARCHED = 2.2
+"""The same of a rod that nothing presses to the wall, which buckles early: clamped, it has left its plane then."""
+
 BACK = 0.6
 """Compression to which it is taken off, as a part of that at buckling, both at mid-length."""
 
@@ -141,7 +144,8 @@ def reach(computed: Computed) -> tuple[float, float]:
     assert lift is not None
     half = 0.5 * case.problem.axial_weight
     asked = [load.force for load in case.applied] + ([] if case.until is None else [case.until])
-    until = min([half - REACH * (half - lift.force), *asked])
+    reach = REACH_ARCHED if case.problem.untouched else REACH
+    until = min([half - reach * (half - lift.force), *asked])
     back = half - BACK * (half - computed.buckling.value)
     return until, max(back, computed.buckling.value)
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rodwell.analysis.off_wall.state import HELIX, PARTIAL, STRAIGHT
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, PathPoint
+from rodwell.analysis.path.words import gradual, gradually
 from rodwell.answers.result.beyond import Beyond, StateBeyond, Step
 from rodwell.answers.words.verdict import load_text
 from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
@@ -33,10 +34,13 @@ def story(case: Case, found: Beyond) -> str:
     lift = next((one for one in up if one.kind == LIFT_OFF), None)
     snaps = [one for one in up if one.kind == SNAP]
     parts = [] if lift is None else [f"lifts off at {_load(case, lift.force)}"]
+    told = gradual(case.problem)
+    parts += [gradually(one, _load(case, one.force)) for one in up if one.kind in told]
     if not snaps:
         known = f"at {_load(case, Value(path.until))}, as far as it was followed"
         last = known if path.reached else "to the last state found"
-        parts.append(f"keeps {_contact(found.events)} {last}")
+        loading = [one for one in found.events if one.event.leg == LOADING]
+        parts.append(f"keeps {_contact(loading)} {last}")
     for i, snap in enumerate(snaps):
         where = _load(case, snap.force)
         keeps = f"keeps {_contact(_until(found.events, snap))} until {where}; then " if i == 0 else ""
@@ -85,8 +89,10 @@ def _until(steps: Sequence[Step], snap: PathPoint) -> list[Step]:
 
 
 def _contact(steps: Sequence[Step]) -> str:
-    """What a rod keeps that has not snapped: partial contact, unless all contact was lost."""
+    """What a rod keeps that has not snapped: partial contact, unless all contact was lost, or is complete again."""
     known = [one.state.state for one in steps if one.state is not None]
+    if known and known[-1].fine.pattern.full:
+        return "full contact"
     lost = bool(known) and known[-1].contact_total.value <= known[-1].contact_total.error
     return "its side of the hole, off the wall," if lost else "partial contact"
 

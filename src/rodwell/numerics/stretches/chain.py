@@ -43,6 +43,8 @@ class Chain:
         The nodes whose place is unknown, (m,), from s = 0.
     base, shares
         Places of the nodes: (e+1,) and (e+1, m).
+    planar
+        Whether shapes stay in the plane Y = 0, as their symmetry has it; disturbances may leave it.
     """
 
     degree: int
@@ -52,6 +54,7 @@ class Chain:
     moving: IntArray
     base: FloatArray
     shares: FloatArray
+    planar: bool = False
 
     @property
     def elements(self) -> int:
@@ -62,6 +65,11 @@ class Chain:
     def bubbles(self) -> int:
         """How many bubbles an element has in one field."""
         return self.degree + 1 - ENDS
+
+    @cached_property
+    def unmoved(self) -> BoolArray:
+        """Which coordinates Newton's method leaves as they are, (e+1, 4): those held, in a plane Y and angle too."""
+        return np.asarray(self.held | (self.planar & np.array([False, True, False, True])))
 
     @cached_property
     def on_rim(self) -> IntArray:

@@ -191,7 +191,7 @@ class Bordered:
         self, residual: FloatArray, moments: FloatArray, target: float
     ) -> tuple[FloatArray, FloatArray, float]:
         """Increments of nodes, breaks and load that cancel residuals (n, 4) and (m,), and for which the row is met."""
-        m, free = moments.size, ~self.chain.held
+        m, free = moments.size, ~self.chain.unmoved
         first = _banded_answer(self.factors, residual * free)
         known = np.append(np.tensordot(self.lines, first, 2) - moments, target + np.sum(self.row.nodes * free * first))
         extra = np.linalg.solve(self.small, known)
@@ -213,9 +213,9 @@ def bordered(out: Assembled, row: Row) -> Bordered:
             row.nodes + row.work * out.by_load, row.breaks + row.work * out.work_by_break,
             row.load + row.work * out.work_by_load, row.target,
         )  # fmt: skip
-    n, m, free = chain.elements + 1, chain.moving.size, ~chain.held
+    n, m, free = chain.elements + 1, chain.moving.size, ~chain.unmoved
     columns = np.concatenate([out.by_break, out.by_load[..., None]], axis=2)
-    factors = _general(lower_band(out.diagonal, out.below, chain.held))
+    factors = _general(lower_band(out.diagonal, out.below, chain.unmoved))
     answers = _banded_answer(factors, columns * free[..., None])
     moving, breaks = chain.moving, np.arange(m)
     lines = np.zeros((m, n, 4))
@@ -268,7 +268,7 @@ def solve(
 
 def _balanced(out: Assembled) -> bool:
     """Whether the nodes' equations are met to round-off."""
-    left = float(np.max(np.abs(out.residual[~out.shape.chain.held]), initial=0.0))
+    left = float(np.max(np.abs(out.residual[~out.shape.chain.unmoved]), initial=0.0))
     return left <= RESIDUAL * float(np.max(np.abs(out.diagonal)))
 
 
