@@ -18,6 +18,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import Prolongation
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 
 MOST_REFINEMENTS = 3
@@ -163,13 +164,13 @@ class Zero(ABC):
     Parameters
     ----------
     over, load
-        Names of the two parameters of the plane: x, and the load ("force" or "twist").
+        The two parameters of the plane: x, and the load ("force" or "twist").
     """
 
     touch: bool
     noise = 0.0  # step of the secant method in x, as a part of its unit, below which it may grow again: round-off
 
-    def __init__(self, over: str, load: str) -> None:
+    def __init__(self, over: Parameter, load: str) -> None:
         self.over, self.load, self.touching = over, load, ContactMaximum()
 
     @abstractmethod

@@ -15,6 +15,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, varied
 
 
 class AlongForce(Zero):
@@ -22,19 +23,23 @@ class AlongForce(Zero):
 
     touch = False
 
-    def __init__(self, problem: Problem, over: str, load: str = "force") -> None:
+    def __init__(self, problem: Problem, over: Parameter, load: str = "force") -> None:
         super().__init__(over, load)
         self.problem = problem
+        self.kept = {parity: kept_parity(problem, parity, over, load) for parity in (-1, 0, 1)}
+
+    def at(self, x: float) -> Problem:
+        """The problem at a value of the parameter."""
+        return varied(self.problem, self.over, x)
 
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the end force at ``spot``."""
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, meshes.coarse.parity, self.over)
+        problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
         return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
 
     def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """A point as a solution."""
-        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
+        return Solution(self.at(spot.x), point, meshes)
 
 
 class Touching(AlongForce):
@@ -50,28 +55,28 @@ class Touching(AlongForce):
 class TwistAtLiftOff(Touching):
     """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
 
-    def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
+    def __init__(self, problem: Problem, over: Parameter, start: float, lifting: Solution) -> None:
         super().__init__(problem, over, load="twist")
-        self.first, self.lifting = Touching(problem, over), lifting
+        self.first, self.lifting, self.lifting_at = Touching(problem, over), lifting, start
 
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the twist, at the end force of the first lift-off."""
-        if spot.x != getattr(self.lifting.problem, self.over):
+        if spot.x != self.lifting_at:
             near = CurveStart(spot.x, self.lifting)
             self.lifting = self.first.solve(near.meshes, near.guess, PlanePoint(spot.x, self.lifting.force)).solution
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, meshes.coarse.parity, "twist")
+            self.lifting_at = spot.x
+        problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
         return meshes.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
 
     def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """A point as a solution."""
-        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, meshes)
+        return Solution(self.at(spot.x).but(twist=spot.value), point, meshes)
 
 
 class Branching(AlongForce):
     """Loss of symmetry: an eigenvalue of the Hessian vanishes."""
 
-    def __init__(self, problem: Problem, over: str, branching: Solution) -> None:
+    def __init__(self, problem: Problem, over: Parameter, branching: Solution) -> None:
         super().__init__(problem, over)
         self.softest = Softest(branching)
 
@@ -99,7 +104,7 @@ class Folding(AlongForce):
 class Vanishing(AlongForce):
     """Any number of a state vanishes."""
 
-    def __init__(self, problem: Problem, over: str, which: Number) -> None:
+    def __init__(self, problem: Problem, over: Parameter, which: Number) -> None:
         super().__init__(problem, over)
         self.which = which
         self._value: Callable[[Family, State], float] | None = None
@@ -107,7 +112,7 @@ class Vanishing(AlongForce):
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes; the number is that of the problem at ``spot``."""
         line = super().meshes(meshes, spot)
-        self._value = value_on(self.problem.but(**{self.over: spot.x}), "force", line, self.which)
+        self._value = value_on(self.at(spot.x), "force", line, self.which)
         return line
 
     def function(self, family: Family, state: State) -> float:
