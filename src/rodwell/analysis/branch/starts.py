@@ -101,7 +101,10 @@ def place_of(start: Solution | SpecialPoint, parameter: Parameter) -> tuple[floa
 
 
 def at_state(problem: Problem, start: Solution, parameter: Parameter, here: float, until: float, rtol: float) -> Start:
-    """A known state, heading from its value ``here`` of a parameter for ``until``."""
+    """A known state, heading from its value ``here`` of a parameter for ``until``.
+
+    A fold is no regular state at a given value: it is solved for where it lies in the direction of its tangent.
+    """
     old = start.point
     equilibria = family(
         problem,
@@ -114,8 +117,12 @@ def at_state(problem: Problem, start: Solution, parameter: Parameter, here: floa
     )
     meshes = measured_meshes(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
     states = []
-    for level, c in ((meshes.coarse, old.coarse.c), (meshes.fine, old.fine.c)):
-        outcome, state, _ = level.with_exact_tangent().at(c, here)
+    for level, known in ((meshes.coarse, old.coarse), (meshes.fine, old.fine)):
+        exact = level.with_exact_tangent()
+        outcome, state, _ = exact.at(known.c, here)
+        if state is None:
+            row, _, _, _ = exact.covector(known.tangent, 0.0)
+            outcome, state, _ = exact.correct(known.c, here, row, 0.0, float(row @ known.c))
         if state is None:
             raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
         states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())

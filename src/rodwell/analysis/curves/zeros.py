@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from rodwell.analysis.branch.functionals import Number, value_on
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import kept_parity
-from rodwell.analysis.curves.points import CurveStart, PlanePoint, Zero
+from rodwell.analysis.curves.points import (
+    CurveLostError,
+    CurveStart,
+    CurveTangent,
+    NearbyStates,
+    PlanePoint,
+    Zero,
+    zero_from,
+)
 from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
 from rodwell.problem.varying import Parameter, varied
+from rodwell.quantities.arrays import FloatArray
 
 
 class AlongForce(Zero):
@@ -97,8 +107,37 @@ class Folding(AlongForce):
         return line
 
     def function(self, family: Family, state: State) -> float:
-        """The share of the end force in the tangent."""
+        """The share of the parameter in the tangent."""
         return state.tangent_lam / family.lam_scale
+
+    def zero_across(
+        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
+    ) -> tuple[float, State]:
+        """The fold on the hyperplane normal to ``travel``; where that fails, the one at the end force of ``spot``.
+
+        Where branches meet, or a closed loop is born, the curve turns back in the parameter, and equilibria along the
+        end force are not regular. Those along the parameter are, and their folds are the same: the Hessian is singular.
+        """
+        try:
+            return super().zero_across(meshes, guess, spot, travel, mesh)
+        except CurveLostError:
+            return self._zero_at_load(meshes, (guess.coarse, guess.fine)[mesh], spot, travel, mesh)
+
+    def _zero_at_load(
+        self, meshes: TwoMeshes, c: FloatArray, spot: PlanePoint, travel: CurveTangent, mesh: int
+    ) -> tuple[float, State]:
+        """The fold of the equilibria along the parameter, at the end force of ``spot``, on one of both meshes."""
+        line = self.meshes(meshes, spot)
+        along = path(self.at(spot.x), self.over, spot.value)
+        family = replace((line.coarse, line.fine)[mesh], path=along, lam_scale=travel.unit)
+        row, _, _, _ = family.covector((travel.coarse, travel.fine)[mesh], 0.0)
+        outcome, state, _ = family.correct(c, spot.x, row, 0.0, float(row @ c))
+        if state is None:
+            raise CurveLostError(family.advice(outcome))
+        fold = zero_from(family, state, self.function)
+        there = self.meshes(meshes, PlanePoint(fold.lam, spot.value))
+        found = (there.coarse, there.fine)[mesh].state(fold.c, spot.value, fold.tangent, 0.0, fold.index)
+        return fold.lam, replace(found, energy=fold.energy)
 
 
 class Vanishing(AlongForce):
