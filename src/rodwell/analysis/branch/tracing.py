@@ -54,7 +54,7 @@ def traced(
     events = [_ACROSS, Event.at(END, until)]
     if not problem.untouched or problem.turns != 0:
         events.append(_CONTACT)
-    if problem.turns != 0:
+    if problem.turns != 0 and problem.same_sides:
         events.append(_ENERGY)
     if parameter != "force":
         low, high = limits_of(parameter)

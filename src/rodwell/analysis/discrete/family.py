@@ -155,7 +155,8 @@ def family(
         lam_scale=scale,
         reflections=reflections(problem, parameter),
         given=given_along(problem),
-        first_integral=all(_autonomous(one) for one in along) and problem.ends == ("clamped", "clamped"),
+        first_integral=all(_autonomous(one) and one.same_sides for one in along)
+        and problem.ends == ("clamped", "clamped"),
         cells=tuple(sign for sign in _cells(problem) if all(sign in _cells(one) for one in along)),
     )
 
