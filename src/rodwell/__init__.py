@@ -44,6 +44,7 @@ _HOME = {
     "Mode": "rodwell.analysis.straight.critical",
     "NotConvergedError": "rodwell.errors",
     "PackerAnswer": "rodwell.studies.packer.packer",
+    "ParameterPath": "rodwell.problem.varying",
     "Problem": "rodwell.problem.problem",
     "RodwellError": "rodwell.errors",
     "Screening": "rodwell.studies.well.screening",
@@ -125,6 +126,7 @@ if TYPE_CHECKING:
     from rodwell.case.case import Case
     from rodwell.errors import InputError, NotConvergedError, RodwellError
     from rodwell.problem.problem import Problem
+    from rodwell.problem.varying import ParameterPath
     from rodwell.report.folders.export import export
     from rodwell.store.mapping import map  # noqa: A004
     from rodwell.store.restart import load_branch, save_branch

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rodwell import Diagram, InputError, Problem, diagram, follow
+from rodwell import Branch, Diagram, InputError, Problem, diagram, follow, special_curve
 from rodwell.analysis.discrete.measures import Measured
 
 FOLDS = (-403.8034, -2713.649)
@@ -23,6 +23,32 @@ def test_the_closed_loop_is_found_either_way(found: Diagram) -> None:
     assert sorted(p.force for p in loop.special_points if p.kind == "fold") == pytest.approx(sorted(FOLDS), abs=1e-3)
     assert loop.converged
     assert loop[0].fields(9)["xi2"] == pytest.approx(loop[-1].fields(9)["xi2"], abs=1e-8)
+
+
+def test_the_closed_loop_is_followed_to_where_it_is_born(found: Diagram) -> None:
+    """Its fold at −2713.649, followed in α, turns back at 51.008°: there the loop is cut off from another branch.
+
+    By a second method: on either side of that inclination, from the same state, one parameter after the other.
+    """
+    (loop,) = (branch for branch in found if branch.name.startswith("isolated"))
+    fold = min((p for p in loop.special_points if p.kind == "fold"), key=lambda p: p.force)
+    curve = special_curve(fold, "alpha", 45.0)
+    born = curve.marks[0]
+    assert born.kind == "reconnection"
+    assert born.x == pytest.approx(51.0077855, abs=1e-6)
+    near = next(p for p in curve.points if p.x < born.x + 0.15)
+    assert near.solution is not None
+
+    start = follow(near.solution.problem, start=near.solution, until=near.value + 3.0)[-1]
+
+    def onwards(alpha: float) -> Branch:
+        """Down in the end force from a state above the fold, at another inclination; no farther than back up again."""
+        tilted = follow(start.problem, start=start, parameter="alpha", until=alpha)[-1]
+        back = {"back": lambda state: state.force - start.force - 0.1}
+        return follow(tilted.problem, start=tilted, until=born.value - 8.0, stop=back)
+
+    assert [p.kind for p in onwards(born.x + 0.1).special_points] == ["fold", "back", "end"]
+    assert [p.kind for p in onwards(born.x - 0.1).special_points] == ["end"]
 
 
 def test_what_was_searched_is_said(found: Diagram) -> None:

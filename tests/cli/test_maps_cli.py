@@ -84,6 +84,49 @@ def test_diagram_continued_in_the_inclination(place: Path) -> None:
     assert state.number(Measured.ENERGY).value == pytest.approx(direct.number(Measured.ENERGY).value, rel=1e-8)
 
 
+def test_lines_in_several_parameters(place: Path) -> None:
+    """The end of a line is the rod there, reached in another way; curves over a line end at that rod's load too."""
+    import xarray as xr
+
+    from rodwell import Problem, follow
+
+    line = ("--then", "alpha", "--to", "75", "--then", "weight", "--to", "16")
+    done = run("diagram", "--weight", "15", "--alpha", "90", "--modes", "1", "--until", "-140", *line, "--json")
+    assert done.exit_code == 0, done.output
+    further = json.loads(done.output)["branches"][1]
+    assert further["name"] == "mode 1, in alpha and weight"
+    assert further["special_points"][-1]["at"] == {"alpha": 75.0, "weight": 16.0}
+    over = ("--over", "weight", "--from", "15", "--to", "16", "--over", "alpha", "--from", "90", "--to", "75")
+    done = run("curve", "lift-off", *over)
+    assert done.exit_code == 0, done.output
+    assert "lift-off over weight and alpha" in done.output
+    assert "(weight 16, alpha 75)" in done.output
+    with xr.open_dataset(place / "results/curve/curves.nc") as data:
+        assert (data["t"][-1], data["weight"][-1], data["alpha"][-1]) == (1.0, 16.0, 75.0)
+        lift = follow(Problem(16.0, 75.0)).labelled("lift_off 1")
+        assert float(data["force"][-1]) == pytest.approx(lift.force, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["diagram", "--weight", "15", "--alpha", "90", "--then", "alpha"], "--then and --to belong together"),
+        (
+            ["curve", "critical", "--alpha", "90", "--over", "weight", "--from", "1", "--from", "2", "--to", "3"],
+            "--over, --from and --to belong together",
+        ),
+        (
+            ["diagram", "--weight", "15", "--alpha", "90", *("--then", "alpha", "--to", "80") * 2],
+            "alpha is given twice",
+        ),
+    ],
+)
+def test_lines_that_are_none_are_refused(arguments: list[str], message: str) -> None:
+    done = run(*arguments)
+    assert done.exit_code == 2
+    assert message in done.output
+
+
 def test_diagram_of_a_coil(place: Path) -> None:
     done = run("diagram", "--weight", "15", "--alpha", "90", "--turns", "1", "--until", "-220", "--json")
     kinds = [p["kind"] for p in json.loads(done.output)["branches"][0]["special_points"]]

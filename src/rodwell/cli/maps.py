@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.diagram import Diagram
     from rodwell.analysis.curves.curve import Curve
     from rodwell.problem.problem import Problem
+    from rodwell.problem.varying import Parameter
 
 
 @click.command(short_help="Bifurcation diagram: branches and their special points.")
@@ -37,10 +38,11 @@ if TYPE_CHECKING:
 @click.option("--secondary/--no-secondary", default=True, show_default=True, help="Follow secondary branches.")
 @click.option(
     "--then",
-    type=click.Choice(["weight", "alpha", "clearance", "twist"]),
-    help="Continue each branch in this parameter, from its state at --until.",
+    type=click.Choice(["weight", "alpha", "clearance", "twist", "poisson"]),
+    multiple=True,
+    help="Continue each branch in this parameter, from its state at --until; given again: in all of them, on a line.",
 )
-@click.option("--to", type=float, help="Value to which --then goes.")
+@click.option("--to", type=float, multiple=True, help="Value to which --then goes, one for each.")
 @click.option(
     "--search",
     type=click.Choice(["unfolding", "deflation"]),
@@ -55,8 +57,8 @@ def diagram(
     modes: int,
     until: float | None,
     secondary: bool,
-    then: str | None,
-    to: float | None,
+    then: tuple[str, ...],
+    to: tuple[float, ...],
     search: tuple[str, ...],
     largest_step: float,
     rtol: float,
@@ -71,9 +73,10 @@ def diagram(
     """
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    if (then is None) != (to is None):
+    if len(then) != len(to):
         raise click.UsageError("--then and --to belong together.")
     problem = make_problem(given)
+    further = _on_a_line(then, [getattr(problem, name) for name in then], to)
     check_writable(out)
     from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
@@ -85,7 +88,7 @@ def diagram(
             modes=modes,
             until=until,
             secondary=secondary,
-            then=None if then is None or to is None else (then, to),
+            then=None if further is None else (further[0], further[1][1]),
             search=search,
             rtol=rtol,
             largest_step=largest_step,
@@ -133,7 +136,7 @@ def _print_diagram(result: Diagram) -> None:
         click.echo(f"\n{branch.name}{parent}: {len(branch)} points{mirrored}")
         for p in branch.special_points:
             index = f"index {p.index_before} → {p.index_after}"
-            name = "F" if p.parameter == "force" else p.parameter
+            name = "F" if p.parameter == "force" else str(p.parameter)
             known = Value(p.force if p.parameter == "force" else p.value, 0.0 if p.kind == "end" else p.error)
             remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
             click.echo(f"  {KINDS[p.kind]:<{widest}}  {name} = {with_error(known)}   {index}{places_text(p.s)}{remark}")
@@ -155,10 +158,11 @@ def _print_diagram(result: Diagram) -> None:
     "--over",
     type=click.Choice(["weight", "alpha", "clearance", "twist"]),
     required=True,
-    help="Parameter over which the curve runs; its own option is then not needed.",
+    multiple=True,
+    help="Parameter over which the curve runs; its own option is then not needed. Given again: over all, on a line.",
 )
-@click.option("--from", "start", type=float, required=True, help="Start of the range.")
-@click.option("--to", "end", type=float, required=True, help="End of the range.")
+@click.option("--from", "start", type=float, required=True, multiple=True, help="Start of the range, for each.")
+@click.option("--to", "end", type=float, required=True, multiple=True, help="End of the range, for each.")
 @click.option("--mode", default=1, show_default=True, help="Mode, at the start of the range (not for critical).")
 @click.option("--modes", default=4, show_default=True, help="How many curves (critical only).")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0 (lift-off, twist).")
@@ -167,9 +171,9 @@ def _print_diagram(result: Diagram) -> None:
 @out_option("curve")
 def curve(
     kind: str,
-    over: str,
-    start: float,
-    end: float,
+    over: tuple[str, ...],
+    start: tuple[float, ...],
+    end: tuple[float, ...],
     mode: int,
     modes: int,
     mirror: bool,
@@ -185,14 +189,18 @@ def curve(
     """
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
-    given[over] = start  # whatever was given: the range counts
+    if not len(over) == len(start) == len(end):
+        raise click.UsageError("--over, --from and --to belong together.")
+    given |= dict(zip(over, start, strict=True))  # whatever was given: the range counts
     problem = make_problem(_with_required(given, over))
+    line = _on_a_line(over, start, end)
+    assert line is not None
     check_writable(out)
     from rodwell.report.folders.branches import write_curves  # noqa: PLC0415
 
     with progress_bar(not as_json, f"{kind} curve") as tell:
-        report = lambda done: tell(f"{kind} curve over {over}", done)  # noqa: E731
-        curves = _compute(kind, problem, over, (start, end), mode, modes, mirror, rtol, report)
+        report = lambda done: tell(f"{kind} curve over {' and '.join(over)}", done)  # noqa: E731
+        curves = _compute(kind, problem, *line, mode, modes, mirror, rtol, report)
         tell("figure and data", 1.0)
         write_curves(curves, out)
     if as_json:
@@ -207,9 +215,23 @@ def curve(
     check_missed(what, rtol)
 
 
-def _with_required(given: dict[str, Any], over: str) -> dict[str, Any]:
+def _on_a_line(
+    names: Sequence[str], first: Sequence[float], last: Sequence[float]
+) -> tuple[Parameter, tuple[float, float]] | None:
+    """What varies, and its range: one parameter, or t from 0 to 1 on a straight line from some values to others."""
+    from rodwell.problem.varying import ParameterPath  # noqa: PLC0415
+
+    if len(set(names)) < len(names):
+        raise click.UsageError(f"{max(names, key=names.count)} is given twice.")
+    if len(names) < 2:
+        return (names[0], (first[0], last[0])) if names else None
+    ends = zip(first, last, strict=True)
+    return ParameterPath(dict(zip(names, ends, strict=True))), (0.0, 1.0)
+
+
+def _with_required(given: dict[str, Any], over: Sequence[str]) -> dict[str, Any]:
     for name in ("weight", "alpha"):
-        if given.get(name) is None and name != over:
+        if given.get(name) is None and name not in over:
             raise click.UsageError(f"Missing option '--{name}'.")
     return given
 
@@ -217,7 +239,7 @@ def _with_required(given: dict[str, Any], over: str) -> dict[str, Any]:
 def _compute(
     kind: str,
     problem: Problem,
-    over: str,
+    over: Parameter,
     limits: tuple[float, float],
     mode: int,
     modes: int,
@@ -244,21 +266,31 @@ SHOWN = 12
 def _print_curves(curves: Sequence[Curve]) -> None:
     from rodwell.analysis.curves.curve import convention  # noqa: PLC0415
     from rodwell.plots.curves import MARKERS  # noqa: PLC0415
+    from rodwell.problem.varying import words_for  # noqa: PLC0415
     from rodwell.quantities.value import Value  # noqa: PLC0415
 
     first = curves[0]
-    click.echo(f"{first.kind} over {first.over}: {convention(first.problem, first.quantity)}")
+    click.echo(f"{first.kind} over {words_for(first.over)}: {convention(first.problem, first.quantity)}")
     for item in curves:
         click.echo(f"\n{item.name}: {len(item)} points")
         step = max(1, (len(item) - 1) // (SHOWN - 1))
         shown = [*item.points[:-1:step], item.points[-1]]
         for p in shown:
             known = with_error(Value(p.value, p.error))
-            click.echo(f"  {item.over} = {plain(p.x, 8):<12} {known}{places_text(p.s)}")
+            click.echo(f"  {item.over} = {plain(p.x, 8):<12} {known}{places_text(p.s)}{_numbers(item.over, p.x)}")
         for m in item.marks:
             place, known = with_error(Value(m.x, m.x_error)).lstrip("+"), with_error(Value(m.value, m.error))
-            click.echo(f"  {MARKERS[m.kind][1]}: {item.over} = {place}, {known}; {m.note}")
+            there = _numbers(item.over, m.x)
+            click.echo(f"  {MARKERS[m.kind][1]}: {item.over} = {place}{there}, {known}; {m.note}")
+
         if item.ended_because != "end":
             click.echo(f"  ended early: {item.ended_because}")
         if not item.converged:
             click.echo("  Not every point meets the tolerance.")
+
+
+def _numbers(over: Parameter, x: float) -> str:
+    """The numbers at a place of a path, for the terminal; nothing for one parameter."""
+    if isinstance(over, str):
+        return ""
+    return "  (" + ", ".join(f"{name} {plain(value, 6)}" for name, value in over.at(x).items()) + ")"

@@ -82,7 +82,11 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
         if coiled:
             options.append(
                 click.option(
-                    "--turns", default=0, show_default=True, help="Turns of the end s = 1 around the cylinder."
+                    "--turns",
+                    type=float,
+                    default=0,
+                    show_default=True,
+                    help="Turns of the end s = 1 around the cylinder, whole or not.",
                 )
             )
         for option in reversed(options):

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from rodwell.analysis.curves.curve import Curve
+from rodwell.plots.in_parameter import parameter_label
 from rodwell.plots.style import INK, WARN, marked, new_axes
+from rodwell.problem.varying import ParameterPath
 from rodwell.quantities.text import plain
 
 AXES = {
@@ -14,6 +16,8 @@ AXES = {
     "alpha": "inclination α from the vertical  [°]",
     "clearance": "clearance Δ/L",
     "twist": "end twisting moment T₁  [B/L]",
+    "poisson": "Poisson's ratio ν",
+    "torsion": "torsional stiffness C/B",
 }
 
 MARKERS = {
@@ -43,7 +47,7 @@ def plot_curves(curves: Sequence[Curve], ax: Any = None) -> Any:
     for kind, (marker, text) in MARKERS.items():
         if kind in seen:
             ax.plot([], [], marker, color=WARN if marker == "o" else INK, mec=INK, ms=6, ls="none", label=text)
-    ax.set_xlabel(AXES[first.over])
+    ax.set_xlabel(parameter_label(first.over, AXES))
     label = "end compression −F at s = 1  [B/L²]" if first.quantity == "force" else "second lift-off at T₁  [B/L]"
     ax.set_ylabel(label)
     ax.set_title(_title(first), loc="left", fontsize=9.5)
@@ -59,5 +63,7 @@ def _title(curve: Curve) -> str:
         "alpha": f"α = {plain(problem.alpha)}°",
         "clearance": f"Δ/L = {plain(problem.clearance)}",
     }
-    parts = [text for name, text in fixed.items() if name != curve.over]
+    over = curve.over
+    varies = over.names if isinstance(over, ParameterPath) else (over,)
+    parts = [text for name, text in fixed.items() if name not in varies]
     return ",  ".join([*parts, "-".join(problem.ends), *(["on top"] if problem.on_top else [])])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from rodwell.analysis.branch.functionals import Number, value_of
 from rodwell.analysis.discrete.measures import MEASURES, measured
 from rodwell.plots.bifurcation import MARKERS, telling
 from rodwell.plots.style import INK, MODES, new_axes
+from rodwell.problem.varying import Parameter, ParameterPath, words_for
 from rodwell.quantities.names import QUANTITIES, UNITS
 
 PARAMETERS = {
@@ -19,8 +21,17 @@ PARAMETERS = {
     "alpha": "inclination α against the vertical  [degrees]",
     "clearance": "clearance Δ  [L]",
     "twist": "end twisting moment T₁ at s = 1  [B/L]",
+    "poisson": "Poisson's ratio ν",
+    "torsion": "torsional stiffness C  [B]",
 }
 """Labels of what varies along a branch."""
+
+
+def parameter_label(parameter: Parameter, labels: Mapping[str, str] = PARAMETERS) -> str:
+    """Label of what varies along a branch or a curve."""
+    if isinstance(parameter, ParameterPath):
+        return f"{parameter}, along a path: {words_for(parameter)}"
+    return labels[parameter]
 
 
 def plot_in_parameter(branch: Branch, ax: Any = None, ordinate: Number | None = None) -> Any:
@@ -47,7 +58,7 @@ def plot_in_parameter(branch: Branch, ax: Any = None, ordinate: Number | None = 
         seen.add(name)
         place = point.value, value_of(point.solution, which)
         ax.plot(*place, marker, color="white", mec=INK, ms=6, zorder=5, label=label)
-    ax.set_xlabel(PARAMETERS[branch.parameter])
+    ax.set_xlabel(parameter_label(branch.parameter))
     ax.set_ylabel(_label(which))
     if seen:
         ax.legend(loc="best")

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
-from rodwell.errors import InputError, InputWarning, checked_number, checked_whole
+from rodwell.errors import InputError, InputWarning, checked_number
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS, checked_ends, refuse_off_wall
 from rodwell.problem.hole import Hole, Points, checked_points
 from rodwell.problem.lying import rise_of_lying_rod
@@ -18,6 +18,7 @@ from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4
 LARGEST_TURNS = 1000
+TURNS_ALLOWED = f"from -{LARGEST_TURNS} to {LARGEST_TURNS} turns of the end s = 1, whole or not"
 SMALLEST_CLEARANCE = 1e-7
 SMALLEST_TORSION, LARGEST_TORSION = 1e-6, 1e6
 
@@ -70,7 +71,8 @@ class Problem:
     twist
         Dead end twisting moment T₁ in B/L.
     turns
-        Whole turns n of the end s = 1 around the cylinder: ξ₂(1) = ξ₂(0) + 2πn. 0 in the paper.
+        Turns n of the end s = 1 around the cylinder: ξ₂(1) = ξ₂(0) + 2πn. 0 in the paper. Of whole turns the ends stand
+        where they do without any; with n + ½ the end s = 1 is held on the opposite side of the cylinder.
     on_top
         The rod lies on top of the cylinder, ξ₂(0) = π (paper, section 4.3), not at the bottom.
     outside
@@ -115,7 +117,7 @@ class Problem:
     clearance: float = 0.01
     poisson: float = 0.3
     twist: float = 0.0
-    turns: int = 0
+    turns: float = 0
     on_top: bool = False
     outside: bool = False
     ends: tuple[str, str] = ("clamped", "clamped")
@@ -135,7 +137,8 @@ class Problem:
             if (type(value) is float and low <= value <= high) or (name == "torsion" and value is None):
                 continue  # mostly: curves make thousands of problems
             object.__setattr__(self, name, checked_number(name, value, low, high, allowed))
-        object.__setattr__(self, "turns", checked_whole("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS))
+        turns = checked_number("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS, TURNS_ALLOWED)
+        object.__setattr__(self, "turns", int(turns) if turns.is_integer() else turns)
         for flag in ("on_top", "outside"):
             if not isinstance(getattr(self, flag), bool):
                 raise InputError(flag, getattr(self, flag), "must be True or False")
@@ -231,14 +234,20 @@ class Problem:
     def symmetric(self) -> bool:
         """Whether the problem is the same seen from either end: equal ends, no axial weight, sections alike.
 
-        A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal.
+        A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal. So does
+        weight where the end s = 1 has not come round to the side of the other.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
         if self.hole is not None:
             return not self.axis and self.walk == self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
-        if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose:
+        if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose or not self.same_sides:
             return False
         return not self.sections or self.rod.symmetric
+
+    @property
+    def same_sides(self) -> bool:
+        """Whether weight does the same to both ends: they lie on one side of the cylinder, or it does not press."""
+        return isinstance(self.turns, int) or self.lateral_weight == 0.0
 
     @property
     def pressed(self) -> bool:
@@ -287,11 +296,13 @@ class Problem:
 
     @property
     def turned_round(self) -> Problem:
-        """The same rod seen from its other end, y(s) → y(1 − s): inclination 180° − α, ends exchanged.
+        """The same rod seen from its other end, y(s) → ± y(1 − s): inclination 180° − α, ends exchanged.
 
-        Its end force, which acts at the other end, is F − wₐ (of sections, less their axial weight).
+        Its end force, which acts at the other end, is F − wₐ (of sections, less their axial weight). Of a coil it is
+        also the mirror image, so that it winds in the same sense; with half a turn over, it begins on the other side.
         """
-        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1], sections=self.sections[::-1])
+        on_top = self.on_top != ((2.0 * self.turns) % 2.0 == 1.0)
+        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1], sections=self.sections[::-1], on_top=on_top)
 
     @property
     def foundation(self) -> float:

@@ -10,12 +10,14 @@ import numpy as np
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.curves.curve import numbers_on
 from rodwell.analysis.discrete.measures import MEASURES
 from rodwell.analysis.state.balance import ENERGIES
 from rodwell.analysis.state.fields import GRID
 from rodwell.errors import InputError, checked_number
 from rodwell.physics.on_wall.frames import AXES, FRAMES, frames
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import ParameterPath
 from rodwell.quantities.names import FIELDS, POWERS, QUANTITIES, SI_UNITS, UNITS, VANISHING
 from rodwell.quantities.table import Variable
 
@@ -47,6 +49,8 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
         "force": Variable(("point",), branch.force, _about("force")),
         "parameter": Variable(("point",), branch.values, {"long_name": f"what varies: {branch.parameter}"}),
     }
+    if isinstance(branch.parameter, ParameterPath):
+        out |= numbers_on(branch.parameter, branch.values)
     for which, name in MEASURES.items():
         out[name] = Variable(("point",), branch.numbers(which), _about(name))
         out[f"{name}_error"] = Variable(("point",), branch.errors(which), _about_error(name))
@@ -92,7 +96,7 @@ def branch_attributes(branch: Branch) -> dict[str, Any]:
     return _problem_attributes(branch.problem) | {
         "title": "Branch of equilibria of a heavy rod on a cylinder",
         "name": branch.name,
-        "parameter": branch.parameter,
+        "parameter": str(branch.parameter),
         "mode": branch.mode.number if branch.mode else 0,
         "rtol": branch[0].meshes.rtol,
         "ended_because": branch.ended_because,

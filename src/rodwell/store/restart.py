@@ -43,6 +43,7 @@ from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import ParameterPath, words_for
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
 from rodwell.store.folder import whole_folder
@@ -73,9 +74,12 @@ def save_branch(branch: Branch, path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the file cannot be written, or the branch follows a path of one's own.
     """
     path = Path(path)
+    if isinstance(branch.parameter, ParameterPath):
+        reason = "is a path of functions, which no file keeps: keep a branch in one parameter, from one of its states"
+        raise InputError("parameter", words_for(branch.parameter), reason)
     if not path.name:
         raise InputError("path", str(path), "must name a file")
     with whole_folder(path.parent, "path") as folder, h5netcdf.File(folder / path.name, "w") as file:

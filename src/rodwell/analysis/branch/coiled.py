@@ -45,12 +45,12 @@ def coil(
 
     Its special points tell where contact is complete ("touch_down", "lift_off": on either side of that range the
     coil leaves the wall) and where it has the energy of the straight rod ("equal_energy"): with more compression
-    the coil has less.
+    the coil has less. A heavy rod with turns that are not whole has no such load: its straight rival is held elsewhere.
 
     Parameters
     ----------
     problem
-        The rod, with ``turns`` ≠ 0.
+        The rod, with ``turns`` ≠ 0, whole or not.
     until
         End force at s = 1 in B/L², tension positive. Without it −8 (2πn)² for n turns, or 1.25 times the load at which
         a long coil has the energy of the straight rod, if that is more: so that the special points are in the range.
@@ -75,5 +75,5 @@ def coil(
         raise InputError("until", until, f"must be below the force at which the coil starts, {start:g} B/L²")
     state = equilibrium(problem, start, rtol=rtol)
     branch = follow(problem, start=state, until=until, rtol=rtol, largest_step=largest_step, progress=progress)
-    turns = "1 turn" if abs(problem.turns) == 1 else f"{abs(problem.turns)} turns"
+    turns = "1 turn" if abs(problem.turns) == 1 else f"{abs(problem.turns):g} turns"
     return branch.renamed(Origin(f"coil of {turns}"))

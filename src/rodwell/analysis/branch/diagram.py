@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
-from rodwell.analysis.branch.follow import LARGEST_STEP, Following, checked_end
+from rodwell.analysis.branch.follow import LARGEST_STEP, Following
 from rodwell.analysis.branch.searching import WAYS
 from rodwell.analysis.branch.searching import search as search_for_more
 from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.starts import checked_end
 from rodwell.analysis.branch.symmetry import Reflection
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import checked_step
@@ -22,6 +23,7 @@ from rodwell.analysis.straight.critical import MOST_MODES, CriticalLoads, critic
 from rodwell.errors import InputError, checked_whole
 from rodwell.faces import drawn
 from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.varying import Along, Parameter, ParameterPath, checked_parameter
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 
 if TYPE_CHECKING:
@@ -136,7 +138,8 @@ class Diagram:
 
 def special_dict(point: SpecialPoint) -> dict[str, Any]:
     """Return a special point as plain data."""
-    return point.as_dict() | {"parameter": point.parameter, "value": point.value}
+    found = point.as_dict() | {"parameter": str(point.parameter), "value": point.value}
+    return found | ({"at": point.parameter.at(point.value)} if isinstance(point.parameter, ParameterPath) else {})
 
 
 def diagram(
@@ -145,7 +148,7 @@ def diagram(
     modes: int = MODES,
     until: float | None = None,
     secondary: bool = True,
-    then: tuple[str, float] | None = None,
+    then: tuple[Parameter | Along, float] | None = None,
     search: Sequence[str] = (),
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
@@ -169,8 +172,8 @@ def diagram(
     secondary
         Whether to follow secondary branches.
     then
-        A parameter ("weight", "alpha", "clearance" or "twist") and the value to which each branch is continued in it,
-        from its state at ``until`` and at that force; these branches come last, named "…, in weight".
+        A parameter, or a path of one's own, and the value to which each branch is continued in it, from its state at
+        ``until`` (and at that force): see :func:`rodwell.follow`. These branches come last, named "…, in weight".
     search
         Ways to look for branches that hang together with none of these: "unfolding" (states of the problem without
         twist, or in a horizontal cylinder, carried over to this one), "deflation" (further states at some loads, sought
@@ -191,10 +194,7 @@ def diagram(
     how, modes = Following(checked_rtol(rtol), checked_step(largest_step)), checked_whole("modes", modes, 1, MOST_MODES)
     tell = progress or (lambda _what, _done: None)
     ways = _checked_ways(problem, search)
-    if then is not None and (then[0] not in PATHS or then[0] == "force"):
-        raise InputError("then", then[0], f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
-    if then is not None:
-        checked_end(problem, *then)
+    further = None if then is None else _checked_further(problem, *then)
     if problem.turns != 0:
         start = coil(problem, until=until, rtol=how.rtol, largest_step=how.largest_step)
         until = float(start.force[-1]) if until is None else until
@@ -208,12 +208,20 @@ def diagram(
     if secondary:
         work.follow_secondary(tell)
     searched = search_for_more(work, ways, tell)
-    if then is not None:
-        work.continue_in(*then)
+    if further is not None:
+        work.continue_in(*further)
     tell("done", 1.0)
     return Diagram(
         problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored), searched
     )
+
+
+def _checked_further(problem: Problem, parameter: Parameter | Along, until: float) -> tuple[Parameter, float]:
+    """What branches are continued in, and to where."""
+    if parameter == "force" or (isinstance(parameter, str) and parameter not in PATHS):
+        raise InputError("then", parameter, f"must be one of {', '.join(PATHS[1:])}, with the value to go to")
+    parameter = checked_parameter(parameter, PATHS)
+    return parameter, checked_end(problem, parameter, until)
 
 
 def _checked_ways(problem: Problem, search: Sequence[str]) -> tuple[str, ...]:

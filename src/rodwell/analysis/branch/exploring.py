@@ -19,6 +19,7 @@ from rodwell.analysis.straight.critical import CriticalLoads, Mode
 from rodwell.analysis.straight.mixed import mixed_modes
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, words_for
 
 MOST_SECONDARY = 60
 """Secondary branches followed at most; more end the diagram, with a message."""
@@ -77,10 +78,10 @@ class Exploration:
         """Whether the usual arm is followed and the mirrored one, unless one is the image of the other."""
         return (False,) if arms_alike(self.problem, mode.parity) else (False, True)
 
-    def continue_in(self, parameter: str, until: float) -> None:
+    def continue_in(self, parameter: Parameter, until: float) -> None:
         """Continue each branch that reached its end in another parameter."""
         for branch in [b for b in self.branches if b.ended_because == END]:
-            name = f"{branch.name}, in {parameter}"
+            name = f"{branch.name}, in {words_for(parameter)}"
             try:
                 further = self._follow(start=branch[-1], parameter=parameter, until=until)
             except (InputError, NotConvergedError) as error:

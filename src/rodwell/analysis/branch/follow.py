@@ -9,7 +9,7 @@ from rodwell.analysis.branch.functionals import Numbers, checked_numbers
 from rodwell.analysis.branch.making import continued, made
 from rodwell.analysis.branch.solution import Solution, solution_of
 from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
-from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state, crossing
+from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state, checked_end, crossing, place_of
 from rodwell.analysis.branch.tracing import Progress, traced
 from rodwell.analysis.branch.watching import Watched
 from rodwell.analysis.discrete import first_run
@@ -17,11 +17,12 @@ from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.straight.lying import least_contact
-from rodwell.errors import InputError, NotConvergedError, checked_whole, unknown_name
+from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.events import Leaving
 from rodwell.numerics.continuation.walk import Stepping
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Along, Parameter, ParameterPath, checked_parameter
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 
 LARGEST_STEP = 0.06
@@ -61,7 +62,7 @@ def follow(
     until: float | None = None,
     mirror: bool = False,
     start: Solution | SpecialPoint | None = None,
-    parameter: str = "force",
+    parameter: Parameter | Along = "force",
     events: Numbers | None = None,
     stop: Numbers | None = None,
     rtol: float = RTOL,
@@ -79,13 +80,15 @@ def follow(
         computed.
     until
         Value of the parameter at which to end: by default the end force at s = 1 in B/L², tension positive.
-        Without it, the branch ends at lift-off.
+        Without it, the branch ends at lift-off, or at the end of a path.
     mirror
         The other of the two arms that leave the straight rod: the paper draws ω₂(1) < 0, this is ω₂(1) > 0.
     start
         A state to start from instead (a coiled one, from :func:`equilibrium`; a special point); needs ``until``.
     parameter
-        What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance" or "twist".
+        What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance", "twist", "poisson" or "torsion"
+        (on the last two, no state depends but by how far it is twisted); or a path of one's own, on which several vary:
+        a :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
     events, stop
         Numbers whose zeros are located along the branch, by the names that their special points get: measured numbers
         by name in the nomenclature, or functions of a :class:`Solution` that return a number. At the first zero of
@@ -113,10 +116,8 @@ def follow(
     watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
     how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
     first_run.begin(problem)
-    if parameter not in PATHS:
-        raise unknown_name("parameter", parameter, PATHS)
+    parameter = checked_parameter(parameter, PATHS)
     if start is not None:
-        start = start.solution if isinstance(start, SpecialPoint) else start
         if mode is not None or mirror:
             raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
         return from_state(problem, start, parameter, until, how)
@@ -186,22 +187,27 @@ def _check_pressed(problem: Problem, mode: Mode) -> None:
         )
 
 
-def from_state(problem: Problem, start: Solution, parameter: str, until: float | None, how: Following) -> Branch:
+def from_state(
+    problem: Problem, start: Solution | SpecialPoint, parameter: Parameter, until: float | None, how: Following
+) -> Branch:
     """Follow a branch from a known state, as :func:`follow` does with ``start``."""
     if until is None:
-        raise InputError("until", None, "must be given to follow a branch from a given state")
+        if not isinstance(parameter, ParameterPath):
+            raise InputError("until", None, "must be given to follow a branch from a given state")
+        until = parameter.limits[1]
     until = checked_end(problem, parameter, until)
+    here, start = place_of(start, parameter)
     if start.problem != problem:
         differ = problem.differences(start.problem)
         raise InputError("start", start, f"belongs to another problem ({differ}): follow it in what differs first")
-    if until == start.value_of(parameter):
+    if isinstance(parameter, ParameterPath) and (differ := parameter.misses(problem, start.force, here)):
+        raise InputError("start", start, f"does not lie on the path ({differ}): the path must begin at it")
+    if until == here:
         raise InputError("until", until, "must differ from the value at the start")
-    if not start.point.fine.c.any() and parameter == "force":
-        reason = (
-            "is the rod that has not buckled, which stays so at any end force: follow a mode from its critical load"
-        )
+    if not start.point.fine.c.any() and problem.turns == 0 and (parameter == "force" or problem.hole is None):
+        reason = "is the rod that has not buckled, which stays so whatever varies: follow a mode from its critical load"
         raise InputError("start", start, reason)
-    begin, stepping = at_state(problem, start, parameter, until, how.rtol), how.stepping(FIRST_STEP_ON)
+    begin, stepping = at_state(problem, start, parameter, here, until, how.rtol), how.stepping(FIRST_STEP_ON)
     how.watched.tried(start)
     result = traced(
         problem, begin, until, stepping, parameter=parameter, progress=how.progress,
@@ -209,15 +215,6 @@ def from_state(problem: Problem, start: Solution, parameter: str, until: float |
     )  # fmt: skip
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
     return how.watched.seen(made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter))
-
-
-def checked_end(problem: Problem, parameter: str, until: float) -> float:
-    """Return the end of a branch in a parameter, if the problem allows that value, or raise."""
-    if parameter == "force":
-        return checked_force("until", until)
-    if parameter == "clearance" and problem.turns != 0:
-        raise InputError("parameter", parameter, "a coiled rod cannot be followed in it: its end would have to move")
-    return float(getattr(problem.but(**{parameter: until}), parameter))
 
 
 def branch_off(

@@ -16,6 +16,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.value import Value
 
 Functional = Callable[[Solution], float | Value]
@@ -48,7 +49,9 @@ def value_of(solution: Solution, which: Number) -> float:
     return _checked(which, which(solution)) if callable(which) else solution.number(which).value
 
 
-def value_on(problem: Problem, parameter: str, meshes: TwoMeshes, which: Number) -> Callable[[Family, State], float]:
+def value_on(
+    problem: Problem, parameter: Parameter, meshes: TwoMeshes, which: Number
+) -> Callable[[Family, State], float]:
     """The same number, without its error, as a function of the equations and a state on one mesh."""
     if not callable(which):
         place = measured(which)

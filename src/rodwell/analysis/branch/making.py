@@ -27,10 +27,13 @@ from rodwell.numerics.continuation.events import INDEX, TURN, LocatedEvent
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.value import Value
 
 
-def made(problem: Problem, origin: Origin, trace: Trace, reached: bool, why: str, parameter: str = "force") -> Branch:
+def made(
+    problem: Problem, origin: Origin, trace: Trace, reached: bool, why: str, parameter: Parameter = "force"
+) -> Branch:
     """Return the branch of a trace: special points are found in it, in order of travel.
 
     ``reached`` says whether it was followed to where it was asked to end, ``why`` why it ended.
@@ -60,7 +63,7 @@ class _Finding:
     problem: Problem
     origin: Origin
     trace: Trace
-    parameter: str
+    parameter: Parameter
 
     def special_points(self) -> tuple[SpecialPoint, ...]:
         """All special points. The start is one where it is shared with another branch, and the end always is."""

@@ -27,6 +27,6 @@ def missed(branch: Branch) -> list[str]:
             out.append(f"{branch.name}: {NAMES.get(point.kind, point.kind)} at {branch.parameter} = {value}")
     states = [solution for solution in branch if not solution.converged]
     if states:
-        first = minus(f"{states[0].value_of(branch.parameter):.6g}")
+        first = minus(f"{states[0].point.lam:.6g}")
         out.append(f"{branch.name}: {len(states)} of {len(branch)} points, the first at {branch.parameter} = {first}")
     return out

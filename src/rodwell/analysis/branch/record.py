@@ -19,6 +19,7 @@ from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.physics.on_wall.parameters import FORCE
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 
 
@@ -33,7 +34,7 @@ class BranchRecord:
         special_points: tuple[SpecialPoint, ...],
         reached: bool,
         why: str,
-        parameter: str = "force",
+        parameter: Parameter = "force",
     ) -> None:
         self.problem, self.origin, self.parameter = problem, origin, parameter
         self.trace = trace
@@ -107,11 +108,11 @@ class BranchRecord:
         NotConvergedError
             If the state could not be computed.
         """
-        value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
+        value = checked_number(str(self.parameter), value, -1e12, 1e12, "a finite number")
         inside = self._steps_across(value)
         if not inside:
             range_ = f"{self.values.min():.6g} to {self.values.max():.6g}" + " B/L²" * (self.parameter == "force")
-            raise InputError(self.parameter, value, f"this branch covers {range_}; follow it further")
+            raise InputError(str(self.parameter), value, f"this branch covers {range_}; follow it further")
         return self._state_within(inside[0], value)
 
     def states_at(self, value: float) -> tuple[Solution, ...]:
@@ -122,7 +123,7 @@ class BranchRecord:
         NotConvergedError
             If a state could not be computed.
         """
-        value = checked_number(self.parameter, value, -1e12, 1e12, "a finite number")
+        value = checked_number(str(self.parameter), value, -1e12, 1e12, "a finite number")
         steps = self._steps_across(value)
         return tuple(self._state_within(i, value) for k, i in enumerate(steps) if k == 0 or value != self.values[i])
 

@@ -15,6 +15,7 @@ from rodwell.analysis.state.wall import StepLoad, WallLoads, step_loads, wall_lo
 from rodwell.faces import Shown, drawn, drawn_in_space, face
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, varied
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -159,8 +160,6 @@ class Solution(Equilibrium, Shown):
         return drawn_in_space(self, ax, scales=scales, rod_radius=rod_radius, radial_scale=radial_scale)
 
 
-def solution_of(problem: Problem, parameter: str, point: MeshedState, meshes: TwoMeshes) -> Solution:
+def solution_of(problem: Problem, parameter: Parameter, point: MeshedState, meshes: TwoMeshes) -> Solution:
     """Return the solution of a state of a branch of ``problem`` in a parameter, whose value the state knows."""
-    if parameter != "force":
-        problem = problem.but(**{parameter: point.lam})
-    return Solution(problem, point, meshes)
+    return Solution(varied(problem, parameter, point.lam), point, meshes)

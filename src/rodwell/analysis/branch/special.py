@@ -10,6 +10,7 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.continuation.events import INDEX, TURN
 from rodwell.numerics.continuation.walk import Trace
 from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.value import Value
 
 LIFT_OFF, TOUCH_DOWN, END = "lift_off", "touch_down", "end"
@@ -66,7 +67,7 @@ class SpecialPoint:
     index_after: int
     solution: Solution
     after: int
-    parameter: str = "force"
+    parameter: Parameter = "force"
 
     def __repr__(self) -> str:
         where = f", s = {', '.join(f'{s:.4g}' for s in self.s)}" if self.s else ""

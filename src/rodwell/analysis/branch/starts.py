@@ -13,7 +13,7 @@ from rodwell.analysis.discrete.family import family
 from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.discrete.meshes import first_space
 from rodwell.analysis.straight.critical import Mode
-from rodwell.errors import NotConvergedError
+from rodwell.errors import InputError, NotConvergedError, checked_number
 from rodwell.numerics.continuation.events import INDEX, Leaving, LocatedEvent
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.stretch import NEARLY, events_between
@@ -23,7 +23,9 @@ from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, ParameterPath, limits_of, throughout
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.tolerance import checked_force
 
 Start = tuple[TwoMeshes, MeshedState]
 
@@ -65,20 +67,44 @@ def _wavenumber(problem: Problem, state: State) -> float:
     return max(state.space.wavenumber(state.c + problem.rise * state.space.greville), 2.0 * np.pi * abs(problem.turns))
 
 
-def kept_parity(problem: Problem, parity: int, parameter: str = "force") -> int:
-    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of the parameter.
+def kept_parity(problem: Problem, parity: int, *parameters: Parameter) -> int:
+    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of parameters.
 
     Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only.
     """
-    if not problem.symmetric or parameter == "alpha":
+    along = throughout(problem, *parameters)
+    if not all(one.symmetric for one in along):
         return 0
-    twisted = problem.twist != 0.0 or parameter == "twist"
-    return 0 if twisted and parity > 0 else parity
+    return 0 if parity > 0 and any(one.twist != 0.0 for one in along) else parity
 
 
-def at_state(problem: Problem, start: Solution, parameter: str, until: float, rtol: float) -> Start:
-    """A known state, heading for ``until``."""
-    here = start.value_of(parameter)
+def checked_end(problem: Problem, parameter: Parameter, until: float) -> float:
+    """Return the end of a branch in a parameter, if the problem allows that value, or raise."""
+    if parameter == "force":
+        return checked_force("until", until)
+    names = parameter.names if isinstance(parameter, ParameterPath) else (parameter,)
+    if "clearance" in names and problem.turns != 0:
+        raise InputError("parameter", "clearance", "a coiled rod cannot be followed in it: its end would have to move")
+    if not isinstance(parameter, ParameterPath):
+        return float(getattr(problem.but(**{parameter: until}), parameter))
+    low, high = limits_of(parameter)
+    return checked_number("until", until, low, high, f"within the limits of the path, {low:g} and {high:g}")
+
+
+def place_of(start: Solution | SpecialPoint, parameter: Parameter) -> tuple[float, Solution]:
+    """Value of a parameter at a state, and the state: of a path, its beginning if the state does not know better."""
+    if isinstance(start, SpecialPoint):
+        if start.parameter is parameter:
+            return start.value, start.solution
+        start = start.solution
+    return parameter.limits[0] if isinstance(parameter, ParameterPath) else start.value_of(parameter), start
+
+
+def at_state(problem: Problem, start: Solution, parameter: Parameter, here: float, until: float, rtol: float) -> Start:
+    """A known state, heading from its value ``here`` of a parameter for ``until``.
+
+    A fold is no regular state at a given value: it is solved for where it lies in the direction of its tangent.
+    """
     old = start.point
     equilibria = family(
         problem,
@@ -91,8 +117,12 @@ def at_state(problem: Problem, start: Solution, parameter: str, until: float, rt
     )
     meshes = measured_meshes(equilibria, rtol, MOST_ELEMENTS_OF_BRANCH)
     states = []
-    for level, c in ((meshes.coarse, old.coarse.c), (meshes.fine, old.fine.c)):
-        outcome, state, _ = level.with_exact_tangent().at(c, here)
+    for level, known in ((meshes.coarse, old.coarse), (meshes.fine, old.fine)):
+        exact = level.with_exact_tangent()
+        outcome, state, _ = exact.at(known.c, here)
+        if state is None:
+            row, _, _, _ = exact.covector(known.tangent, 0.0)
+            outcome, state, _ = exact.correct(known.c, here, row, 0.0, float(row @ known.c))
         if state is None:
             raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
         states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
@@ -173,7 +203,7 @@ AROUND = (1e-4, 1e-3, 1e-2)
 """How far along the symmetric branch its branch point is sought, either way from the turning point."""
 
 
-def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
+def rejoined(problem: Problem, parameter: Parameter, turn: LocatedEvent) -> LocatedEvent | None:
     """The branch point of a symmetric branch at which a branch without that symmetry turns back, if there is one.
 
     The turning point itself is hard to locate: the Hessian is singular there. On the symmetric branch, with its
@@ -182,7 +212,7 @@ def rejoined(problem: Problem, turn: LocatedEvent) -> LocatedEvent | None:
     old, state = turn.meshes, turn.point.fine
     if old.coarse.parity != 0 or not state.space.symmetric:
         return None
-    parity = kept_parity(problem, state.symmetry_within(NEARLY))
+    parity = kept_parity(problem, state.symmetry_within(NEARLY), parameter)
     if parity == 0:
         return None
     meshes = measured_meshes(replace(old.coarse, parity=parity), old.rtol, old.most_elements)

@@ -14,7 +14,8 @@ from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, Lo
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.walk import Halt, Stepping, Trace, trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
-from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem
+from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
+from rodwell.problem.varying import Parameter, limits_of
 
 LARGEST_BRAID_ANGLE = 89.5
 """Degrees of |η| at which a branch ends: the theory holds below 90°."""
@@ -42,7 +43,7 @@ def traced(
     stepping: Stepping,
     *,
     at_lift_off: bool = False,
-    parameter: str = "force",
+    parameter: Parameter = "force",
     leaves: Leaving | None = None,
     progress: Progress | None,
     halt: Halt | None = None,
@@ -53,10 +54,10 @@ def traced(
     events = [_ACROSS, Event.at(END, until)]
     if not problem.untouched or problem.turns != 0:
         events.append(_CONTACT)
-    if problem.turns != 0:
+    if problem.turns != 0 and problem.same_sides:
         events.append(_ENERGY)
     if parameter != "force":
-        low, high, _ = LIMITS[parameter]
+        low, high = limits_of(parameter)
         back = low if until > point.lam else high
         if back == 0.0 and parameter == "clearance":
             back = min(SMALLEST_CLEARANCE, 0.5 * point.lam)
@@ -66,7 +67,7 @@ def traced(
 
     def meeting(event: LocatedEvent) -> LocatedEvent | None:
         if event.point.lam not in meetings:
-            meetings[event.point.lam] = rejoined(problem, event)
+            meetings[event.point.lam] = rejoined(problem, parameter, event)
         return meetings[event.point.lam]
 
     def stop(event: LocatedEvent) -> str:

@@ -16,6 +16,7 @@ from rodwell.numerics.continuation.events import LocatedEvent
 from rodwell.numerics.continuation.walk import Halt, Trace
 from rodwell.numerics.equilibria.state import State
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 
@@ -32,7 +33,7 @@ class Watched:
         for which in (*self.events.values(), *self.stop.values()):
             number_of(state, which)
 
-    def halt(self, problem: Problem, parameter: str) -> Halt | None:
+    def halt(self, problem: Problem, parameter: Parameter) -> Halt | None:
         """What ends a walk: the name of the first stop condition that changes its sign in the last step, or ""."""
         if not self.stop:
             return None

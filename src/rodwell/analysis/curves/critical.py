@@ -11,11 +11,12 @@ import numpy as np
 from rodwell.analysis.curves.curve import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
 from rodwell.analysis.straight.scale import EULER
-from rodwell.analysis.straight.slopes import load_slope, weight_rates
+from rodwell.analysis.straight.slopes import load_slope, rates_along, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import lower_half
+from rodwell.problem.varying import Along, Parameter, throughout, varied
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 SMOOTH = 1e-5
@@ -30,7 +31,7 @@ MOST_STEPS = 20
 
 def critical_curves(
     problem: Problem,
-    over: str,
+    over: Parameter | Along,
     limits: Sequence[float],
     *,
     modes: int = 4,
@@ -48,7 +49,8 @@ def critical_curves(
     problem
         The rod; its value of ``over`` does not matter.
     over
-        "weight", "alpha", "clearance" or "twist" (on which the loads do not depend).
+        "weight", "alpha", "clearance", a parameter on which the loads do not depend ("twist", "poisson", "torsion"), or
+        a path of one's own: a :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
     limits
         Start and end of the range.
     modes
@@ -63,10 +65,8 @@ def critical_curves(
         One for each mode at the start, with the double points and closest approaches as marks of both curves.
     """
     modes, rtol = checked_whole("modes", modes, 1, MOST_MODES), checked_rtol(rtol)
-    start, end = checked_range(problem, over, limits)
-    split = over != "alpha" and all(
-        problem.but(**{over: x if x != 0.0 else start + end}).symmetric for x in (start, end)
-    )
+    over, start, end = checked_range(problem, over, limits)
+    split = all(one.symmetric for one in throughout(varied(problem, over, start), over))
     table = _LoadsOverRange(problem, over, modes, rtol, split)
     table.fill(start, end, progress or (lambda _part: None))
     marks = table.marks()
@@ -74,7 +74,7 @@ def critical_curves(
         Curve(
             "critical",
             f"mode {k + 1}" + (f", {('odd', 'even')[parity > 0]}" if split else ""),
-            problem.but(**{over: start}),
+            varied(problem, over, start),
             over,
             tuple(node.point((parity, rank)) for node in table.nodes),
             tuple(mark for mark, who in marks if (parity, rank) in who),
@@ -116,7 +116,7 @@ class _Node:
 class _LoadsOverRange:
     """Nodes along the range, close enough together that cubics join them."""
 
-    def __init__(self, problem: Problem, over: str, modes: int, rtol: float, split: bool) -> None:
+    def __init__(self, problem: Problem, over: Parameter, modes: int, rtol: float, split: bool) -> None:
         self.problem, self.over, self.modes, self.rtol = problem, over, modes, rtol
         self.split = split  # into even and odd modes
         self.nodes: list[_Node] = []
@@ -151,8 +151,8 @@ class _LoadsOverRange:
 
     def node(self, x: float) -> _Node:
         """Solve the eigenproblem at ``x``."""
-        problem = self.problem.but(**{self.over: x})
-        rates = weight_rates(problem, self.over)
+        problem, over = varied(self.problem, self.over, x), self.over
+        rates = weight_rates(problem, over) if isinstance(over, str) else rates_along(self.problem, over, x)
         if not self.split:
             loads = critical_loads(problem, self.modes + 1, rtol=self.rtol)
             return _Node(x, {(0, m.number): _load(m, rates) for m in loads})

@@ -10,9 +10,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.discrete.family import TORSIONAL
 from rodwell.errors import InputError, checked_number
 from rodwell.faces import drawn
 from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem, ends_text
+from rodwell.problem.varying import (
+    FORCE,
+    Along,
+    Parameter,
+    ParameterPath,
+    checked_parameter,
+    limits_of,
+    varied,
+    words_for,
+)
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.names import UNITS
 from rodwell.quantities.table import Variable
@@ -22,7 +33,7 @@ if TYPE_CHECKING:
 
     from rodwell.faces import Axes
 
-OVER = ("weight", "alpha", "clearance", "twist")
+OVER = ("weight", "alpha", "clearance", "twist", *TORSIONAL)
 """Parameters over which curves can be traced."""
 
 DOUBLE_POINT, VEERING, SWITCH, TURN = "double_point", "veering", "switch", "turn"
@@ -99,7 +110,7 @@ class Curve:
     problem
         The problem, at the start.
     over
-        Parameter over which it runs.
+        Parameter over which it runs, or a path of one's own.
     points
         In order along the curve.
     marks
@@ -111,7 +122,7 @@ class Curve:
     kind: str
     name: str
     problem: Problem
-    over: str
+    over: Parameter
     points: tuple[CurvePoint, ...]
     marks: tuple[Mark, ...] = ()
     ended_because: str = "end"
@@ -156,26 +167,27 @@ class Curve:
         return {
             "kind": self.kind,
             "name": self.name,
-            "over": self.over,
+            "over": str(self.over),
             "quantity": self.quantity,
             "convention": convention(self.problem, self.quantity),
             "converged": self.converged,
             "ended_because": self.ended_because,
             "points": [
                 {
-                    self.over: float(p.x),
+                    str(self.over): float(p.x),
                     self.quantity: float(p.value),
                     "error": float(p.error),
                     f"{self.over}_error": float(p.x_error),
                     "s": list(p.s),
                     "converged": bool(p.converged),
+                    **({"at": self.over.at(p.x)} if isinstance(self.over, ParameterPath) else {}),
                 }
                 for p in self.points
             ],
             "marks": [
                 {
                     "kind": m.kind,
-                    self.over: float(m.x),
+                    str(self.over): float(m.x),
                     f"{self.over}_error": float(m.x_error),
                     self.quantity: float(m.value),
                     "error": float(m.error),
@@ -195,10 +207,15 @@ class Curve:
     def variables(self) -> dict[str, Variable]:
         """Labelled arrays: dimensions, values, metadata."""
         unit = UNITS["force" if self.quantity == "force" else "moment"]
-        about = {"long_name": convention(self.problem, self.quantity), "units": unit}
         text = [", ".join(f"{s:.9g}" for s in p.s) for p in self.points]
+        about = {"long_name": convention(self.problem, self.quantity), "units": unit}
+        if isinstance(self.over, ParameterPath):
+            t = {"long_name": f"t on a path: {words_for(self.over)}"}
+            over = {str(self.over): Variable(("point",), self.x, t)} | numbers_on(self.over, self.x)
+        else:
+            over = {self.over: Variable(("point",), self.x, {"long_name": LIMITS[self.over][2]})}
         return {
-            self.over: Variable(("point",), self.x, {"long_name": LIMITS[self.over][2]}),
+            **over,
             self.quantity: Variable(("point",), self.values, about),
             "error": Variable(("point",), self.errors, {"long_name": "error estimate", "units": unit}),
             "s": Variable(("point",), np.array(text, dtype=object), {"long_name": "places that lift off, s/L"}),
@@ -222,6 +239,16 @@ class Curve:
         }
 
 
+def numbers_on(path: ParameterPath, places: FloatArray) -> dict[str, Variable]:
+    """Labelled arrays of the numbers on a path at each t of ``places`` (n,), but for the end force."""
+    numbers = [path.at(float(t)) for t in places]
+    return {
+        name: Variable(("point",), np.array([at[name] for at in numbers]), {"long_name": LIMITS[name][2]})
+        for name in path.names
+        if name != FORCE
+    }
+
+
 def convention(problem: Problem, quantity: str) -> str:
     """Sign, unit, end and end conditions of what a curve shows."""
     what = (
@@ -233,19 +260,22 @@ def convention(problem: Problem, quantity: str) -> str:
 
 
 def checked_range(
-    problem: Problem, over: str, limits: Sequence[float], allowed: Sequence[str] = OVER
-) -> tuple[float, float]:
-    """Return start and end of a range of a parameter that the problem allows, or raise."""
+    problem: Problem, over: Parameter | Along, limits: Sequence[float], allowed: Sequence[str] = OVER
+) -> tuple[Parameter, float, float]:
+    """Return a parameter, and start and end of a range of it that the problem allows, or raise."""
     problem.refuse_curved("curves of loads are computed")
-    if over not in allowed:
-        raise InputError("over", over, f"must be one of {', '.join(allowed)}")
+    over = over if isinstance(over, str) else checked_parameter(over, allowed)
+    for name in over.names if isinstance(over, ParameterPath) else (over,):
+        if name not in allowed:
+            raise InputError("over", name, f"must be one of {', '.join(allowed)}")
     if len(limits) != 2:
         raise InputError("range", list(limits), "must be two numbers, start and end")
-    low, high, text = LIMITS[over]
+    low, high = limits_of(over)
     low = SMALLEST_CLEARANCE if over == "clearance" else low
-    start, end = (checked_number(over, value, low, high, text) for value in limits)
+    text = f"on the path, from {low:g} to {high:g}" if isinstance(over, ParameterPath) else LIMITS[over][2]
+    start, end = (checked_number(str(over), value, low, high, text) for value in limits)
     if start == end:
         raise InputError("range", list(limits), "start and end must differ")
     for value in (start, end):
-        problem.but(**{over: value})
-    return start, end
+        varied(problem, over, value)
+    return over, start, end

@@ -18,6 +18,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import Prolongation
+from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 
 MOST_REFINEMENTS = 3
@@ -163,13 +164,13 @@ class Zero(ABC):
     Parameters
     ----------
     over, load
-        Names of the two parameters of the plane: x, and the load ("force" or "twist").
+        The two parameters of the plane: x, and the load ("force" or "twist").
     """
 
     touch: bool
     noise = 0.0  # step of the secant method in x, as a part of its unit, below which it may grow again: round-off
 
-    def __init__(self, over: str, load: str) -> None:
+    def __init__(self, over: Parameter, load: str) -> None:
         self.over, self.load, self.touching = over, load, ContactMaximum()
 
     @abstractmethod
@@ -203,11 +204,11 @@ class Zero(ABC):
                 fine = _zero_at(line.fine, guess.fine, coarse.lam, guess.near[1], self.function)
                 places = spot.x, spot.x
             else:
-                first, coarse = self._zero_across(meshes, guess, spot, travel, 0)
+                first, coarse = self.zero_across(meshes, guess, spot, travel, 0)
                 same = NearbyStates(
                     coarse.c, meshes.up(coarse.c)
                 )  # the same hyperplane, not another place along the curve
-                second, fine = self._zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1)
+                second, fine = self.zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1)
                 places, line = (first, second), self.meshes(meshes, PlanePoint(second, fine.lam))
             point = line.point(coarse, fine)
             finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
@@ -226,7 +227,7 @@ class Zero(ABC):
         touching = solution.highest_pressure[2] if self.touch else ()
         return SolvedPoint(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
 
-    def _zero_across(
+    def zero_across(
         self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
     ) -> tuple[float, State]:
         """Zero on the hyperplane normal to ``travel``, by the secant method in the parameter, on one of both meshes."""
@@ -279,6 +280,11 @@ def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, func
         outcome, state, _ = family.correct(c, lam, near.row, near.row_lam, float(near.row @ c) + near.row_lam * lam)
     if state is None:
         raise CurveLostError(family.advice(outcome))
+    return zero_from(family, state, function)
+
+
+def zero_from(family: Family, state: State, function: Function) -> State:
+    """Zero of a function of the equilibria of a family, by the secant method in arclength from one of them."""
     value, step = function(family, state), PROBE
     for _ in range(MOST_SECANTS):
         new = family.step(state, step)

@@ -6,12 +6,14 @@ from dataclasses import replace
 
 from rodwell.analysis.branch.functionals import Number
 from rodwell.analysis.branch.special import BRANCH_POINT, EQUAL_ENERGY, FOLD, LIFT_OFF, TOUCH_DOWN, SpecialPoint
+from rodwell.analysis.branch.starts import kept_parity
 from rodwell.analysis.curves.curve import OVER, TURN, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.curves.points import CurveLostError, CurveStart, Zero
 from rodwell.analysis.curves.tracing import trace_curve
 from rodwell.analysis.curves.zeros import Branching, Folding, Touching, Vanishing
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Along, Parameter, ParameterPath, checked_parameter, words_for
 
 CUSP, ISOLA_CENTRE, RECONNECTION = "cusp", "isola_centre", "reconnection"
 """What it means that a curve of folds turns back: where the load turns back too, both folds become one and are gone (a
@@ -26,7 +28,7 @@ BESIDE = 1e-2
 
 def special_curve(
     point: SpecialPoint,
-    over: str,
+    over: Parameter | Along,
     until: float,
     *,
     function: Number | None = None,
@@ -41,8 +43,9 @@ def special_curve(
         "touch_down", "equal_energy" or "branch_point" (one at which a symmetric branch loses its symmetry), or one of
         your own.
     over, until
-        The second parameter, "weight", "alpha" (degrees), "clearance" or "twist", and the value at which to end. It
-        starts at that of the point, and may turn back on the way.
+        The second parameter, "weight", "alpha" (degrees), "clearance", "twist", "poisson" or "torsion", and the value
+        at which to end. It starts at that of the point, and may turn back on the way. Or a path of one's own that
+        begins at the point: a :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
     function
         For a point of your own: the number that vanishes there, as it was given to :func:`rodwell.follow`.
     progress
@@ -65,8 +68,10 @@ def special_curve(
     if point.parameter != "force":
         raise InputError("point", point, "must be one of a branch in the end force")
     problem = point.solution.problem
-    start = float(getattr(problem, over)) if over in OVER else 0.0
-    start, end = checked_range(problem, over, (start, until))
+    over, start = _start(problem, over)
+    over, start, end = checked_range(problem, over, (start, until))
+    if isinstance(over, ParameterPath) and (differ := over.misses(problem, point.force, start)):
+        raise InputError("point", point, f"does not lie on the path ({differ}): the path must begin at it")
     zero = _zero(problem, over, point, function)
     try:
         points, marks, why = trace_curve(zero, CurveStart(start, point.solution, along=True), end, progress)
@@ -78,7 +83,18 @@ def special_curve(
     return Curve(KINDS.get(point.kind, point.kind.replace("_", " ")), name, problem, over, points, marks, why)
 
 
-def _zero(problem: Problem, over: str, point: SpecialPoint, function: Number | None) -> Zero:
+def _start(problem: Problem, over: Parameter | Along) -> tuple[Parameter, float]:
+    """The second parameter, and its value at a problem; of a path, that at its beginning."""
+    parameter = over if isinstance(over, str) else checked_parameter(over, OVER)
+    if isinstance(parameter, ParameterPath):
+        return parameter, parameter.limits[0]
+    value = getattr(problem, parameter) if parameter in OVER else 0.0
+    if value is None:
+        raise InputError("over", parameter, "must be a number of the problem: it has poisson instead")
+    return parameter, float(value)
+
+
+def _zero(problem: Problem, over: Parameter, point: SpecialPoint, function: Number | None) -> Zero:
     """What vanishes at a special point."""
     if function is not None:
         return Vanishing(problem, over, function)
@@ -89,9 +105,10 @@ def _zero(problem: Problem, over: str, point: SpecialPoint, function: Number | N
     if point.kind == EQUAL_ENERGY:
         return Vanishing(problem, over, "energy")
     if point.kind == BRANCH_POINT:
-        if over == "alpha" or point.solution.point.fine.symmetry == 0:
+        symmetry = point.solution.point.fine.symmetry
+        if symmetry == 0 or kept_parity(problem, symmetry, over) == 0:
             reason = "leaves no symmetry that could be lost: beyond, the branch point becomes folds; follow one of them"
-            raise InputError("over", over, reason)
+            raise InputError("over", words_for(over), reason)
         return Branching(problem, over, point.solution)
     kinds = ", ".join((*KINDS, EQUAL_ENERGY))
     raise InputError("point", point.kind, f"must be of kind {kinds}; a point of your own needs function")

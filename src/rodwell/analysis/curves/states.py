@@ -15,6 +15,7 @@ from rodwell.analysis.loads.torsion import torsion
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Along, Parameter, varied
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 __all__ = ["lift_off_curve", "secondary_curve", "twist_curve"]
@@ -25,7 +26,7 @@ NEARLY_WEIGHTLESS = 1e-3
 
 def lift_off_curve(
     problem: Problem,
-    over: str,
+    over: Parameter | Along,
     limits: Sequence[float],
     *,
     mode: int = 1,
@@ -40,7 +41,8 @@ def lift_off_curve(
     problem
         The rod; its value of ``over`` does not matter.
     over
-        "weight", "alpha", "clearance" or "twist".
+        "weight", "alpha", "clearance" or "twist", or a path of one's own, on which several vary: a
+        :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
     limits
         Start and end of the range. Where lateral weight vanishes at the start, lift-off coincides with buckling there.
     mode, mirror
@@ -55,20 +57,20 @@ def lift_off_curve(
         End forces at s = 1, with the places that lift off; where the place jumps, a mark "switch".
     """
     rtol = checked_rtol(rtol)
-    start, end = checked_range(problem, over, limits)
-    at_start = problem.but(**{over: start})
+    over, start, end = checked_range(problem, over, limits)
+    at_start = varied(problem, over, start)
     before: tuple[CurvePoint, ...] = ()
     if at_start.lateral_weight == 0.0:
         first = critical_loads(at_start, mode, rtol=rtol)[-1]
         before = (CurvePoint(start, first.force, first.error),)
         start += NEARLY_WEIGHTLESS * (end - start)
-        at_start = problem.but(**{over: start})
+        at_start = varied(problem, over, start)
     branch = follow(at_start, mode, mirror=mirror, rtol=rtol)
     lift = branch.lift_off
     if lift is None or lift.kind != LIFT_OFF:
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
-    zero = Touching(problem, over)
-    at_end = problem.but(**{over: end})
+    zero = Touching(at_start, over)
+    at_end = varied(problem, over, end)
     vanishes = at_end.lateral_weight == 0.0
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
     points, marks, why = trace_curve(zero, CurveStart(start, lift.solution), traced, progress)
@@ -83,7 +85,7 @@ def secondary_curve(
     problem: Problem,
     limits: Sequence[float],
     *,
-    over: str = "weight",
+    over: Parameter | Along = "weight",
     mode: int = 1,
     number: int = 1,
     until: float | None = None,
@@ -97,7 +99,7 @@ def secondary_curve(
     problem
         The rod, the same seen from both ends (horizontal, equal ends).
     limits, over
-        Range, and the parameter: "weight", "clearance" or "twist".
+        Range, and the parameter: "weight", "clearance" or "twist", or a path of one's own in these.
     mode
         Number of the mode on whose branch the secondary bifurcation lies, at the start of the range.
     number
@@ -113,8 +115,8 @@ def secondary_curve(
         End forces at s = 1 of the secondary bifurcation.
     """
     rtol = checked_rtol(rtol)
-    start, end = checked_range(problem, over, limits, ("weight", "clearance", "twist"))
-    at_start = problem.but(**{over: start})
+    over, start, end = checked_range(problem, over, limits, ("weight", "clearance", "twist"))
+    at_start = varied(problem, over, start)
     if not at_start.symmetric:
         raise InputError("alpha", problem.alpha, "must be 90, with equal ends: else no branch has a symmetry to lose")
     first = critical_loads(at_start, mode, rtol=rtol)[-1]
@@ -127,7 +129,7 @@ def secondary_curve(
             f"{over} = {start:g}: start elsewhere, or give until"
         )
     point = bifurcations[number - 1]
-    zero = Branching(problem, over, point.solution)
+    zero = Branching(at_start, over, point.solution)
     points, marks, why = trace_curve(zero, CurveStart(start, point.solution), end, progress)
     return Curve("secondary", f"mode {mode}", at_start, over, points, marks, why)
 
@@ -136,7 +138,7 @@ def twist_curve(
     problem: Problem,
     limits: Sequence[float],
     *,
-    over: str = "weight",
+    over: Parameter | Along = "weight",
     mode: int = 1,
     mirror: bool = False,
     rtol: float = RTOL,
@@ -151,7 +153,7 @@ def twist_curve(
     problem
         The rod, ``twist`` 0.
     limits, over
-        Range, and the parameter: "weight", "alpha" or "clearance".
+        Range, and the parameter: "weight", "alpha" or "clearance", or a path of one's own in these.
     mode, mirror
         Mode at the start of the range, and its arm.
     rtol, progress
@@ -168,13 +170,13 @@ def twist_curve(
     a mark "switch".
     """
     rtol = checked_rtol(rtol)
-    start, end = checked_range(problem, over, limits, ("weight", "alpha", "clearance"))
-    at_start = problem.but(**{over: start, "twist": 0.0})
+    over, start, end = checked_range(problem, over, limits, ("weight", "alpha", "clearance"))
+    at_start = varied(problem, over, start).but(twist=0.0)
     prepared = torsion(at_start, mode, mirror=mirror, rtol=rtol)
     if prepared.again is None:
         raise NotConvergedError(f"at {over} = {start:g}: {prepared.meaning} Start the range elsewhere.")
-    corners = _switches(at_start, prepared.prepared, over, end)
-    zero = TwistAtLiftOff(at_start, over, prepared.prepared.solution)
+    corners = _switches(at_start, prepared.prepared, over, start, end)
+    zero = TwistAtLiftOff(at_start, over, start, prepared.prepared.solution)
     points: list[CurvePoint] = []
     marks: list[Mark] = []
     why, seed = "end", CurveStart(start, prepared.again.solution)
@@ -192,9 +194,8 @@ def twist_curve(
     return Curve("twist", name, at_start, over, tuple(points), tuple(marks), why)
 
 
-def _switches(problem: Problem, prepared: SpecialPoint, over: str, end: float) -> tuple[Mark, ...]:
+def _switches(problem: Problem, prepared: SpecialPoint, over: Parameter, start: float, end: float) -> tuple[Mark, ...]:
     """Where the place that lifts off without twist changes: the prepared load, and so the twist, has a corner there."""
-    start = float(getattr(problem, over))
     _, marks, _ = trace_curve(Touching(problem, over), CurveStart(start, prepared.solution), end, None)
     turns = [mark.x for mark in marks if mark.kind == TURN]
     ahead = [

@@ -272,7 +272,7 @@ class _Tracer:
                 break
             found = self._solve(c, *way.ahead(c, share - 1.0), way.travel)
             change = abs(found.spot.x - middle.spot.x)
-            three = bracket([*three, (share, found)])
+            three = bracket([*three, ((along(found) - start) / whole, found)])
             if change <= STILL * abs(found.spot.x):
                 break
         t, turn = three[1]

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from rodwell.analysis.branch.functionals import Number, value_on
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import kept_parity
-from rodwell.analysis.curves.points import CurveStart, PlanePoint, Zero
+from rodwell.analysis.curves.points import (
+    CurveLostError,
+    CurveStart,
+    CurveTangent,
+    NearbyStates,
+    PlanePoint,
+    Zero,
+    zero_from,
+)
 from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, varied
+from rodwell.quantities.arrays import FloatArray
 
 
 class AlongForce(Zero):
@@ -22,19 +33,23 @@ class AlongForce(Zero):
 
     touch = False
 
-    def __init__(self, problem: Problem, over: str, load: str = "force") -> None:
+    def __init__(self, problem: Problem, over: Parameter, load: str = "force") -> None:
         super().__init__(over, load)
         self.problem = problem
+        self.kept = {parity: kept_parity(problem, parity, over, load) for parity in (-1, 0, 1)}
+
+    def at(self, x: float) -> Problem:
+        """The problem at a value of the parameter."""
+        return varied(self.problem, self.over, x)
 
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the end force at ``spot``."""
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, meshes.coarse.parity, self.over)
+        problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
         return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
 
     def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """A point as a solution."""
-        return Solution(self.problem.but(**{self.over: spot.x}), point, meshes)
+        return Solution(self.at(spot.x), point, meshes)
 
 
 class Touching(AlongForce):
@@ -50,28 +65,28 @@ class Touching(AlongForce):
 class TwistAtLiftOff(Touching):
     """Second lift-off in twist, at the end force of the first, which is solved for at each value of the parameter."""
 
-    def __init__(self, problem: Problem, over: str, lifting: Solution) -> None:
+    def __init__(self, problem: Problem, over: Parameter, start: float, lifting: Solution) -> None:
         super().__init__(problem, over, load="twist")
-        self.first, self.lifting = Touching(problem, over), lifting
+        self.first, self.lifting, self.lifting_at = Touching(problem, over), lifting, start
 
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the twist, at the end force of the first lift-off."""
-        if spot.x != getattr(self.lifting.problem, self.over):
+        if spot.x != self.lifting_at:
             near = CurveStart(spot.x, self.lifting)
             self.lifting = self.first.solve(near.meshes, near.guess, PlanePoint(spot.x, self.lifting.force)).solution
-        problem = self.problem.but(**{self.over: spot.x})
-        parity = kept_parity(problem, meshes.coarse.parity, "twist")
+            self.lifting_at = spot.x
+        problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
         return meshes.on_path(path(problem, "twist", self.lifting.force), spline_ends(problem), parity)
 
     def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """A point as a solution."""
-        return Solution(self.problem.but(**{self.over: spot.x, "twist": spot.value}), point, meshes)
+        return Solution(self.at(spot.x).but(twist=spot.value), point, meshes)
 
 
 class Branching(AlongForce):
     """Loss of symmetry: an eigenvalue of the Hessian vanishes."""
 
-    def __init__(self, problem: Problem, over: str, branching: Solution) -> None:
+    def __init__(self, problem: Problem, over: Parameter, branching: Solution) -> None:
         super().__init__(problem, over)
         self.softest = Softest(branching)
 
@@ -92,14 +107,43 @@ class Folding(AlongForce):
         return line
 
     def function(self, family: Family, state: State) -> float:
-        """The share of the end force in the tangent."""
+        """The share of the parameter in the tangent."""
         return state.tangent_lam / family.lam_scale
+
+    def zero_across(
+        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
+    ) -> tuple[float, State]:
+        """The fold on the hyperplane normal to ``travel``; where that fails, the one at the end force of ``spot``.
+
+        Where branches meet, or a closed loop is born, the curve turns back in the parameter, and equilibria along the
+        end force are not regular. Those along the parameter are, and their folds are the same: the Hessian is singular.
+        """
+        try:
+            return super().zero_across(meshes, guess, spot, travel, mesh)
+        except CurveLostError:
+            return self._zero_at_load(meshes, (guess.coarse, guess.fine)[mesh], spot, travel, mesh)
+
+    def _zero_at_load(
+        self, meshes: TwoMeshes, c: FloatArray, spot: PlanePoint, travel: CurveTangent, mesh: int
+    ) -> tuple[float, State]:
+        """The fold of the equilibria along the parameter, at the end force of ``spot``, on one of both meshes."""
+        line = self.meshes(meshes, spot)
+        along = path(self.at(spot.x), self.over, spot.value)
+        family = replace((line.coarse, line.fine)[mesh], path=along, lam_scale=travel.unit)
+        row, _, _, _ = family.covector((travel.coarse, travel.fine)[mesh], 0.0)
+        outcome, state, _ = family.correct(c, spot.x, row, 0.0, float(row @ c))
+        if state is None:
+            raise CurveLostError(family.advice(outcome))
+        fold = zero_from(family, state, self.function)
+        there = self.meshes(meshes, PlanePoint(fold.lam, spot.value))
+        found = (there.coarse, there.fine)[mesh].state(fold.c, spot.value, fold.tangent, 0.0, fold.index)
+        return fold.lam, replace(found, energy=fold.energy)
 
 
 class Vanishing(AlongForce):
     """Any number of a state vanishes."""
 
-    def __init__(self, problem: Problem, over: str, which: Number) -> None:
+    def __init__(self, problem: Problem, over: Parameter, which: Number) -> None:
         super().__init__(problem, over)
         self.which = which
         self._value: Callable[[Family, State], float] | None = None
@@ -107,7 +151,7 @@ class Vanishing(AlongForce):
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes; the number is that of the problem at ``spot``."""
         line = super().meshes(meshes, spot)
-        self._value = value_on(self.problem.but(**{self.over: spot.x}), "force", line, self.which)
+        self._value = value_on(self.at(spot.x), "force", line, self.which)
         return line
 
     def function(self, family: Family, state: State) -> float:

@@ -7,6 +7,7 @@ import numpy as np
 from rodwell.analysis.discrete.curved import along_rod
 from rodwell.errors import InputError
 from rodwell.numerics.equilibria.family import MIRROR, Family, Given
+from rodwell.numerics.equilibria.series import series_path
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
@@ -15,6 +16,8 @@ from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, F
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
+from rodwell.problem.varying import FORCE as END_FORCE
+from rodwell.problem.varying import Parameter, ParameterPath, throughout
 from rodwell.quantities.arrays import FloatArray
 
 HELD = {
@@ -68,11 +71,14 @@ def pair_ends(problem: Problem) -> tuple[Ends, Ends]:
     return x, y
 
 
-def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
-    """Parameters as one of :data:`PATHS` varies: see :class:`rodwell.numerics.equilibria.family.Family`."""
-    if problem.hole is not None and parameter not in IN_CURVED_HOLE:
-        known = ", ".join(IN_CURVED_HOLE)
-        raise InputError("parameter", parameter, f"must be one of {known} in a curved hole, which changes with it")
+def path(problem: Problem, parameter: Parameter, force: float = 0.0) -> FloatArray:
+    """Parameters as one of :data:`PATHS` varies, or several: see :class:`rodwell.numerics.equilibria.family.Family`."""
+    for name in parameter.names if isinstance(parameter, ParameterPath) else (parameter,):
+        if problem.hole is not None and name not in IN_CURVED_HOLE:
+            known = ", ".join(IN_CURVED_HOLE)
+            raise InputError("parameter", name, f"must be one of {known} in a curved hole, which changes with it")
+    if isinstance(parameter, ParameterPath):
+        return _own_path(problem, parameter, force)
     out = np.zeros((4, COUNT))
     out[0] = parameters(problem, force)
     if parameter == "weight":
@@ -82,10 +88,20 @@ def path(problem: Problem, parameter: str, force: float = 0.0) -> FloatArray:
         out[2, AXIAL_WEIGHT] = problem.weight
         out[3, LATERAL_WEIGHT] = -problem.weight if problem.on_top else problem.weight
         out[0, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = 0.0
-    else:
+    elif parameter not in TORSIONAL:
         which = {"force": FORCE, "clearance": CLEARANCE, "twist": TWIST}[parameter]
         out[1, which], out[0, which] = 1.0, 0.0
     return out
+
+
+def _own_path(problem: Problem, along: ParameterPath, force: float) -> FloatArray:
+    """Parameters along a path of one's own."""
+    found = series_path(lambda t: parameters(along.problem(problem, t), along.force(t, force)), *along.limits)
+    if found is None:
+        names = ", ".join(along.names)
+        reason = f"is no smooth function of {along}: follow the smooth pieces of the path one after the other"
+        raise InputError("parameter", names, reason)
+    return found
 
 
 def _per_weight(problem: Problem) -> tuple[float, float]:
@@ -95,10 +111,13 @@ def _per_weight(problem: Problem) -> tuple[float, float]:
     return unit.axial_weight, unit.foundation
 
 
-PATHS = ("force", "weight", "alpha", "clearance", "twist")
-"""Parameters in which a branch can be followed: F, γ, α in degrees, Δ/L, T₁."""
+TORSIONAL = ("poisson", "torsion")
+"""Parameters on which no state depends, only how far it is twisted: the twisting moment is constant along the rod."""
 
-IN_CURVED_HOLE = ("force", "weight", "twist")
+PATHS = ("force", "weight", "alpha", "clearance", "twist", *TORSIONAL)
+"""Parameters in which a branch can be followed: F, γ, α in degrees, Δ/L, T₁, ν, C/B."""
+
+IN_CURVED_HOLE = ("force", "weight", "twist", *TORSIONAL)
 """Those of a curved hole, which stays as it is."""
 
 
@@ -109,10 +128,10 @@ def family(
     parity: int,
     wavenumber: float,
     scale: float,
-    parameter: str = "force",
+    parameter: Parameter = END_FORCE,
     force: float = 0.0,
 ) -> Family:
-    """Equilibria of ``problem`` as one of its parameters varies (at the end force ``force``, if that is another).
+    """Equilibria of ``problem`` as a parameter varies (at the end force ``force``, if that is another).
 
     ``wavenumber`` sets the slope that counts as one unit of arclength, Δ k (an amplitude of one radian);
     ``scale`` the change of the parameter that does.
@@ -123,9 +142,11 @@ def family(
         If the rod would leave the wall at its ends.
     """
     refuse_off_wall(problem.ends, "buckled states")
+    line = path(problem, parameter, force)
+    along = throughout(problem, parameter)
     return Family(
         model=_model(problem),
-        path=path(problem, parameter, force),
+        path=line,
         space=space,
         ends=spline_ends(problem),
         parity=parity,
@@ -134,13 +155,15 @@ def family(
         lam_scale=scale,
         reflections=reflections(problem, parameter),
         given=given_along(problem),
-        first_integral=problem.axial_weight == 0.0
-        and problem.ends == ("clamped", "clamped")
-        and parameter != "alpha"
-        and not problem.sections
-        and problem.hole is None,
-        cells=_cells(problem, parameter),
+        first_integral=all(_autonomous(one) and one.same_sides for one in along)
+        and problem.ends == ("clamped", "clamped"),
+        cells=tuple(sign for sign in _cells(problem) if all(sign in _cells(one) for one in along)),
     )
+
+
+def _autonomous(problem: Problem) -> bool:
+    """Whether the energy density does not depend on s."""
+    return problem.axial_weight == 0.0 and not problem.sections and problem.hole is None
 
 
 def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodInCurvedHole:
@@ -149,16 +172,14 @@ def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodInCurvedHole:
     return RodOfSections() if problem.sections else RodOnCylinder()
 
 
-def _cells(problem: Problem, parameter: str) -> tuple[int, ...]:
+def _cells(problem: Problem) -> tuple[int, ...]:
     """Signs of reflections y(p + x) → ± y(p − x) about any place p, where both ends are such places.
 
     Of a horizontal rod: a pinned end asks y(−x) = −y(x), a guided one y(−x) = y(x), which the twisting moment forbids.
     """
-    if problem.axial_weight != 0.0 or parameter == "alpha" or problem.turns != 0 or problem.sections:
+    if not _autonomous(problem) or problem.turns != 0:
         return ()
-    if problem.hole is not None:
-        return ()
-    signs = (-1,) if problem.twist != 0.0 or parameter == "twist" else (-1, 1)
+    signs = (-1,) if problem.twist != 0.0 else (-1, 1)
     ends = {"pinned": -1, "guided": 1}
     return signs if all(ends.get(end) in signs for end in problem.ends) else ()
 
@@ -181,14 +202,19 @@ def given_of(rod: Rod) -> Given:
     return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 
 
-def reflections(problem: Problem, parameter: str = "force") -> tuple[tuple[int, bool], ...]:
+def reflections(problem: Problem, parameter: Parameter = END_FORCE) -> tuple[tuple[int, bool], ...]:
     """Reflections (sign, turned), y(s) → ± y(s) or ± y(1 − s), that the problem has for any value of a parameter.
 
     The twisting moment forbids all but y(s) → −y(1 − s); axial weight or unequal ends forbid to turn the rod round;
     a coil forbids to change one sign alone. The identity is left out.
     """
-    turnable = problem.symmetric and parameter != "alpha"
-    plain = problem.twist == 0.0 and problem.turns == 0 and parameter != "twist"
+    others = [_reflections(one) for one in throughout(problem, parameter)]
+    return tuple(one for one in _reflections(problem) if all(one in other for other in others))
+
+
+def _reflections(problem: Problem) -> tuple[tuple[int, bool], ...]:
+    turnable = problem.symmetric
+    plain = problem.twist == 0.0 and problem.turns == 0
     if problem.hole is not None and not problem.hole.planar:
         return ()
     found = [MIRROR] if plain else []

@@ -35,7 +35,7 @@ def pressure_rates(
     here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size
-    meshes, point = at_state(solution.problem, solution, parameter, here + size, solution.meshes.rtol)
+    meshes, point = at_state(solution.problem, solution, parameter, here, here + size, solution.meshes.rtol)
     at = np.array(places)
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:

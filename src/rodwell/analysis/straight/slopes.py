@@ -6,8 +6,12 @@ import math
 
 import numpy as np
 
+from rodwell.analysis.discrete.family import path
+from rodwell.numerics.equilibria.family import on_path
 from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_WEIGHT
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import ParameterPath
 from rodwell.quantities.arrays import FloatArray
 
 
@@ -77,3 +81,10 @@ def weight_rates(problem: Problem, over: str) -> tuple[float, float]:
     if over == "clearance":
         return 0.0, -problem.foundation / problem.clearance**2
     return 0.0, 0.0
+
+
+def rates_along(problem: Problem, over: ParameterPath, t: float) -> tuple[float, float]:
+    """Derivatives of wₐ and of wₗ/Δ at ``t`` on a path of one's own."""
+    here, rate = on_path(path(problem, over), t)
+    lateral = rate[LATERAL_WEIGHT] - here[LATERAL_WEIGHT] / here[CLEARANCE] * rate[CLEARANCE]
+    return float(rate[AXIAL_WEIGHT]), float(lateral / here[CLEARANCE])

@@ -45,15 +45,23 @@ _newton = direct(newton.newton)
 _assemble, _variation = direct(assembly.assemble), direct(assembly.variation)
 
 
+def on_path(path: FloatArray, lam: float) -> FloatArray:
+    """Return parameters and their derivatives at λ on a path, (2, k): see :class:`Family`."""
+    out = np.empty((2, path.shape[1]))
+    newton.on_path(path, lam, out[0], out[1])
+    return out
+
+
 @dataclass(frozen=True)
 class Family:
     """Equilibria of ``model`` along a path in its parameters, with given ends: see the module's text.
 
     ``path`` (4, k) gives the parameters p(λ) = path[0] + λ path[1] + cos λ path[2] + sin λ path[3], λ in degrees in the
-    latter two. ``parity`` 1 or −1 keeps increments even or odd about the middle, 0 leaves them. ``given`` are the
-    coefficients that vary along s, as the model names them. ``reflections`` (sign, turned) are those, u(s) → ± u(s) or
-    ± u(1 − s), that make states of states all along the path; ``first_integral`` says that the density does not depend
-    on s, is quadratic in u″ at rest, and both ends are clamped at rest; ``cells`` are signs of the reflections about
+    latter two; more rows add a series (:mod:`rodwell.numerics.equilibria.series`). ``parity`` 1 or −1 keeps increments
+    even or odd about the middle, 0 leaves them. ``given`` are the coefficients that vary along s, as the model names
+    them. ``reflections`` (sign, turned) are those, u(s) → ± u(s) or ± u(1 − s), that make states of states all along
+    the path; ``first_integral`` says that the density does not depend on s, is quadratic in u″ at rest, and both ends
+    are clamped at rest; ``cells`` are signs of the reflections about
     any place (:mod:`rodwell.numerics.equilibria.cells`), of which the ends are two. Without one of these nothing
     branches.
     """
@@ -130,16 +138,11 @@ class Family:
 
     def parameters(self, lam: float) -> FloatArray:
         """Return all parameters of the model at λ."""
-        return np.asarray(self._on_path(lam)[0])
+        return np.asarray(on_path(self.path, lam)[0])
 
     def rates(self, lam: float) -> FloatArray:
         """Return the derivatives of all parameters of the model by λ."""
-        return np.asarray(self._on_path(lam)[1])
-
-    def _on_path(self, lam: float) -> FloatArray:
-        out = np.empty((2, self.path.shape[1]))
-        newton.on_path(self.path, lam, out[0], out[1])
-        return out
+        return np.asarray(on_path(self.path, lam)[1])
 
     def covector(self, tangent: FloatArray, tangent_lam: float) -> tuple[FloatArray, float, FloatArray, float]:
         """Return row, row_λ and the tangent, normalised in the metric."""
@@ -204,7 +207,7 @@ class Family:
         """Energy, gradient (n,) and band (n, degree+1) of the Hessian at any coefficients, held ones included."""
         space = self.space
         gradient, mixed, band = np.empty(space.size), np.empty(space.size), np.empty((space.size, space.degree + 1))
-        energy, _ = _assemble(self.mesh, np.ascontiguousarray(c), *self._on_path(lam), gradient, mixed, band)
+        energy, _ = _assemble(self.mesh, np.ascontiguousarray(c), *on_path(self.path, lam), gradient, mixed, band)
         return energy, gradient, band
 
     def end_reactions(self, state: State) -> tuple[float, float]:
@@ -229,7 +232,7 @@ class Family:
         banded.factorise(factors)
         mesh = self.mesh
         newton.inverse_iteration(mesh.gram, mesh.held, mesh.follows, factors, iterations, vector)
-        above, size, below = _variation(mesh, state.c, *self._on_path(state.lam), vector)
+        above, size, below = _variation(mesh, state.c, *on_path(self.path, state.lam), vector)
         return float(above / below), float(EIGENVALUE_NOISE * size / below)
 
     def at(self, c: FloatArray, lam: float) -> tuple[Outcome, State | None, int]:

@@ -34,6 +34,8 @@ DEGREE = np.pi / 180.0
 STAGNANT = 100.0
 NOTHING_LEFT = 1e-13
 CONVERGED, NOT_CONVERGED, DIVERGED, OUT_OF_RANGE = 0, 1, 2, 3
+PLAIN = 4
+"""Rows of a path that is no series."""
 
 
 @kernel
@@ -59,12 +61,31 @@ def deflate(x, vector, covector):
 
 @kernel
 def on_path(path, lam, parameters, rates):
-    """Write the parameters p(λ) and their derivatives, see :func:`newton`."""
+    """Write the parameters p(λ) and their derivatives, see :class:`rodwell.numerics.equilibria.family.Family`."""
     angle = lam * DEGREE
     cos, sin = np.cos(angle), np.sin(angle)
     for i in range(parameters.size):
         parameters[i] = path[0, i] + lam * path[1, i] + cos * path[2, i] + sin * path[3, i]
         rates[i] = path[1, i] + DEGREE * (cos * path[3, i] - sin * path[2, i])
+    if path.shape[0] > PLAIN:
+        _add_series(path, lam, parameters, rates)
+
+
+@inlined
+def _add_series(path, lam, parameters, rates):
+    """Add Chebyshev series and their derivatives: see :mod:`rodwell.numerics.equilibria.series`."""
+    x = path[PLAIN, 0] + path[PLAIN, 1] * lam
+    inside = min(1.0, max(-1.0, x))
+    for i in range(parameters.size):
+        value = rate = slope = 0.0
+        term, next_term, next_slope = 1.0, inside, 1.0  # of T_k, T_k+1
+        for k in range(PLAIN + 1, path.shape[0]):
+            value += path[k, i] * term
+            rate += path[k, i] * slope
+            slope, next_slope = next_slope, 2.0 * next_term + 2.0 * inside * next_slope - slope
+            term, next_term = next_term, 2.0 * inside * next_term - term
+        parameters[i] += value + rate * (x - inside)
+        rates[i] += path[PLAIN, 1] * rate
 
 
 @kernel
@@ -154,7 +175,7 @@ def newton(mesh, tolerances, path, row, row_lam, target, frozen, covector, c, la
     """Move ``c`` (n,) in place to the equilibrium on the hyperplane; return what came of it.
 
     ``mesh`` is a :class:`rodwell.numerics.splines.records.Discretisation`, ``tolerances`` are :class:`Tolerances`. The
-    parameters are ``path[0] + λ path[1] + cos λ path[2] + sin λ path[3]``, λ in degrees in the latter two.
+    parameters are those of ``path``, see :class:`rodwell.numerics.equilibria.family.Family`.
     Iteration ends with the first step below the tolerance, or with one from
     which as small an error can be foreseen, and fails after too many steps, or as soon as a step is not smaller than
     the one before it, unless both are so small that round-off in a nearly singular H explains it (the two meshes then

@@ -36,7 +36,8 @@ class EndForce:
     """What acts on the rod at s = 1 besides F and T₁, and where that is.
 
     ``shear`` is the circumferential force, F₃(1) = ω₂'(1) at a clamped end, (B12); ``moment`` the bending moment b ω₂
-    there, (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end; ``stiffness`` is b.
+    there, (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end of a rod that does
+    not wind; ``stiffness`` is b.
     """
 
     shear: float
@@ -44,6 +45,11 @@ class EndForce:
     angle: float = 0.0
     slope: float = 0.0
     stiffness: float = 1.0
+
+    @property
+    def across(self) -> tuple[float, float]:
+        """Components of the circumferential force F₃(1) u₂(1) along i and j: along j where the end is at ξ₂ = 0."""
+        return self.shear * float(np.sin(self.angle)), self.shear * float(np.cos(self.angle))
 
 
 def end_force(
@@ -73,21 +79,21 @@ def rates(
     Of a string, ``parameters``, ``torsional_stiffness`` and ``stiffness`` are those of the section of each place.
 
     z' (44), ξ₁' (32), T₂' (33), M' = −t₁ × F (25)–(27) of the braid moment along i, j, k, with the braid
-    force F = N(s) k + F₃(1) j, and (48) along i and j: lateral weight and contact pressure on the rod.
+    force F = N(s) k + F₃(1) u₂(1), and (48) along i and j: lateral weight and contact pressure on the rod.
     """
     clearance = parameters[CLEARANCE]
     pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters, stiffness)
     angle, sin_eta = u[0] / clearance, u[1]
     cos_eta, omega1, *_ = curvatures(u[1], u[2], u[3], clearance)
-    axial, shear = axial_resultant(s, parameters), end.shear
+    axial, (along_i, along_j) = axial_resultant(s, parameters), end.across
     return np.array(
         [
             cos_eta,
             parameters[TWIST] / torsional_stiffness + omega1,
             clearance * parameters[LATERAL_WEIGHT] * np.sin(angle),
-            cos_eta * shear - sin_eta * np.cos(angle) * axial,
-            sin_eta * np.sin(angle) * axial,
-            -sin_eta * np.sin(angle) * shear,
+            cos_eta * along_j - sin_eta * np.cos(angle) * axial,
+            sin_eta * np.sin(angle) * axial - cos_eta * along_i,
+            sin_eta * (np.cos(angle) * along_i - np.sin(angle) * along_j),
             parameters[LATERAL_WEIGHT] + pressure * np.cos(angle),
             -pressure * np.sin(angle),
         ]
@@ -197,7 +203,8 @@ def _braid(
     s: FloatArray, frame: _Frame, moment_from_right: FloatArray, parameters: Sequence[Any] | FloatArray, end: EndForce
 ) -> dict[str, FloatArray]:
     """Force and moment of rod and cylinder together, components along t₁, d₁, u₁."""
-    force = np.array([np.zeros_like(s), np.full_like(s, end.shear), axial_resultant(s, parameters)])
+    along_i, along_j = end.across
+    force = np.array([np.full_like(s, along_i), np.full_like(s, along_j), axial_resultant(s, parameters)])
     moment = _end_moment(end, float(parameters[TWIST]))[:, None] - moment_from_right
     names = ("braid_F1", "braid_F2", "braid_F3", "braid_M1", "braid_M2", "braid_M3")
     return dict(zip(names, frame.components(force) + frame.components(moment), strict=True))
@@ -258,7 +265,8 @@ def _cylinder_force_around(
     inward = -end.moment * (twist / end.stiffness - 3.0 * end.slope * cos_eta / clearance)
     rod_i = inward * cos_a + around * sin_a - from_right[0]
     rod_j = -inward * sin_a + around * cos_a - from_right[1]
-    return np.asarray(-rod_i * frame.sin_a + (end.shear - rod_j) * frame.cos_a)
+    along_i, along_j = end.across
+    return np.asarray((along_i - rod_i) * frame.sin_a + (along_j - rod_j) * frame.cos_a)
 
 
 def _tangential_balance(

@@ -42,6 +42,8 @@ PARAMETERS = {
     "alpha": "angle α in degrees",
     "clearance": "clearance Δ/L",
     "twist": "twisting moment T₁ in B/L",
+    "poisson": "Poisson's ratio ν",
+    "torsion": "torsional stiffness C/B",
 }
 
 
@@ -87,7 +89,7 @@ def _(result: CriticalLoads) -> Card:
 @card.register
 def _(result: Branch) -> Card:
     low, high = result.reach
-    parameter = PARAMETERS[result.parameter]
+    parameter = PARAMETERS.get(str(result.parameter), str(result.parameter))
     lines = (
         _problem(result.problem),
         f"{len(result)} points, {parameter} from {_plain(low)} to {_plain(high)}; "
