@@ -101,7 +101,7 @@ class PiecewisePolynomial:
         """∫ₛ¹ of it."""
         half = 0.5 * np.diff(self.breaks)
         whole = np.array(-half * np.polynomial.chebyshev.chebint(self.coefficients, lbnd=1.0))
-        pieces = np.polynomial.chebyshev.chebval(-1.0, whole)
+        pieces = np.asarray(np.polynomial.chebyshev.chebval(-1.0, whole))
         whole[0] += np.concatenate([np.cumsum(pieces[::-1])[::-1][1:], [0.0]])
         return PiecewisePolynomial(self.breaks, whole)
 

@@ -29,7 +29,7 @@ class Pattern:
     """
 
     touching: tuple[bool, ...]
-    turns: int = 0
+    turns: float = 0
     planar: bool = False
 
     @property
@@ -54,7 +54,7 @@ class Pattern:
         return out
 
 
-def end_held(problem: Problem, last: bool, turns: int) -> tuple[BoolArray, FloatArray]:
+def end_held(problem: Problem, last: bool, turns: float) -> tuple[BoolArray, FloatArray]:
     """What an end holds of (r, φ, r′, φ′), and at which values (NaN where it does not): (4,) each.
 
     Clamped, pinned, guided and free ends are radially held; a ball joint holds the place only.
