@@ -34,7 +34,7 @@ def ask(engine: Engine, kind: str, **what: Any) -> dict[str, Any]:
 def engine() -> Iterator[Engine]:
     """The horizontal rod, followed a little beyond lift-off and back."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(off_wall, "reach", lambda _: (FARTHEST, BACK))
+        patch.setattr(off_wall.beyond, "reach", lambda _: (FARTHEST, BACK))
         engine = Engine(None)
         ask(engine, "path")
         yield engine
@@ -99,10 +99,13 @@ def test_details_files_and_what_is_copied(engine: Engine, capsys: pytest.Capture
         ask(engine, "file", load=124.4, suffix="nc")
 
 
-def test_a_rod_that_nothing_presses_to_the_wall_says_why_there_is_none() -> None:
-    data = ask(Engine(None), "path", inputs={"dimensionless.alpha": 0.0, "dimensionless.weight": 0.0})["diagram"]
+LOOSE = {"dimensionless.alpha": 0.0, "dimensionless.weight": 0.0, "load.twist": 2.0}
+
+
+def test_a_rod_that_nothing_presses_to_the_wall_and_is_twisted_says_why_there_is_none() -> None:
+    data = ask(Engine(None), "path", inputs=LOOSE)["diagram"]
     assert [branch["name"] for branch in data["branches"] if branch["name"] in off_wall.LEGS.values()] == []
-    assert data["snaps_at"]["text"]
+    assert "twist" in data["snaps_at"]["text"]
 
 
 def test_following_ends_at_once_where_something_newer_is_asked_for() -> None:

@@ -23,7 +23,7 @@ QUANTITIES = ("critical", "lift-off", "limit", "secondary", "contact", "contact-
 PARAMETERS = ("weight", "alpha", "clearance", "twist", "poisson", "torsion", "ends", "load")
 FLAGS = ("on_top", "outside")
 
-PICTURES = (".png", ".svg", ".pdf")
+PICTURES = (".png", ".svg", ".pdf", ".html")
 """Kinds of files for pictures."""
 
 DPI = 150
@@ -86,7 +86,12 @@ class StorePath(click.ParamType):  # type: ignore[type-arg]
     metavar="NAME.zarr",
     help="Zarr store that keeps the map; needs rodwell[map].",
 )
-@click.option("--picture", type=StorePath("picture"), metavar="FILE", help="Draw the map: PNG, SVG or PDF.")
+@click.option(
+    "--picture",
+    type=StorePath("picture"),
+    metavar="FILE",
+    help="Draw the map: PNG, SVG, PDF; HTML is a page to point at cells.",
+)
 def map_command(
     case: Path | None,
     vary: tuple[tuple[str, str], ...],
@@ -179,11 +184,17 @@ def _told(out: str) -> Iterator[None]:
 def _draw(result: Map, picture: Path) -> None:
     """Write the figure of a map, whole or not at all."""
     from rodwell.plots.maps.figure import plot_map  # noqa: PLC0415
+    from rodwell.report.pages.map import write_map_page  # noqa: PLC0415
 
     part = picture.with_name(f".{picture.stem}.part{picture.suffix}")
     try:
-        plot_map(result).figure.savefig(part, dpi=DPI)
+        if picture.suffix.lower() == ".html":
+            write_map_page(result, part)
+        else:
+            plot_map(result).figure.savefig(part, dpi=DPI)
         part.replace(picture)
+    except InputError as error:
+        raise InputError("--picture", str(picture), error.reason) from None
     except OSError as error:
         raise InputError("--picture", str(picture), f"cannot be written ({error.strerror})") from None
     finally:

@@ -11,10 +11,9 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.measured import position
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.events import LOADING, SNAP, UNLOADING, Leg, PathPoint
-from rodwell.analysis.path.load_path import LoadPath, load_path
-from rodwell.answers.result.beyond import reach
+from rodwell.analysis.path.load_path import LoadPath
+from rodwell.answers.result import beyond
 from rodwell.answers.result.computed import Computed
-from rodwell.errors import RodwellError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
 
@@ -27,31 +26,16 @@ def leg_of(name: str) -> str:
     return next(leg for leg, known in LEGS.items() if known == name)
 
 
-Path = tuple[LoadPath | None, str]
-"""The load path, or why there is none."""
-
-
-def followed(computed: Computed, tell: Callable[[str, float], None]) -> Path:
-    """Follow the rod beyond lift-off and back, as ``rodwell run`` does but without an end to patience.
+def followed(computed: Computed, tell: Callable[[str, float], None]) -> tuple[LoadPath | None, str]:
+    """The load path as ``rodwell run`` follows it, but without an end to patience; or None and why there is none.
 
     ``tell`` is called with what is being done; what it raises ends the computation.
     """
-    if computed.lift_off is None:
-        return None, "no lift-off was found on the first branch, so there is nothing beyond it"
-    until, back = reach(computed)
-    case = computed.case
 
     def progress(leg: str, force: float) -> None:
-        tell(f"beyond lift-off: {leg}", min(abs(force / until), 1.0))
+        tell(f"beyond lift-off: {leg}", 0.0)
 
-    try:
-        path = load_path(
-            case.problem, until=until, unload_to=back, mirror=computed.first.origin.mirror, rtol=case.rtol,
-            progress=progress,
-        )  # fmt: skip
-    except RodwellError as error:
-        return None, str(error)
-    return path, ""
+    return beyond.followed(computed, progress)
 
 
 def states_at(path: LoadPath, name: str, force: float) -> tuple[ContactState, ...]:

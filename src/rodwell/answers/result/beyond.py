@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_state
 from rodwell.analysis.path.events import LOADING, SNAP, PathPoint
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.load_path import LoadPath, Progress, load_path
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import NotConvergedError, RodwellError
@@ -110,11 +110,6 @@ def beyond(computed: Computed) -> Beyond:
     The load goes to the loads that act and that asked for, at least to ``REACH``, and comes back to ``BACK``. Nothing
     is raised: what was computed on the wall must not be lost.
     """
-    lift = computed.lift_off
-    if computed.case.problem.hole is not None:
-        return Beyond(None, "states off the wall are computed in straight holes only, and this one is curved")
-    if lift is None:
-        return Beyond(None, "no lift-off was found on the first branch, so there is nothing beyond it")
     begun = time.process_time()
 
     def progress(_leg: str, _force: float) -> str | None:
@@ -122,7 +117,26 @@ def beyond(computed: Computed) -> Beyond:
             return None
         return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
 
-    case, section = computed.case, rod_section(computed.case)
+    path, why = followed(computed, progress)
+    if path is None:
+        return Beyond(None, why)
+    lift, section = computed.lift_off, rod_section(computed.case)
+    assert lift is not None
+    events = tuple(step for one in path.events for step in _steps(path, one, section))
+    applied = tuple((load, _at_load(path, load, section)) for load in computed.case.applied if load.force < lift.force)
+    return Beyond(path, "", events, applied)
+
+
+def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, str]:
+    """The load path of a case, or None and why there is none.
+
+    ``progress`` is that of :func:`rodwell.load_path`; what it raises that is no error of the library ends it.
+    """
+    case = computed.case
+    if case.problem.hole is not None:
+        return None, "states off the wall are computed in straight holes only, and this one is curved"
+    if computed.lift_off is None:
+        return None, "no lift-off was found on the first branch, so there is nothing beyond it"
     until, back = reach(computed)
     try:
         path = load_path(
@@ -130,12 +144,10 @@ def beyond(computed: Computed) -> Beyond:
             progress=progress,
         )  # fmt: skip
     except RodwellError as error:
-        return Beyond(None, str(error))
+        return None, str(error)
     except (ArithmeticError, ValueError) as error:  # of linear algebra: a defect, and the answer on the wall stands
-        return Beyond(None, f"it failed ({type(error).__name__}: {error})")
-    events = tuple(step for one in path.events for step in _steps(path, one, section))
-    applied = tuple((load, _at_load(path, load, section)) for load in case.applied if load.force < lift.force)
-    return Beyond(path, "", events, applied)
+        return None, f"it failed ({type(error).__name__}: {error})"
+    return path, ""
 
 
 def reach(computed: Computed) -> tuple[float, float]:

@@ -75,11 +75,11 @@ def plot_map(
         raise InputError("show", show, f"must be one of {', '.join(SHOWN)}")
     if load is not None:
         checked_number("load", load, -LARGEST_FORCE * 1e12, LARGEST_FORCE * 1e12, "a finite end force")
-        if not _is_load(found):
+        if not is_load(found):
             raise InputError("load", load, f"goes with maps of loads, not of {found.question.rods.quantity}")
     ax = new_axes() if ax is None else ax
     axes, index = _free(found, at or {})
-    number = _number(found, show)[index]
+    number = shown_numbers(found, show)[index]
     if found.question.distributions and not axes:
         _shares(ax, number.ravel(), found, show)
     elif len(axes) == 1:
@@ -90,7 +90,8 @@ def plot_map(
     return ax
 
 
-def _is_load(found: Map) -> bool:
+def is_load(found: Map) -> bool:
+    """Whether the numbers are loads at which something happens: they are drawn as compression."""
     return found.question.rods.number.dimension == "force" and not found.question.rods.number.at_load
 
 
@@ -113,17 +114,18 @@ def _free(found: Map, at: dict[str, int]) -> tuple[list[Axis], tuple[Any, ...]]:
     return free, tuple(index)
 
 
-def _number(found: Map, show: str) -> np.ndarray:
+def shown_numbers(found: Map, show: str) -> np.ndarray:
     """What is drawn, in the shape of the grid; NaN where there is none."""
     known = np.isin(found.cells["outcome"], WITH_VALUE)
     if show == "half-waves":
         column = np.round(found.cells["wavenumber"] / math.pi)
     else:
-        column = found.cells[show] * (-1.0 if show == "value" and _is_load(found) else 1.0)
+        column = found.cells[show] * (-1.0 if show == "value" and is_load(found) else 1.0)
     return np.where(known, column, np.nan)
 
 
-def _label(found: Map, show: str) -> str:
+def value_label(found: Map, show: str) -> str:
+    """What is drawn, with its unit."""
     unit = found.unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
     unit = f"  [{unit}]" if unit != "1" else ""
     number = found.question.rods.number
@@ -133,7 +135,7 @@ def _label(found: Map, show: str) -> str:
         return "half waves of the mode"
     if show == "error":
         return f"error estimate{unit}"
-    if _is_load(found):
+    if is_load(found):
         name = number.label.partition(",")[0].replace("load at which", "compression at which")
         return f"{name.replace('load', 'compression')},\n−F at s = 1{unit}"
     return f"{number.label}{unit}"
@@ -150,7 +152,7 @@ def _plane(ax: Any, found: Map, axes: tuple[Axis, Axis], number: np.ndarray, ind
         limits = {"vmin": np.nanmin(z) - 0.5, "vmax": np.nanmin(z) + 7.5} if isinstance(colours, ListedColormap) else {}
         shown = ax.pcolormesh(x, y, z, shading="nearest", cmap=colours, alpha=0.85, rasterized=True, **limits)
         bar = ax.figure.colorbar(shown, ax=ax, pad=0.015, aspect=28)
-        bar.set_label(_label(found, show))
+        bar.set_label(value_label(found, show))
         if limits:
             bar.ax.set_ylim(np.nanmin(z) - 0.5, np.nanmax(z) + 0.5)
             bar.set_ticks(np.arange(np.nanmin(z), np.nanmax(z) + 1.0))
@@ -212,12 +214,13 @@ def _unsafe(ax: Any, x: np.ndarray, y: np.ndarray, z: np.ndarray, compression: f
 
 def _scale(ax: Any, first: Axis, second: Axis) -> None:
     for axis, set_label, set_scale in ((first, ax.set_xlabel, ax.set_xscale), (second, ax.set_ylabel, ax.set_yscale)):
-        set_label(_axis_label(axis))
+        set_label(axis_label(axis))
         if axis.logarithmic:
             set_scale("log")
 
 
-def _axis_label(axis: Axis) -> str:
+def axis_label(axis: Axis) -> str:
+    """A parameter with its unit."""
     return LABELS.get(axis.name, f"{axis.name}  [{axis.unit}]" if axis.unit else axis.name)
 
 
@@ -232,8 +235,8 @@ def _curve(ax: Any, found: Map, axis: Axis, number: np.ndarray, show: str, load:
             ax.axvline(place, color=colour, lw=1.0, ls=dashes, label=text if i == 0 else None)
     if load is not None:
         ax.axhline(-load, color=WARN, lw=1.4, label=f"−F = {-load:g}: unsafe where it lies above the curve")
-    ax.set_xlabel(_axis_label(axis))
-    ax.set_ylabel(_label(found, show))
+    ax.set_xlabel(axis_label(axis))
+    ax.set_ylabel(value_label(found, show))
     if axis.logarithmic:
         ax.set_xscale("log")
     if ax.get_legend_handles_labels()[0]:
@@ -244,7 +247,7 @@ def _shares(ax: Any, number: np.ndarray, found: Map, show: str) -> None:
     """The share of samples below a value."""
     known = np.sort(number[np.isfinite(number)])
     ax.step(known, np.arange(1, len(known) + 1) / max(len(number), 1), where="post", color=MODES[0], lw=1.7)
-    ax.set_xlabel(_label(found, show))
+    ax.set_xlabel(value_label(found, show))
     ax.set_ylabel(f"share of {len(number)} samples at or below")
     ax.set_ylim(0.0, 1.0)
 
