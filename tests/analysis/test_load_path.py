@@ -188,6 +188,20 @@ def test_the_arm_that_twist_favours_folds() -> None:
     assert path.snaps[1].to.kind == "straight"
 
 
+def test_an_arm_that_twist_favours_little_is_found_from_its_branch() -> None:
+    """T₁ = 2: its fold lies so near the buckling load that no descent finds it; numbers of the rod kept on the wall."""
+    problem = rodwell.Problem(weight=15, twist=2.0)
+    path = load_path(problem, until=-113.0, unload_to=-105.0, seeds=1)
+    branch = rodwell.follow(problem, 1)
+    fold = next(point for point in branch.special_points if point.kind == "fold")
+    assert [event.kind for event in path.events] == ["critical", "snap", "fold", "snap"]
+    assert path.events[1].force.value == pytest.approx(branch.force[0], abs=1e-8)
+    assert path.events[1].to.kind == "sinusoidal"
+    assert path.first("fold", "unloading").force.value == pytest.approx(fold.force, abs=1e-7)
+    buckled = branch.states_at(branch.force[0])[-1]  # the first is the straight rod
+    assert path.events[1].to.energy.value == pytest.approx(buckled.number("energy").value, rel=1e-7)
+
+
 def test_ball_joints_let_the_rod_off_at_its_ends() -> None:
     """w = 15, F = −85: energy −5.901309634e-4, free stretches 0.14781215 long, gap 3.05216e-3; −5.172e-4 if held."""
     path = load_path(rodwell.Problem(weight=15, ends="ball-ball"), until=-86.0, seeds=1)

@@ -139,6 +139,11 @@ def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, 
         out.leg.straight.append((first, critical.value))
     out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
     _to(out, straight_state(model, critical.value), sense, how, critical, buckles)
+    if out.last is None and not out.ended:
+        out.ended = (
+            f"the straight rod buckles at F = {critical.value:.8g} B/L², and descent from it found no other state: "
+            "where it goes was not resolved"
+        )
     return buckles
 
 
@@ -149,13 +154,17 @@ def _first_still(path: Followed) -> int | None:
 
 
 def _without_jump(path: Followed, target: float, sense: float, how: How) -> Followed:
-    """A path that does not jump over a fold: a bent rod that is past the buckling load cannot become straight there.
+    """A path that does not jump over a fold.
 
-    It folds before. Its last part is followed again in short steps.
+    A bent rod that is past the buckling load cannot become straight there, and one that is bent much may fold beyond
+    it: the last part is followed again in short steps.
     """
     load_sense = sense if how.control.by_force else -sense
     first = _first_still(path)
-    if first is None or (path.states[first - 1].load - how.mode.force) * load_sense <= 0.0:
+    if first is None:
+        return path
+    past = (path.states[first - 1].load - how.mode.force) * load_sense > 0.0
+    if not past and _flat(path.states[first - 1]):
         return path
     begin = max(first - 3, 0)
     kept = path.states[:begin]

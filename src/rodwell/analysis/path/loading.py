@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, Leg, PathPoint
+from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, walked
 from rodwell.analysis.path.start import OnWall, arched, carried, on_wall, released
 from rodwell.problem.problem import Problem
@@ -39,6 +39,9 @@ def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
     if begun is not None:
         _add_wall(leg, model, begun)
+    if begun is not None and begun.snap is not None:
+        to = Destination(begun.snap.kind, 0, begun.snap.energy, critical, 1, 1)
+        out.events.insert(1, PathPoint(SNAP, critical, (), LOADING, to, begun.snap))
     return out
 
 

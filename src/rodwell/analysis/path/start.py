@@ -15,6 +15,7 @@ from rodwell.analysis.off_wall.changes import changed
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.off_wall.turning import growing_direction
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
@@ -36,11 +37,15 @@ ONE_SIDED = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class OnWall:
-    """The part of the path on the wall: the branch that was followed there, and the state from which chains go on."""
+    """The part of the path on the wall: the branch that was followed there, and the state from which chains go on.
+
+    ``snap`` is the state to which the straight rod snaps where it buckles, None where the branch leaves it without one.
+    """
 
     branch: Branch
     states: tuple[int, ...]
     start: PatternedState
+    snap: ContactState | None
 
 
 def sampled(solution: Solution) -> Sampler:
@@ -66,15 +71,19 @@ def carried(model: RodInHole, solution: Solution) -> PatternedState | None:
 def on_wall(
     problem: Problem, mode: int, mirror: bool, rtol: float, before: Callable[[PatternedState], bool]
 ) -> OnWall | None:
-    """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is not stable at first.
+    """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is never.
 
-    The state from which chains go on is the last one ``before`` the end of the path.
+    An arm that is unstable at first, as twist makes one of the two, goes back in load, folds, and is stable on its way
+    forth: where the straight rod buckles it snaps to there. The state from which chains go on is the last one
+    ``before`` the end of the path.
     """
     model = RodInHole(problem)
     branch = follow(problem, mode, until=None, mirror=mirror, rtol=rtol)
     kept: list[int] = []
     force = branch.force
-    for i in range(1, len(branch)):
+    stable = (branch.stability_index == 0) & (force < force[0])
+    first = int(np.argmax(stable))  # 0 if none is
+    for i in range(max(first, 1), len(branch)):
         past = branch.lift_off is not None and force[i] <= branch.lift_off.force
         if past or branch.stability_index[i] != 0 or force[i] >= force[i - 1]:
             break
@@ -84,8 +93,18 @@ def on_wall(
         if amplitude >= ENOUGH:
             start = carried(model, branch[i])
             if start is not None and start.solved.index == 0 and before(start):
-                return OnWall(branch, tuple(k for k in kept if k <= i), start)
+                snap = _stable_at(model, branch, float(force[0])) if first > 1 else None
+                if first > 1 and snap is None:
+                    return None
+                return OnWall(branch, tuple(k for k in kept if k <= i), start, snap)
     return None
+
+
+def _stable_at(model: RodInHole, branch: Branch, force: float) -> ContactState | None:
+    """The buckled stable state of a branch at the load where the straight rod buckles."""
+    buckled = [one for one in branch.states_at(force) if one.stability_index == 0 and _amplitude(one) >= ENOUGH]
+    found = carried(model, buckled[0]) if buckled else None
+    return None if found is None else contact_state(found)
 
 
 def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | None:
