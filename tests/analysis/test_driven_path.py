@@ -94,6 +94,10 @@ def test_strain_and_spring_are_in_series() -> None:
     kinds = [event.kind for event in one.events]
     assert kinds == [event.kind for event in other.events]
     assert one.as_dict()["events"][0]["driven"]["value"] == pytest.approx(0.011123344016, rel=1e-10)
+    axes = one.plot()  # the figure has the driven end on its abscissa: at first what gives way, by itself
+    across, load = (np.asarray(line) for line in axes.lines[0].get_data())
+    assert across[:2] == pytest.approx(0.1 * load[:2], rel=1e-12)
+    assert across[-1] == pytest.approx(12.6, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -23,13 +23,13 @@ FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9
 
 MOST_EULER_STEPS = 1000
 
-WANTED, MOST = 0.15, 0.5
+WANTED, MOST = 0.3, 0.9
 """By which part of itself a step would be corrected if the equations were solved exactly: wanted, and accepted."""
 
 AT_REST = 1e-7
 """Steps below this, in coordinates of nodes, are round-off: what corrects them tells nothing."""
 
-SLOWER, FASTER = 4.0, 0.1
+SLOWER, FASTER = 2.5, 0.4
 """Most by which the rate grows, and falls, from a step to the next."""
 
 POSITION_MASS, SLOPE_MASS = 0.5, 1.0 / 105.0

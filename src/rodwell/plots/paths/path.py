@@ -37,24 +37,26 @@ def units_of(result: LoadPath, case: Case | None) -> Units:
     if case is None or case.scales is None:
         return Units(1e3, lambda force: -force, "10⁻³ L", "end compression −F at s = 1  [B/L²]")
     said, curve = forces_of(case), result.curve
-    x, length = axis("z", case.scales, float(np.max(curve["shortening"])))
+    x, length = axis("z", case.scales, float(np.max(_across(result, curve["shortening"], curve["force"]))))
     y, force = axis("force", case.scales, float(np.max(np.abs(said.drawn(curve["force"])))))
     return Units(x, lambda load: y * float(said.drawn(load)), length, f"{said.axis}  [{force}]")
 
 
 def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any:
-    """Draw compression against shortening; snaps are arrows. Returns the axes.
+    """Draw compression against the shortening of the span, or where the driven end stands if something gives way.
 
-    Without a case compression at s = 1 in B/L²; with one in its units, at the end at which it says forces.
+    Snaps are arrows. Returns the axes. Without a case compression at s = 1 in B/L²; with one in its units, at the end
+    at which it says forces.
     """
     ax = new_axes() if ax is None else ax
     curve, names, units = result.curve, _legs(result), units_of(result, case)
+    across = _across(result, curve["shortening"], curve["force"])
     for run in np.unique(curve["run"]):
         here = curve["run"] == run
         unloading = names[int(run)] == UNLOADING if int(run) < len(names) else True
         loads = [units.load(force) for force in curve["force"][here]]
         ax.plot(
-            units.shortening * curve["shortening"][here], loads, color=UNLOADED if unloading else LOADED,
+            units.shortening * across[here], loads, color=UNLOADED if unloading else LOADED,
             lw=1.8, ls="--" if unloading else "-",
         )  # fmt: skip
     ax.plot([], [], color=LOADED, lw=1.8, label="load grows")
@@ -62,9 +64,10 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
         ax.plot([], [], color=UNLOADED, lw=1.8, ls="--", label="load is taken off")
     seen: set[str] = set()
     for event in result.events:
-        _mark(ax, event, seen, units)
+        _mark(ax, result, event, seen, units)
     _snaps(ax, result, units)
-    ax.set_xlabel(f"shortening of the rod's span  [{units.across}]")
+    moved = "displacement of the driven end" if result.compliance else "shortening of the rod's span"
+    ax.set_xlabel(f"{moved}  [{units.across}]")
     ax.set_ylabel(units.up)
     problem = result.problem
     twist = f", T₁ = {problem.twist:g} B/L" if problem.twist else ""
@@ -75,12 +78,17 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
     return ax
 
 
+def _across(result: LoadPath, shortening: Any, force: Any) -> Any:
+    """How far the driven end has come, u − cF, from the shortening u of the span: c is what gives way in series."""
+    return shortening - result.compliance * force
+
+
 def _legs(result: LoadPath) -> list[str]:
     """The leg that each run belongs to, in the order of the curve."""
     return [leg.name for leg in result.legs for _ in leg.runs]
 
 
-def _mark(ax: Any, event: PathPoint, seen: set[str], units: Units) -> None:
+def _mark(ax: Any, result: LoadPath, event: PathPoint, seen: set[str], units: Units) -> None:
     if event.kind == SNAP:
         return
     shortening = 0.0 if event.state is None else event.state.shortening.value
@@ -90,7 +98,7 @@ def _mark(ax: Any, event: PathPoint, seen: set[str], units: Units) -> None:
     label = word if word not in seen else None
     seen.add(word)
     ax.plot(
-        units.shortening * shortening,
+        units.shortening * _across(result, shortening, event.force.value),
         units.load(event.force.value),
         marker,
         color=colour,
@@ -104,12 +112,15 @@ def _snaps(ax: Any, result: LoadPath, units: Units) -> None:
     """An arrow from where the rod gives way to where it comes to rest: at the same load, or as driven."""
     runs = [run for leg in result.legs for run in leg.runs]
     square = result.problem.clearance**2
-    lasts = {run[-1].load: run[-1].solved.out.energy_by_load * square for run in runs if run}
+    lasts = {
+        run[-1].load: _across(result, run[-1].solved.out.energy_by_load * square, run[-1].load) for run in runs if run
+    }
     for event in result.snaps:
         if event.state is None or event.to is None or not lasts:
             continue
         start = lasts[min(lasts, key=lambda load: abs(load - event.force.value))]
-        end, load, rests = event.state.shortening.value, *map(units.load, (event.force.value, event.to.force.value))
+        end = _across(result, event.state.shortening.value, event.to.force.value)
+        load, rests = map(units.load, (event.force.value, event.to.force.value))
         ax.annotate(
             "", xy=(units.shortening * end, rests), xytext=(units.shortening * start, load),
             arrowprops={"arrowstyle": "-|>", "color": WARN, "lw": 1.3, "shrinkA": 3, "shrinkB": 0},
