@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from rodwell import InputError, Problem, coil, equilibrium, turns_of_least_energy
+from rodwell import InputError, NotConvergedError, Problem, coil, equilibrium, turns_of_least_energy
 from rodwell.physics.exact.helix import coil_energy
 
 
@@ -26,6 +26,33 @@ def test_heavy_coils_are_approached_from_lighter_ones() -> None:
     state = equilibrium(Problem(15120.0, 90.0, clearance=0.0094, turns=1), 0.0)
     assert state.stable
     assert state.problem.weight == 15120.0
+
+
+def test_a_coarse_mesh_does_not_hold_a_coil_that_is_unstable() -> None:
+    """The wave on this helix moves nearly for nothing; 66 elements held it in the middle, where it is a saddle."""
+    rod = Problem(0.0, 90.0, clearance=0.001669, twist=-0.124, turns=3, ends="pinned-pinned")  # type: ignore[arg-type]
+    state = equilibrium(rod, -2570.0)
+    assert state.stable
+    assert state.converged
+    again = equilibrium(rod, -2570.0, rtol=1e-10)
+    assert again.number("energy").value == pytest.approx(state.number("energy").value, rel=1e-7)
+    assert state.point.fine.symmetry == 0
+
+
+def test_a_coil_is_refined_where_one_mesh_gains_little() -> None:
+    """Of these meshes one has a quarter of the error left, the next a hundredth of that: no round-off."""
+    state = equilibrium(Problem(15.0, 90.0, clearance=0.00222, turns=4), 0.0)
+    assert state.converged
+    finer = equilibrium(Problem(15.0, 90.0, clearance=0.00222, turns=4), 0.0, rtol=1e-10)
+    one, two = state.number("largest_pressure"), finer.number("largest_pressure")
+    assert one.value == pytest.approx(two.value, abs=one.error + two.error)
+
+
+def test_energy_that_falls_until_the_rod_turns_across_is_said() -> None:
+    """Beyond its last fold the coil has no minimum: Problem number 17 of benchmarks/campaigns/coils.py, rounded."""
+    rod = Problem(5.56, 90.0, clearance=0.01235, turns=-6)
+    with pytest.raises(NotConvergedError, match=r"\|η\| = 90°"):
+        equilibrium(rod, -11016.0)
 
 
 def test_turns_of_least_energy_of_a_weightless_rod() -> None:

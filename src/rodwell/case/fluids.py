@@ -94,8 +94,12 @@ def checked_weight(fluids: Fluids, rod: PhysicalRod, gravity: float) -> float:
         return 0.0
     if weight < 0.0:
         what = (
-            f"lifts the rod: its weight of {rod.weight_in_air:.4g} N/m becomes {weight:.4g} N/m; a rod that floats up "
-            "is not treated, so give a lighter fluid outside, a heavier one inside, or check units and diameters"
+            f"lifts the rod: its weight of {rod.weight_in_air:.4g} N/m becomes {weight:.4g} N/m, and it presses on the "
+            "high side, which reports and strength do not know: give a lighter fluid outside, a heavier one inside, or "
+            "check units and diameters. If it does float: in a straight hole, seen upside down and from its other end, "
+            f'it is a rod with its weight downwards. Write weight_per_length = "{-weight:.10g} N/m" without [mud] and '
+            "[pressure], the ends in reverse order, and effective loads at the other end; the upper end and the low "
+            "side of that case are the lower end and the high side of yours"
         )
         raise InputError("mud.outside", fluids.outside, what)
     return weight

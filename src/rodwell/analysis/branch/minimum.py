@@ -17,6 +17,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.minimise import minimise
 from rodwell.numerics.equilibria.outcome import Outcome
 from rodwell.numerics.equilibria.state import State
+from rodwell.numerics.splines.spaces import Prolongation
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
@@ -28,6 +29,9 @@ LOPSIDED = 0.3
 STEEP = 0.45
 """Slope of the even winding from which one with level ends, twice as steep at its middle, would turn across."""
 
+
+MOST_HALVINGS = 4
+"""Meshes tried for a minimum at most, each with its elements half as long as those of the one before."""
 
 STEEPEST_START = 0.9
 """Largest slope, at its middle, of the winding y = 2πnΔ (s − sin 2πs/2π) that is started from; else one less steep."""
@@ -67,16 +71,25 @@ def equilibrium(problem: Problem, force: float, *, rtol: float = RTOL) -> Soluti
         raise InputError("turns", 0, "must not be 0: without turns the straight rod is an equilibrium at any force")
     family, outcome, coarse = _odd_or_any(problem, force)
     if coarse is None:
-        heavier = _from_lighter(problem, force, rtol)
-        if heavier is not None:
-            return heavier
+        for approached in (_from_lighter, _from_no_load):
+            found = approached(problem, force, rtol)
+            if found is not None:
+                return found
         raise NotConvergedError(f"no coiled state found at F = {force:g} B/L²: {family.advice(outcome)}")
-    outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
-    if point is None:
+    outcome, solution = _refined(problem, family, coarse, force, rtol)
+    if solution is None:
         raise NotConvergedError(
             f"the coiled state at F = {force:g} B/L² could not be refined: {family.advice(outcome)}"
         )
-    return Solution(problem, meshes.at(point, force) or point, meshes)
+    return solution
+
+
+def _refined(
+    problem: Problem, family: Family, coarse: State, force: float, rtol: float
+) -> tuple[Outcome, Solution | None]:
+    """A state completed to a solution within the tolerance."""
+    outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
+    return outcome, None if point is None else Solution(problem, meshes.at(point, force) or point, meshes)
 
 
 def _in_curved_hole(problem: Problem, force: float, rtol: float) -> Solution:
@@ -89,9 +102,9 @@ def _in_curved_hole(problem: Problem, force: float, rtol: float) -> Solution:
     if outcome is Outcome.CONVERGED:
         outcome, coarse, _ = family.at(c, force)
     if coarse is not None:
-        outcome, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
-        if point is not None:
-            return Solution(problem, meshes.at(point, force) or point, meshes)
+        outcome, solution = _refined(problem, family, coarse, force, rtol)
+        if solution is not None:
+            return solution
     raise NotConvergedError(f"no stable state found at F = {force:g} B/L²: {family.advice(outcome)}")
 
 
@@ -100,19 +113,24 @@ def _from_lighter(problem: Problem, force: float, rtol: float) -> Solution | Non
     for part in LIGHTER:
         lighter = problem.but(weight=part * problem.weight)
         family, _, coarse = _odd_or_any(lighter, force)
-        if coarse is None:
+        start = None if coarse is None else _refined(lighter, family, coarse, force, rtol)[1]
+        if start is None or not start.point.at(force):
             continue
-        _, meshes, point = measured_meshes(family, rtol, MOST_ELEMENTS_OF_BRANCH).resolve(coarse)
-        start = None if point is None else meshes.at(point, force)
-        if start is None:
-            continue
-        branch = follow(
-            lighter, start=Solution(lighter, start, meshes), parameter="weight", until=problem.weight, rtol=rtol
-        )
+        branch = follow(lighter, start=start, parameter="weight", until=problem.weight, rtol=rtol)
         found = _downhill(branch[-1], force) if branch.reached_end else None
         if found is not None:
             return found
     return None
+
+
+def _from_no_load(problem: Problem, force: float, rtol: float) -> Solution | None:
+    """The minimum at F = 0, followed in the end force: downhill from the even winding another basin may come first."""
+    family, _, coarse = _odd_or_any(problem, 0.0)
+    start = None if coarse is None or force == 0.0 else _refined(problem, family, coarse, 0.0, rtol)[1]
+    if start is None:
+        return None
+    branch = follow(problem, start=start, until=force, rtol=rtol)
+    return _downhill(branch[-1], force) if branch.reached_end else None
 
 
 def _downhill(solution: Solution, force: float) -> Solution | None:
@@ -156,12 +174,31 @@ def _odd_or_any(problem: Problem, force: float) -> tuple[Family, Outcome, State 
         if parity == 0 and problem.symmetric:  # the odd one is no minimum: leave its symmetry
             bump = problem.clearance * np.sin(np.pi * space.points) ** 2
             start = start + LOPSIDED * space.project(bump, family.ends)
-        outcome, c = minimise(family, start, force)
-        if outcome is Outcome.CONVERGED:
-            outcome, state, _ = family.at(c, force)
-            if state is not None:
-                return family, outcome, state
-    return family, outcome, None
+        family, outcome, state = _minimum(family, start, force)
+        if state is not None:
+            break
+    return family, outcome, state
+
+
+def _minimum(family: Family, c: FloatArray, force: float) -> tuple[Family, Outcome, State | None]:
+    """A minimum downhill from ``c`` (n,) on the first mesh on which it is one that the halved mesh has too.
+
+    What a coil has of waves moves along the rod nearly for nothing, and a coarse mesh holds it where it stands.
+    """
+    for _ in range(MOST_HALVINGS):
+        outcome, c = minimise(family, c, force)
+        state = family.at(c, force)[1] if outcome is Outcome.CONVERGED else None
+        if state is None:
+            return family, outcome, None
+        finer = family.on(family.space.refined())
+        c = Prolongation(family.space, finer.space)(state.c)
+        better = finer.at(c, force)[1]
+        if better is not None and better.index == 0:
+            return family, outcome, state
+        if better is not None and family.parity != 0:  # what it is unstable to breaks the symmetry that is kept
+            return family, Outcome.NOT_CONVERGED, None
+        family = finer
+    return family, Outcome.NOT_CONVERGED, None
 
 
 def _winding(problem: Problem, family: Family) -> FloatArray:

@@ -37,6 +37,10 @@ COARSE_TOLERANCE = 1e-2
 its square, and counts as error, since the finer solve does not share it."""
 
 
+STALLED = 0.25
+"""A mesh on which more than this part of the error of the one before is left gains nothing. Where two in a row do,
+that is round-off; one alone may have refined elements that were not the ones that mattered."""
+
 KIN = 1.0 / 1024.0
 """Part of the error of a number of the same kind at any place that an error may be below it. At places that the problem
 singles out, such as ends, numbers converge to more digits than elsewhere."""
@@ -182,18 +186,25 @@ class TwoMeshes:
         if fine is None:
             return outcome, self, None
         meshes, point = self, self.point(coarse, fine)
-        while point.excess > meshes.floor:
-            finer = meshes.refined(point)
+        tried, last, stalled = meshes, point, False
+        while last.excess > tried.floor:
+            finer = tried.refined(last)
             if finer is None:
                 break
-            outcome, better = finer.adopt(meshes, point)
+            outcome, better = finer.adopt(tried, last)
+            if better is None and stalled:
+                break
             if better is None:
                 return outcome, meshes, None
-            if better.excess > 1.0 and better.excess > 0.25 * point.excess:
-                # round-off: a finer mesh does not help, and no gain may be claimed
+            gains = better.excess <= max(tried.floor, STALLED * last.excess)
+            tried, last = finer, better
+            if gains:
+                meshes, point = tried, last
+            elif stalled:
+                # round-off: finer meshes do not help, and no gain may be claimed
                 meshes.floor = 10.0 * point.excess
                 break
-            meshes, point = finer, better
+            stalled = not gains
         if 1.0 < point.excess <= meshes.floor:
             point = self._without_gain(point)
         return Outcome.CONVERGED, meshes, point
