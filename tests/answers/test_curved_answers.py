@@ -18,6 +18,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.state.in_hole import InHole
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.result.assessment import BUCKLED, LEFT, PULLED, STRAIGHT
+from rodwell.answers.words.advice import statuses
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import around_text
 from rodwell.cli.main import cli
@@ -184,3 +185,22 @@ def test_the_whole_folder(tmp_path: Path) -> None:
     assert "Not told of a curved hole" in page
     assert "computed in straight holes only" in page  # beyond lift-off
     assert "straight rod" not in page
+
+
+def test_a_stiff_rod_in_a_bend_that_comes_and_goes_needs_compression_to_lie_there() -> None:
+    """κ = 0.4 (1 + cos 2π(s − ½)), no weight: P = κ″ − κ(F − ½κ²) to Δ → 0, so that F = κ″/κ + ½κ² in the middle."""
+    s = np.linspace(0.0, 1.0, 201)
+    turned = 0.4 * (s - 0.5) + 0.4 * np.sin(2.0 * np.pi * (s - 0.5)) / (2.0 * np.pi)
+    steps = np.stack([np.cos(turned), np.zeros_like(s), np.sin(turned)])
+    points = np.concatenate([np.zeros((3, 1)), np.cumsum(0.5 * (steps[:, 1:] + steps[:, :-1]) * 0.005, axis=1)], axis=1)
+    expected = -0.4 * 4.0 * np.pi**2 / 0.8 + 0.5 * 0.8**2
+    case = rodwell.Case.from_dict(
+        {"dimensionless": {"weight": 1e-6}, "load": {"applied": -10.0}, "analysis": {"modes": 1, "rtol": 1e-6}}
+    )
+    found = rodwell.answer(replace(case, problem=rodwell.Problem(1e-6, clearance=1e-3, axis=points.T)))
+    assert found.left_in_tension is not None
+    assert found.left_in_tension.value == pytest.approx(expected, rel=5e-3)
+    assert found.assessment.applied[0].what == PULLED
+    text = " ".join(sentences(found))
+    assert "It lies there only if the compression at s = 1 is at least 19.3707 B/L²: under less the rod leaves" in text
+    assert "above the end force −19.3707 B/L² at s = 1" in " ".join(status.reason for status in statuses(found))

@@ -56,6 +56,37 @@ def heavy_weight() -> None:
     assert problem.sections
 
 
+def build_section() -> None:
+    """E r κ/(1 + κΔ), and the stress of the lying pipe of its effective force, the mud being at rest, by hand."""
+    found = run("build_section")
+    case = found["case"]
+    outer, inner, length = 3.5 * 0.0254, 2.25 * 0.0254, 93.0 * 0.3048
+    area, inertia = np.pi / 4.0 * (outer**2 - inner**2), np.pi / 64.0 * (outer**4 - inner**4)
+    kappa = np.radians(12.0) / (100.0 * 0.3048)
+    curvature = kappa / (1.0 + kappa * 0.5 * (6.125 - 3.5) * 0.0254)
+    modulus = case.scales.stiffness / inertia
+    assert modulus == pytest.approx(30e6 * 6894.757, rel=1e-6)
+    assert found["lying"] == pytest.approx(modulus * 0.5 * outer * curvature, rel=1e-9)
+    # at the bottom of the lying pipe the outer fibre on the low side is pressed most; the mud presses on all sides
+    effective = 30000.0 * 4.4482216152605 + case.scales.stiffness * curvature**2
+    assert found["largest"][0] == pytest.approx(effective / area + modulus * 0.5 * outer * curvature, rel=1e-6)
+    assert np.all(np.diff(found["largest"]) > 0.0)
+    assert length == pytest.approx(case.scales.length, rel=1e-12)
+
+
+def bent_vessel() -> None:
+    """w cos ψ − κᵣ(F − κᵣ²) at mid-length, where the vessel is horizontal and N = F + w × the rise to the end."""
+    found = run("bent_vessel")
+    problem = found["problem"]
+    curvature = 1.5 / (1.0 + 1.5 * problem.clearance)
+    rise = (1.0 - np.cos(0.5 * curvature)) / curvature
+    tension = found["pushed"] - problem.weight * rise
+    expected = problem.weight - curvature * (tension - curvature**2)
+    assert found["push_on_wall"] == pytest.approx(expected, rel=1e-9)
+    assert found["critical"] > found["lift_off"].force
+    assert abs(found["lift_off"].solution.highest_pressure[0]) < 1e-6 * expected
+
+
 def bifurcation_diagram() -> None:
     """Section 4.1.2 of the paper: −362.63 on the first branch and −164.78 on the second."""
     found = run("bifurcation_diagram")
@@ -206,6 +237,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
         lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
+        build_section, bent_vessel,
     )
 }  # fmt: skip
 

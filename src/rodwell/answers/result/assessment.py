@@ -24,8 +24,8 @@ from rodwell.strength.validity import Validity, validity
 STRAIGHT, BUCKLED, OTHER_SHAPE, LEFT, UNKNOWN = "straight", "buckled", "other shape", "left the wall", "unknown"
 PULLED = "pulled off the wall"
 """What has become of the rod at a load: straight and stable; buckled, on the wall and stable; mode 1 has lost its
-stability before; it has left the wall; the branch does not reach so far; tension has taken it off the wall of a curved
-hole."""
+stability before; it has left the wall; the branch does not reach so far; tension, or too little compression, has taken
+it off the wall of a curved hole."""
 
 KNOWN = ("dawson_paslay", "he_kyllingstad", "chen_lin_cheatham", "wu_juvkam_wold", "mitchell_loading")
 """Formulas shown beside the exact loads even where the rod is outside their validity."""

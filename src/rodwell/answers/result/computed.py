@@ -86,11 +86,14 @@ class Computed:
 
     @cached_property
     def left_in_tension(self) -> Peak | None:
-        """Where tension takes the rod off the wall of a curved hole: end force and place; None where nothing does."""
+        """Above which end force the rod leaves the wall of a curved hole, and where; None where it never does.
+
+        In tension mostly; where the curvature varies, the rod's own stiffness may take it off without any.
+        """
         return None if self.case.problem.hole is None else lies_between(self.case.problem)[1]
 
     def pulled_off(self, force: float) -> bool:
-        """Whether an end force is a tension that has taken the rod off the wall of a curved hole."""
+        """Whether an end force is above that: the rod has left the wall of a curved hole."""
         return self.left_in_tension is not None and force > self.left_in_tension.value
 
     @property

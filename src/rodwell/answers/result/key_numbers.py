@@ -86,7 +86,7 @@ def in_curved_hole(lying: LoadedRod, own: Value | None, tension: Peak | None) ->
         label = "Lift-off load with every cross-section at its own place along the hole, end force at s = 1"
         out.append(KeyNumber("lift_off_load_own_places", label, own, "force", force_scale(own.value)))
     if tension is not None:
-        label = "Tension that takes the rod off this side of the hole, end force at s = 1"
+        label = "Above this the rod leaves this side of the hole, end force at s = 1"
         load = Value(tension.value, tension.error)
         out.append(KeyNumber("leaves_wall_in_tension", label, load, "force", force_scale(load.value), s=(tension.s,)))
     return out

@@ -98,8 +98,11 @@ def _not_buckled(computed: Computed, load: float | None) -> Status:
 def _off(computed: Computed, load: float) -> str:
     """By which load a rod has left the wall of a curved hole without buckling."""
     pulled = computed.left_in_tension if computed.pulled_off(load) else None
-    at = computed.buckling if pulled is None else Value(pulled.value, pulled.error)
-    return f"beyond {forces_of(computed.case).load(at)}"
+    at, said = computed.buckling if pulled is None else Value(pulled.value, pulled.error), forces_of(computed.case)
+    if pulled is not None and said.scales is None:
+        return f"above {said.load(at)}"
+    less = pulled is not None and said.compression(at).value > 0.0  # too little compression to bend it to this side
+    return f"{'under less than' if less else 'beyond'} {said.load(at)}"
 
 
 def _unbuckled(case: Case) -> str:

@@ -98,11 +98,16 @@ def _side(a: Assessment, s: float) -> str:
 
 
 def in_tension(a: Assessment) -> str:
-    """Where tension takes the rod off its side of a curved hole, as a sentence; nothing where it does not."""
+    """Where tension, or too little compression, takes the rod off its side of a curved hole; or nothing."""
     off, said = a.computed.left_in_tension, forces_of(a.case)
     if off is None:
         return ""
     load = Value(off.value, off.error)
+    if said.compression(load).value > 0.0:
+        return (
+            f"It lies there only if the compression{said.at_end} is at least {said.size(load)}{said.other(load)}: "
+            f"under less the rod leaves {_side(a, off.s)}."
+        )
     return f"Under more than {said.load(load, other=True)} the rod leaves {_side(a, off.s)}."
 
 

@@ -20,7 +20,7 @@ WORDS = {
     BUCKLED: "buckled, on the wall, stable",
     OTHER_SHAPE: "beyond the stable part of mode 1: it takes another shape",
     LEFT: "has left the wall",
-    PULLED: "has left the wall in tension",
+    PULLED: "has left the wall",
 }
 
 

@@ -16,7 +16,7 @@ STATES = {
     BUCKLED: "buckled, on the wall, stable",
     OTHER_SHAPE: "buckled into another shape",
     LEFT: "off the wall",
-    PULLED: "off the wall in tension",
+    PULLED: "off the wall",
     UNKNOWN: "unknown",
 }
 """What the rod is at a load, as tables and summary say it."""
