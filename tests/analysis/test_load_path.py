@@ -231,7 +231,6 @@ def test_the_bifurcation_of_a_heavier_rod() -> None:
         ("outside", {"outside": True}),
         ("on_top", {"on_top": True}),
         ("turns", {"turns": 1}),
-        ("sections", {"sections": ((0.6, 1.0, 1.0), (0.4, 0.5, 1.0))}),
         ("ends", {"ends": "loose-clamped"}),
     ],
 )

@@ -74,3 +74,13 @@ def test_bad_input() -> None:
         done = run(*COMMON, *arguments)
         assert isinstance(done.exception, InputError)
         assert done.exception.field == field
+
+
+def test_a_string_of_sections() -> None:
+    done = run(*COMMON, "--sections", "0.6:1:1,0.4:0.5:0.8", "--until", "-84", "--at", "-83.5", "--json")
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.output)
+    assert [(event["kind"], event["s"]) for event in data["events"]] == [("critical", []), ("lift_off", [0.6])]
+    (gap,) = data["states"][0]["gaps"]
+    assert gap["from"]["value"] < 0.6 < gap["to"]["value"]
+    assert data["states"][0]["certificate"]["passed"]

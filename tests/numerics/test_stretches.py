@@ -14,7 +14,7 @@ from rodwell.numerics.stretches.carry import fields_at, fit, rim_fields, sampler
 from rodwell.numerics.stretches.chain import Shape, cartesian, cartesian_curvature, cartesian_derivatives
 from rodwell.problem.problem import Problem
 
-PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), (2, 2, 1, 1, 1, 2)
+PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), ((2,), (2,), (1,), (1,), (1,), (2,))
 BREAKS = np.array([0.2, 0.4, 0.6, 0.7, 0.8])
 
 
@@ -40,7 +40,7 @@ def test_derivatives_by_places_are_differences() -> None:
 
 def _disturbed(model: RodInHole) -> Shape:
     """A shape that is no equilibrium, in contact and free in turn."""
-    links, held = chain(model.problem, PATTERN, COUNTS, 8)
+    links, held = chain(model.problem, model.given, PATTERN, COUNTS, 8)
 
     def sample(s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         angle = np.stack([np.sin(np.pi * s) ** 2, np.pi * np.sin(2 * np.pi * s), 2 * np.pi**2 * np.cos(2 * np.pi * s)])
@@ -89,7 +89,7 @@ def test_a_shape_is_carried_over_to_other_elements() -> None:
     """To more elements exactly: polynomials stay what they are."""
     model = RodInHole(Problem(weight=15))
     shape = _disturbed(model)
-    links, held = chain(model.problem, PATTERN, tuple(2 * n for n in COUNTS), 8)
+    links, held = chain(model.problem, model.given, PATTERN, tuple((2 * n,) for (n,) in COUNTS), 8)
     finer = fit(links, BREAKS, -130.0, sampler(shape), held)
     s = np.linspace(0.0, 1.0, 57)
     assert fields_at(finer, s)[0][:, :3] == pytest.approx(fields_at(shape, s)[0][:, :3], abs=1e-9)

@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from rodwell import Problem, critical_loads, follow, load_path, loads_without_wall
+from rodwell import Problem, critical_loads, follow, loads_without_wall
 from rodwell.analysis.branch.verifying.verify import verify
 from rodwell.analysis.curves.critical import critical_curves
 from rodwell.analysis.loads.sensitivity import sensitivities
@@ -294,8 +294,3 @@ def test_loads_with_proof_are_refused() -> None:
 def test_what_is_no_string_is_named(sections: Any, words: str) -> None:
     with pytest.raises(InputError, match=words):
         Problem(15.0, sections=sections)
-
-
-def test_a_path_off_the_wall_is_refused() -> None:
-    with pytest.raises(InputError, match="followed on the wall only"):
-        load_path(Problem(15.0, sections=TWO), until=-140.0)

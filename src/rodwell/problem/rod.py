@@ -100,6 +100,13 @@ class Rod:
         return Profile(self.breaks, self._ratios(4)[:, None])
 
     @cached_property
+    def turned(self) -> Profile:
+        """∫₀ˢ ds/(C(s)/C), in L: how far a torque along the whole rod has turned it, over what it turns C by in L."""
+        softness = 1.0 / self._ratios(4)
+        below = np.concatenate([[0.0], np.cumsum(softness * np.diff(self.breaks))[:-1]])
+        return Profile(self.breaks, np.stack([below - softness * (self.breaks[:-1] - 1.0), softness], axis=1))
+
+    @cached_property
     def lever(self) -> Profile:
         """h(s) = −∫ₛ¹ w(s)/w ds, in L: the axial resultant is N(s) = F + wₐ h(s).
 
@@ -111,6 +118,17 @@ class Rod:
         offset = -above - weight * (self.breaks[1:] - 1.0)
         offset[-1] = 0.0
         return Profile(self.breaks, np.stack([offset, weight], axis=1))
+
+    @cached_property
+    def stiffness_steps(self) -> FloatArray:
+        """Where the bending stiffness has a step, (k,), in L."""
+        stiffness = self._ratios(1)
+        return np.asarray(self.breaks[1:-1][stiffness[1:] != stiffness[:-1]])
+
+    @property
+    def stepped(self) -> bool:
+        """Whether the bending stiffness has a step: a buckled rod stays on the wall there only if its slope is held."""
+        return self.stiffness_steps.size > 0
 
     @cached_property
     def whole_weight(self) -> float:

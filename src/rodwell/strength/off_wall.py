@@ -53,24 +53,30 @@ class RodOffWall:
 def _fields(state: ContactState, s: FloatArray) -> Fields:
     """Force, moments and height of a state, at places s (m,).
 
-    The bending moment is the curvature, B = 1; the twisting moment is that of the end all along. ``xi2`` is the angle
-    around the hole of a rod on the wall at the same height: cos ξ₂ = −x/Δ.
+    The twisting moment is that of the end all along. ``xi2`` is the angle around the hole of a rod on the wall at the
+    same height: cos ξ₂ = −x/Δ.
     """
     f = state.fields(s)
     height = np.clip(-f["x"] / state.problem.clearance, -1.0, 1.0)
     return {
         "s": f["s"], "z": f["z"], "xi2": np.arccos(height), "rod_F1": f["tension"],
-        "rod_M1": np.full(s.shape, state.problem.twist), "rod_M2": np.zeros(s.shape), "rod_M3": f["curvature"],
+        "rod_M1": np.full(s.shape, state.problem.twist), "rod_M2": np.zeros(s.shape), "rod_M3": f["bending_moment"],
     }  # fmt: skip
 
 
 def _largest(state: ContactState, size: Callable[[Fields], FloatArray]) -> tuple[float, float]:
-    """The largest value and its place: among evenly spaced places and ends of stretches, then closer and closer."""
-    places = np.unique(np.concatenate([np.linspace(0.0, 1.0, PLACES), np.clip(state.fine.bounds, 0.0, 1.0)]))
+    """The largest value and its place: among evenly spaced places and ends of stretches, then closer and closer.
+
+    Of a string also on either side of each step, where what is made from its fields jumps.
+    """
+    steps = state.problem.rod.breaks[1:-1]
+    ends = np.concatenate([np.clip(state.fine.bounds, 0.0, 1.0), np.nextafter(steps, 0.0), steps])
+    places = np.unique(np.concatenate([np.linspace(0.0, 1.0, PLACES), ends]))
+    found = -np.inf, 0.0
     for zoom in range(ZOOMS + 1):
         values = size(_fields(state, places))
         i = int(np.argmax(values))
-        found = float(values[i]), float(places[i])
+        found = max(found, (float(values[i]), float(places[i])))
         if zoom < ZOOMS:
             places = np.linspace(places[max(i - 1, 0)], places[min(i + 1, len(places) - 1)], ZOOMED)
     return found

@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import DEGREE, Pattern, chain, counts
+from rodwell.analysis.off_wall.pattern import DEGREE, WAVES, Elements, Pattern, chain, counts
 from rodwell.numerics.stretches.carry import Sampler, fit, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
@@ -21,11 +21,25 @@ LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 """An element may become this much longer, or shorter, than a new one would be."""
 
 
-def wavenumber(model: RodInHole, load: float) -> float:
-    """√|F| at its largest along the rod, of a beam column, but at least that of a beam bedded on the wall."""
+def wavenumbers(model: RodInHole, load: float) -> FloatArray:
+    """√(|N|/b) at its largest in each section (n,), of a beam column, at least that of a beam bedded on the wall."""
     problem = model.problem
-    bed = (problem.lateral_weight / problem.clearance) ** 0.25
-    return math.sqrt(max(abs(load), abs(load - problem.axial_weight), bed**2, math.pi**2))
+    (b, q, d), breaks = model.given.T, problem.rod.breaks
+    wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance))
+    ends = np.stack([load + wa * (d + q * (s - 1.0)) for s in (breaks[:-1], breaks[1:])])
+    return np.asarray(np.sqrt(np.max([*(np.abs(ends) / b), bed, np.full(b.size, math.pi**2)], axis=0)))
+
+
+def wavenumber(model: RodInHole, load: float) -> float:
+    """The largest of all sections."""
+    return float(np.max(wavenumbers(model, load)))
+
+
+def element_counts(
+    model: RodInHole, breaks: FloatArray, load: float, waves: float = WAVES, fewest: int = 1
+) -> Elements:
+    """Elements of each piece of each stretch, as its waves ask for."""
+    return counts(breaks, model.problem.rod.breaks[1:-1], wavenumbers(model, load), waves, fewest)
 
 
 def arranged(
@@ -36,11 +50,11 @@ def arranged(
     sample: Sampler,
     *,
     degree: int = DEGREE,
-    elements: tuple[int, ...] | None = None,
-) -> tuple[Shape, tuple[int, ...]]:
+    elements: Elements | None = None,
+) -> tuple[Shape, Elements]:
     """A shape of a pattern that follows a sampler, not yet in equilibrium, and its numbers of elements."""
-    elements = elements or counts(pattern, breaks, wavenumber(model, load))
-    links, held = chain(model.problem, pattern, elements, degree)
+    elements = elements or element_counts(model, breaks, load)
+    links, held = chain(model.problem, model.given, pattern, elements, degree)
     return fit(links, breaks, load, sample, held), elements
 
 
@@ -53,7 +67,7 @@ def solved(
     *,
     fixed: tuple[int, int] | None = None,
     degree: int = DEGREE,
-    elements: tuple[int, ...] | None = None,
+    elements: Elements | None = None,
 ) -> PatternedState | None:
     """The equilibrium of a pattern near a sampled shape; None if Newton's method fails.
 
@@ -96,7 +110,7 @@ def refined(state: PatternedState, more: int, along: Motion | None = None) -> Pa
     At the same load; or, with ``along``, at the same place along a path in that direction, which may fold in the load.
     """
     shape = state.solved.shape
-    links, _ = chain(state.model.problem, state.pattern, state.elements, shape.chain.degree + more)
+    links = replace(shape.chain, degree=shape.chain.degree + more)
     bubbles = np.concatenate([shape.bubbles, np.zeros((*shape.bubbles.shape[:2], more))], axis=2)
     raised = Shape(links, shape.nodes, bubbles, shape.breaks, shape.load)
     row = fixed_load(links, shape.load)
@@ -109,10 +123,11 @@ def refined(state: PatternedState, more: int, along: Motion | None = None) -> Pa
 
 def needs_new_elements(state: PatternedState) -> bool:
     """Whether elements have become too long, or far too short."""
-    wanted = counts(state.pattern, state.solved.shape.breaks, wavenumber(state.model, state.load))
+    wanted = element_counts(state.model, state.solved.shape.breaks, state.load)
     return any(
         have * LONGEST_ELEMENT < want or (have > 1 and have * SHORTEST_ELEMENT > want)
-        for have, want in zip(state.elements, wanted, strict=True)
+        for pieces, wants in zip(state.elements, wanted, strict=True)
+        for have, want in zip(pieces, wants, strict=True)
     )
 
 

@@ -114,7 +114,8 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
 def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray]:
     x, y, pressure = position(state, s)
     problem = state.model.problem
-    return in_space(x, y, state.load + problem.axial_weight * (s - 1.0), problem.twist).n, pressure
+    n = state.load + problem.axial_weight * problem.rod.lever(s)
+    return in_space(x, y, n, problem.twist, problem.rod.stiffness(s)).n, pressure
 
 
 def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
@@ -130,10 +131,10 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
                 h = 0.5 * (right - left)
                 s = left + half * (right - left) + 0.5 * h * (points + 1.0)
                 x, y, pressure = position(state, s)
-                w = 0.5 * h * weights
-                out[0, k] += w @ (problem.foundation - pressure * x[0] / problem.clearance)
+                w, weight = 0.5 * h * weights, problem.rod.weight(s)
+                out[0, k] += w @ (problem.foundation * weight - pressure * x[0] / problem.clearance)
                 out[1, k] += w @ (-pressure * y[0] / problem.clearance)
-                out[2, k] += float(np.sum(w)) * problem.axial_weight
+                out[2, k] += problem.axial_weight * (w @ weight)
     return out
 
 

@@ -9,13 +9,15 @@ before it has no length.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import solved, wavenumber
-from rodwell.analysis.off_wall.bumps import Bump, beside, lowered, within
+from rodwell.analysis.off_wall.bumps import beside, lowered, within
 from rodwell.analysis.off_wall.conditions import (
+    BESIDE_STEP,
+    CROSSES,
     GROWS,
     GROWS_AT_END,
     LOST,
@@ -28,6 +30,8 @@ from rodwell.analysis.off_wall.conditions import (
     watched,
 )
 from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.plan import Plan
+from rodwell.analysis.off_wall.steps import cross, open_at, release
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
 
@@ -47,8 +51,8 @@ HALVINGS, ROUNDS = 5, 3
 """Sizes of a first gap, each half the one before; and how often others that would open next open with it."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
-         SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens"}  # fmt: skip
-"""What a change is called along a path."""
+         SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens", CROSSES: ""}  # fmt: skip
+"""What a change is called along a path; that an end of a stretch passes a step of a string is no event."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,31 +62,6 @@ class Changed:
     state: PatternedState
     grows: Callable[[Solved], float]
     name: str
-
-
-@dataclass(repr=False)
-class _Plan:
-    """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold.
-
-    ``half`` is half the first length of a gap, ``contact`` the first length of a stretch in contact.
-    """
-
-    state: PatternedState
-    half: float
-    contact: float
-    touching: list[bool]
-    breaks: list[float]
-    bumps: list[Bump] = field(default_factory=list)
-    pair: tuple[float, float] | None = None
-
-    @property
-    def fixed(self) -> tuple[int, int] | None:
-        """The numbers of the ends whose distance is held."""
-        if self.pair is None:
-            return None
-        places = [0.0, *self.breaks, 1.0]
-        first, last = (places.index(place) - 1 for place in self.pair)
-        return first, last
 
 
 def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0) -> Changed | None:
@@ -96,7 +75,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
         spots: list[float] = []
         for halved in range(HALVINGS):
             half, contact = size * 0.5**halved, max(2.2 * FIRST_CONTACT * 0.5**halved, SHORTEST_CONTACT)
-            plan = _Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
+            plan = Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
             for condition in sorted(vanished, key=lambda one: -one.s):
                 _EDITS[condition.kind](plan, condition)
             pattern = replace(state.pattern, touching=tuple(plan.touching))
@@ -132,7 +111,7 @@ def _just_now(condition: Condition) -> bool:
     return condition.kind in (LOST, GROWS, GROWS_AT_END) and condition.value > -1e-6
 
 
-def _growing(first: Condition, found: PatternedState, plan: _Plan) -> Callable[[Solved], float]:
+def _growing(first: Condition, found: PatternedState, plan: Plan) -> Callable[[Solved], float]:
     """What grows after the first of the conditions has vanished."""
     if plan.pair is not None and plan.fixed is not None:
         low, high = plan.fixed
@@ -148,10 +127,13 @@ def _place(one: Solved, number: int) -> float:
     return float(np.concatenate([[0.0], one.shape.breaks, [1.0]])[number + 1])
 
 
-def _open(plan: _Plan, condition: Condition) -> None:
+def _open(plan: Plan, condition: Condition) -> None:
     """A gap opens on a stretch in contact: within it, or beside one of its ends."""
     i, s, state = condition.number, condition.s, plan.state
     left, right = state.bounds[i : i + 2]
+    if float(np.min(np.abs(state.model.problem.rod.breaks[1:-1] - s), initial=1.0)) < BESIDE_STEP:
+        open_at(plan, condition)
+        return
     half = min(plan.half, 0.3 * (right - left))
     if min(s - left, right - s) <= 0.05 * half:
         at_left = s - left < right - s
@@ -169,18 +151,18 @@ def _open(plan: _Plan, condition: Condition) -> None:
     plan.pair = (s - half, s + half)
 
 
-def _touch(plan: _Plan, condition: Condition) -> None:
+def _touch(plan: Plan, condition: Condition) -> None:
     """The rod reaches the wall within a free stretch: a point of contact, without force at first."""
     plan.touching[condition.number : condition.number + 1] = [False, False]
     plan.breaks.insert(condition.number, condition.s)
 
 
-def _lose(plan: _Plan, condition: Condition) -> None:
+def _lose(plan: Plan, condition: Condition) -> None:
     """A point of contact without force leaves the wall."""
     del plan.touching[condition.number], plan.breaks[condition.number]
 
 
-def _grow(plan: _Plan, condition: Condition) -> None:
+def _grow(plan: Plan, condition: Condition) -> None:
     """A point of contact grows to a stretch."""
     i, half = condition.number, 0.5 * plan.contact
     s = plan.breaks[i]
@@ -189,7 +171,7 @@ def _grow(plan: _Plan, condition: Condition) -> None:
     plan.pair = (s - half, s + half)
 
 
-def _split(plan: _Plan, condition: Condition) -> None:
+def _split(plan: Plan, condition: Condition) -> None:
     """A point of contact becomes two with a gap between them: in contact the stretch between them would pull."""
     i, half = condition.number, 0.5 * plan.contact
     s = plan.breaks[i]
@@ -198,7 +180,7 @@ def _split(plan: _Plan, condition: Condition) -> None:
     plan.pair = (s - half, s + half)
 
 
-def _grow_at_end(plan: _Plan, condition: Condition) -> None:
+def _grow_at_end(plan: Plan, condition: Condition) -> None:
     """Contact grows from a radially held end."""
     size = plan.contact
     if condition.number:
@@ -211,8 +193,11 @@ def _grow_at_end(plan: _Plan, condition: Condition) -> None:
         plan.pair = (0.0, size)
 
 
-def _release(plan: _Plan, condition: Condition) -> None:
+def _release(plan: Plan, condition: Condition) -> None:
     """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
+    if 0.0 < condition.s < 1.0:
+        release(plan, condition)
+        return
     problem = plan.state.model.problem
     weight = max(problem.lateral_weight, 1e-3)
     length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 2e-3, 0.3))
@@ -227,7 +212,7 @@ def _release(plan: _Plan, condition: Condition) -> None:
 
 
 _EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, SPLITS: _split,
-          GROWS_AT_END: _grow_at_end}  # fmt: skip
+          GROWS_AT_END: _grow_at_end, CROSSES: cross}  # fmt: skip
 
 
 def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:

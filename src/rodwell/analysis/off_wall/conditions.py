@@ -7,8 +7,9 @@ Where one of them vanishes along a path the pattern of contact changes:
 * the gap beside a point of contact opens like a parabola, r″ < 0: else the contact grows to a stretch,
 * at a radially held end the free rod curves inwards: else contact grows from the end,
 * at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
-  moment that this takes: else it leaves the wall there,
-* the rod nowhere reaches the wall within a free stretch: else it touches there.
+  moment that this takes: else it leaves the wall there; nor where its stiffness has a step,
+* the rod nowhere reaches the wall within a free stretch: else it touches there,
+* ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them.
 """
 
 from __future__ import annotations
@@ -20,14 +21,15 @@ from typing import NamedTuple
 import numpy as np
 
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.pattern import Elements, Pattern
+from rodwell.numerics.stretches.chain import ANGLE_RATE
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "grows_at_end", "touches", "leaves"
-UNHELD = "unheld"
+UNHELD, CROSSES = "unheld", "crosses"
 
 PER_ELEMENT = 12
 """Places in an element at which pressure and gap are looked at first."""
@@ -42,8 +44,15 @@ KNOWN_FORCE = 5e-6
 """A force at the end of a stretch in contact comes from third derivatives, which the elements along a path know to this
 part of |F|^{3/2}: an end of a gap that has just opened may seem to pull by less."""
 
-EDGE = 0.02
-"""Part of a free stretch at either end where the gap is left to the conditions on forces and curvature."""
+BESIDE_STEP = 2e-4
+"""Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it."""
+
+NO_SLOPE = 1e-7
+"""Slope φ′ in rad/L at a step of the stiffness that is as good as none."""
+
+EDGE, SHORTEST_EDGE, WIDEST = 0.02, 5e-4, 0.1
+"""Part of a free stretch at either end where the gap is left to the conditions on forces and curvature; at least so
+much of L, since the gap there is of the size of round-off, but no more than the last part of the stretch."""
 
 
 class Condition(NamedTuple):
@@ -60,7 +69,7 @@ class PatternedState:
     """An equilibrium with its pattern and the numbers of elements of its stretches."""
 
     pattern: Pattern
-    elements: tuple[int, ...]
+    elements: Elements
     solved: Solved
 
     @property
@@ -86,8 +95,8 @@ class PatternedState:
 
     def elements_of(self, stretch: int) -> range:
         """Numbers of the elements of a stretch."""
-        first = sum(self.elements[:stretch])
-        return range(first, first + self.elements[stretch])
+        first = sum(map(sum, self.elements[:stretch]))
+        return range(first, first + sum(self.elements[stretch]))
 
 
 def conditions(state: PatternedState) -> list[Condition]:
@@ -102,6 +111,26 @@ def conditions(state: PatternedState) -> list[Condition]:
         if pattern.is_point(i):
             found.append(Condition(GROWS, i, float(solved.openings[i]), place))
     found += [at for last in (False, True) if (at := _at_end(state, last)) is not None]
+    return found + at_steps(state)
+
+
+def at_steps(state: PatternedState) -> list[Condition]:
+    """What steps of a string ask for: no slope in contact where the stiffness jumps, and no end of a stretch there."""
+    shape, rod, found = state.solved.shape, state.model.problem.rod, []
+    stiffness, section = rod.stiffness.coefficients[:, 0], 0
+    for i, pieces in enumerate(state.elements):
+        inner = range(section, section + len(pieces) - 1)
+        for k in inner:
+            s = float(rod.breaks[1 + k])
+            if state.pattern.touching[i] and stiffness[k] != stiffness[k + 1]:
+                slope = float(shape.nodes[int(np.searchsorted(shape.places, s)), ANGLE_RATE])
+                found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope), s))
+        if inner:  # the ends of the stretch, upwards to its first step and downwards to its last
+            first, last = float(rod.breaks[1 + inner.start]), float(rod.breaks[inner.stop])
+            for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
+                if 0 <= number < 2 * state.pattern.breaks:
+                    found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
+        section += len(pieces) - 1
     return found
 
 
@@ -158,9 +187,10 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
     """The contact pressure p on elements in contact (k,) as a function of ξ (k, n), negative in contact."""
     shape = state.solved.shape
     left, right = shape.places[elements, None], shape.places[elements + 1, None]
+    given = shape.chain.given[elements].T[:, :, None]
 
     def pressure(xi: FloatArray) -> FloatArray:
-        return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load)
+        return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load, given)
 
     return pressure
 
@@ -173,7 +203,7 @@ def apart(state: PatternedState, stretch: int) -> Condition:
     left, right = state.bounds[stretch : stretch + 2]
     shape, elements = state.solved.shape, np.array(state.elements_of(stretch))
     powers = [_power(state, stretch, last) for last in (False, True)]
-    inset = EDGE * (right - left)
+    inset = max(EDGE * (right - left), min(WIDEST * (right - left), SHORTEST_EDGE))
     low, high = left + (inset if powers[0] else 0.0), right - (inset if powers[1] else 0.0)
     elements = elements[(shape.places[elements] < high) & (shape.places[elements + 1] > low)]
     start, end = shape.places[elements], shape.places[elements + 1]
@@ -228,6 +258,9 @@ def watched(condition: Condition, state: PatternedState) -> float:
         return apart(state, condition.number).value
     if condition.kind == GROWS:
         return float(state.solved.openings[condition.number])
+    if condition.kind == CROSSES or (condition.kind == UNHELD and condition.number > 1):
+        same = [one for one in at_steps(state) if one[:2] == condition[:2]]
+        return same[0].value if same else np.nan
     if condition.kind in (GROWS_AT_END, UNHELD):
         at = _at_end(state, bool(condition.number))
         return np.nan if at is None else at.value

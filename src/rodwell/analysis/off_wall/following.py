@@ -206,7 +206,8 @@ class _Walker:
         if after is None:
             self.result.ended = unresolved(event)
             return
-        self.result.events.append(replace(event, kind=after.name))
+        if after.name:
+            self.result.events.append(replace(event, kind=after.name))
         self._enter(after)
 
     def _enter(self, after: Changed) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState, lowest, pressure_on
 from rodwell.numerics.stretches.basis import reference_element
-from rodwell.numerics.stretches.carry import fields_at
+from rodwell.numerics.stretches.carry import elements_at, fields_at
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES = 16
@@ -63,7 +63,7 @@ def measured(state: PatternedState) -> Numbers:
 
 def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
     """z(s) in L at ``places`` (k,), by Gauss's rule on a fine grid."""
-    grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), state.bounds]))
+    grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), state.bounds, state.problem.rod.breaks]))
     points, weights = np.polynomial.legendre.leggauss(4)
     s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
     x, y, _ = position(state, s)
@@ -92,5 +92,6 @@ def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
         sin, cos = np.sin(angle[0, on]), np.cos(angle[0, on])
         around, radial = phi3 - phi1**3, -3.0 * phi1 * phi2
         fields[:, 3, on] = around * sin - radial * cos, around * cos + radial * sin
-        pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load)
+        given = shape.chain.given[elements_at(shape, s[on])].T
+        pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load, given)
     return d * fields[0], d * fields[1], pressure

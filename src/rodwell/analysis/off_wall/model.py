@@ -2,7 +2,8 @@
 
 Lateral position and y are measured in Δ, the energy in BΔ²/L³, so that numbers are of order one; places s stay in L.
 On the wall the density of :mod:`rodwell.physics.on_wall` serves, off it that of :mod:`rodwell.physics.off_wall`; they
-are equal where both hold.
+are equal where both hold. A section of a string is a uniform rod of its own constants, on the wall and off it
+(:mod:`rodwell.physics.on_wall.sections`); what is ``given`` in an element are these: b, q and d, in that order.
 """
 
 from __future__ import annotations
@@ -14,15 +15,17 @@ from typing import Any
 import numpy as np
 
 from rodwell.physics.off_wall._density import hole_density
-from rodwell.physics.off_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
-from rodwell.physics.on_wall import parameters as wall
-from rodwell.physics.on_wall._density import rod_density
+from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
+from rodwell.physics.on_wall.sections import of_section, section_density
 from rodwell.physics.on_wall.strand import contact_pressure
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 _FREE = ((0, 1), (0, 2), (1, 1), (1, 2))
 """Field and derivative that the Hessian off the wall belongs to."""
+
+_BY_FORCE = np.eye(COUNT)[FORCE]
+"""Rates of the parameters as the end force grows."""
 
 
 @dataclass(frozen=True)
@@ -32,42 +35,34 @@ class RodInHole:
     problem: Problem
 
     @cached_property
-    def _free(self) -> FloatArray:
-        out, problem = np.zeros(5), self.problem
+    def _unloaded(self) -> FloatArray:
+        out, problem = np.zeros(COUNT), self.problem
         out[AXIAL_WEIGHT], out[LATERAL_WEIGHT] = problem.axial_weight, problem.foundation
-        out[CLEARANCE], out[TWIST] = problem.clearance, problem.twist
+        out[CLEARANCE], out[TWIST], out[SIDE] = problem.clearance, problem.twist, 1.0
         return out
 
     @cached_property
-    def _rates(self) -> FloatArray:
-        out = np.zeros(5)
-        out[FORCE] = 1.0
-        return out
+    def given(self) -> FloatArray:
+        """b, q and d of each section, (n, 3)."""
+        rod = self.problem.rod
+        offset, weight = rod.lever.coefficients.T
+        return np.stack([rod.stiffness.coefficients[:, 0], weight, offset], axis=1)
 
-    @property
-    def load_per_length(self) -> float:
-        """wₐ: the density depends on s only through N(s) = F + wₐ(s − 1)."""
-        return self.problem.axial_weight
+    def load_per_length(self, given: FloatArray) -> FloatArray:
+        """Axial weight q wₐ: a section's density depends on s only through N(s) = F + wₐ(d + q(s − 1))."""
+        return np.asarray(given[1] * self.problem.axial_weight)
 
-    def at_load(self, load: float) -> FloatArray:
-        """Parameters off the wall at an end force."""
-        out = self._free.copy()
+    def parameters(self, load: float) -> FloatArray:
+        """Parameters at an end force: those of the rod kept on the wall, the first of which serve off it."""
+        out = self._unloaded.copy()
         out[FORCE] = load
         return out
 
-    def wall_parameters(self, load: float) -> FloatArray:
-        """Parameters of the rod kept on the wall at an end force."""
-        out = np.zeros(wall.COUNT)
-        out[:5], out[wall.SIDE] = self.at_load(load), 1.0
-        return out
-
-    def rim(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+    def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
         d = self.problem.clearance
         y = d * u[0]
-        rates = np.zeros(wall.COUNT)
-        rates[wall.FORCE] = 1.0
-        e, rate, g, m, h = rod_density(s, y[0], y[1], y[2], self.wall_parameters(load), rates)
+        e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given, self.parameters(load), _BY_FORCE)
         shape = s.shape
         hessian = np.empty((1, 3, 1, 3, *shape))
         for i in range(3):
@@ -75,11 +70,13 @@ class RodInHole:
                 hessian[0, i, 0, j] = h[i][j]
         return e / d**2, rate / d**2, _stacked(g, shape) / d, _stacked(m, shape) / d, hessian
 
-    def interior(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+    def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
         d = self.problem.clearance
         (x, x1, x2), (_, y1, y2) = d * u
-        e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, self.at_load(load), self._rates)
+        b = given[0]  # of the softness 1/b under every load, as in the sections of a rod on the wall
+        own = of_section(given, self.parameters(load), 1.0 / b)
+        e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, own, _BY_FORCE)
         shape = s.shape
         gradient, mixed = np.zeros((2, 3, *shape)), np.zeros((2, 3, *shape))
         gradient[0, 0], mixed[0, 0] = g[0], m[0]
@@ -88,9 +85,9 @@ class RodInHole:
             gradient[f, k], mixed[f, k] = g[1 + i], m[1 + i]
             for j, (other, order) in enumerate(_FREE):
                 hessian[f, k, other, order] = h[i][j]
-        return e / d**2, rate / d**2, gradient / d, mixed / d, hessian
+        return b * e / d**2, rate / d**2, b * gradient / d, mixed / d, b * hessian
 
-    def rim_reaction(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def rim_reaction(self, u: FloatArray, given: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.
 
         They are ∂e/∂u″ · r̂, and Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′: what a variation of r and r′ at
@@ -102,16 +99,18 @@ class RodInHole:
         nil = np.zeros_like(phi1)
         x2, y2 = d * phi1**2, d * phi2
         x3, y3 = 3.0 * d * phi1 * phi2, d * (phi3 - phi1**3)
-        _, _, g, _, h = hole_density(1.0, -d, nil, x2, d * phi1, y2, self.at_load(0.0), self._rates)
+        b = given[0]
+        own = of_section((b, 0.0, 0.0), self.parameters(0.0), 1.0 / b)
+        _, _, g, _, h = hole_density(1.0, -d, nil, x2, d * phi1, y2, own, _BY_FORCE)
         by_slopes, by_bends = (h[1][0], h[1][2]), (h[1][1], h[1][3])  # second derivatives by x″ and x′, y′ or x″, y″
         shear = g[1] - by_slopes[0] * x2 - by_slopes[1] * y2 - by_bends[0] * x3 - by_bends[1] * y3
         by_rate = -by_slopes[1] - 2.0 * phi1 * by_bends[0]
-        return -g[2] / d, by_rate, (phi1 * g[4] - shear) / d
+        return -b * g[2] / d, b * by_rate, b * (phi1 * g[4] - shear) / d
 
-    def pressure(self, s: FloatArray, angle: FloatArray, load: float) -> FloatArray:
+    def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""
-        y = self.problem.clearance * angle
-        return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], self.wall_parameters(load)))
+        y, own = self.problem.clearance * angle, of_section(given, self.parameters(load))
+        return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], own, given[0]))
 
 
 def _stacked(rows: Any, shape: tuple[int, ...]) -> FloatArray:

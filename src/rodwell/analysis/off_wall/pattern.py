@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,6 +19,9 @@ FINER = 2
 
 WAVES = 0.55
 """Length of an element, times the wavenumber √|F| of a beam column, in units of half-waves."""
+
+Elements = tuple[tuple[int, ...], ...]
+"""Numbers of elements of each stretch, in each of the pieces into which steps between sections part it."""
 
 
 @dataclass(frozen=True)
@@ -71,27 +75,39 @@ def end_held(problem: Problem, last: bool, turns: float) -> tuple[BoolArray, Flo
     return held, np.where(held, values, np.nan)
 
 
-def counts(pattern: Pattern, breaks: FloatArray, wavenumber: float) -> tuple[int, ...]:
-    """How many elements each stretch gets."""
-    lengths = np.diff(np.concatenate([[0.0], breaks, [1.0]]))
-    return tuple(max(1, math.ceil(length * wavenumber / (WAVES * math.pi))) for length in lengths)
+def counts(
+    breaks: FloatArray, steps: FloatArray, wavenumbers: FloatArray, waves: float = WAVES, fewest: int = 1
+) -> Elements:
+    """How many elements each piece of each stretch gets: ``waves`` of them in a half-wave, and so many of the whole.
+
+    Steps (n − 1,) between sections part a stretch into pieces, ``wavenumbers`` (n,) are those of the sections.
+    """
+    bounds, out = np.concatenate([[0.0], breaks, [1.0]]), []
+    for left, right in pairwise(bounds):
+        first, last = np.searchsorted(steps, left, side="right"), np.searchsorted(steps, right, side="left")
+        lengths = np.diff(np.concatenate([[left], steps[first:last], [right]]))
+        numbers = lengths * wavenumbers[first : last + 1] / (waves * math.pi)
+        out.append(tuple(max(1, *map(math.ceil, pair)) for pair in zip(numbers, fewest * lengths, strict=True)))
+    return tuple(out)
 
 
-def chain(problem: Problem, pattern: Pattern, elements: tuple[int, ...], degree: int) -> tuple[Chain, FloatArray]:
-    """Elements for a pattern, and the values of what is held (e+1, 4), NaN elsewhere."""
-    total, m = sum(elements), pattern.breaks
-    touching = np.repeat(pattern.touching, elements)
-    first = np.concatenate([[0], np.cumsum(elements)])  # nodes at ends of stretches
-    base, shares = np.zeros(total + 1), np.zeros((total + 1, m))
-    for i, count in enumerate(elements):
-        part = np.arange(count + 1) / count
-        here = slice(first[i], first[i + 1] + 1)
-        base[here], shares[here] = 0.0, 0.0
-        for end, weight in ((i - 1, 1.0 - part), (i, part)):
-            if 0 <= end < m:
-                shares[here, end] += weight
-            elif end == m:
-                base[here] += weight
+def chain(
+    problem: Problem, given: FloatArray, pattern: Pattern, elements: Elements, degree: int
+) -> tuple[Chain, FloatArray]:
+    """Elements for a pattern, and the values of what is held (e+1, 4), NaN elsewhere.
+
+    ``given`` (n, g) is what the model knows of each section.
+    """
+    sizes = tuple(map(sum, elements))
+    total = sum(sizes)
+    touching = np.repeat(pattern.touching, sizes)
+    first = np.concatenate([[0], np.cumsum(sizes)])  # nodes at ends of stretches
+    pieces = np.array([count for stretch in elements for count in stretch])
+    owner = np.repeat(np.arange(pieces.size), pieces)
+    part = ((np.arange(total) - (np.cumsum(pieces) - pieces)[owner]) / pieces[owner])[:, None]
+    corners = _corners(problem.rod.breaks[1:-1], elements)
+    places = np.concatenate([corners[owner] * (1.0 - part) + corners[owner + 1] * part, corners[-1:]])
+    section = owner - np.repeat(np.arange(len(elements)), sizes)  # one more at each corner that is a step, not a break
     polar = np.zeros(total + 1, dtype=bool)
     polar[first[1:-1]] = True
     polar[:-1] |= touching
@@ -109,4 +125,22 @@ def chain(problem: Problem, pattern: Pattern, elements: tuple[int, ...], degree:
     if pattern.planar and pattern.touching == (False,):  # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
     moving = first[1:-1].astype(np.int64)
-    return Chain(degree, touching, polar, held, moving, base, shares, pattern.planar), values
+    base, shares = places[:, 0], places[:, 1:]
+    return Chain(degree, touching, polar, held, moving, base, shares, given[section], pattern.planar), values
+
+
+def _corners(steps: FloatArray, elements: Elements) -> FloatArray:
+    """Where pieces begin and end, as a fixed place and shares in the breaks, (pieces + 1, 1 + breaks)."""
+    m = len(elements) - 1
+    corners, step = [np.zeros(1 + m)], 0
+    for i, stretch in enumerate(elements):
+        for last in [False] * (len(stretch) - 1) + [True]:
+            corner = np.zeros(1 + m)
+            if not last:
+                corner[0], step = steps[step], step + 1
+            elif i < m:
+                corner[1 + i] = 1.0
+            else:
+                corner[0] = 1.0
+            corners.append(corner)
+    return np.stack(corners)

@@ -61,9 +61,10 @@ def recognised(model: RodInHole, shape: Shape, control: Control, value: float) -
     """
     for stiffness in STIFFNESSES:
         if stiffness == FINER_FROM:
+            pieces = np.histogram(0.5 * (shape.places[1:] + shape.places[:-1]), model.problem.rod.breaks)[0]
             shape, _ = arranged(
                 model, Pattern((False,)), np.zeros(0), shape.load, sampler(shape), degree=shape.chain.degree,
-                elements=(2 * shape.chain.elements,),
+                elements=(tuple(2 * pieces),),
             )  # fmt: skip
         low = descended(model, shape, stiffness, control.row(shape.chain, value), control.index_at)
         if low is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rodwell.analysis.off_wall.arrange import refined
+from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.happening import BRANCH_POINT, PathEvent
 from rodwell.analysis.off_wall.pattern import FINER
@@ -35,7 +36,10 @@ class ResolvedEvent:
 
 
 def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
-    """Locate an event again on elements of higher degree, until its load changes by no more than the tolerance."""
+    """Locate an event again on elements of higher degree, until its load changes by no more than the tolerance.
+
+    And until the state there passes its certificate, if that can be had.
+    """
     if event.value is None or event.along is None:
         return ResolvedEvent(event, Value(event.state.load, 0.0), True)
     load, error = event.state.load, UNKNOWN * abs(event.state.load)
@@ -46,7 +50,7 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
             break
         error = float(estimated_error(finer.state.load, load))
         best, load = finer, finer.state.load
-        if error <= PART * rtol * abs(load):
+        if error <= PART * rtol * abs(load) and contact_certificate(best.state).passed:
             break
     return ResolvedEvent(best, Value(load, error), error <= rtol * abs(load))
 

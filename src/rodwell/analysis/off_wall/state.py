@@ -181,20 +181,20 @@ class ContactState:
         """Fields along the rod at ``s`` (k,), or at that many evenly spaced places.
 
         ``s``; ``x``, ``y`` across the hole in L, the bottom at x = −Δ; ``z`` along it; ``gap`` between rod and wall in
-        Δ; ``angle`` around the hole from the bottom in rad, between −π and π; ``curvature`` in 1/L, which is the
-        bending moment in B/L; ``tension`` along the rod in B/L²; ``contact_pressure`` p in B/L³, negative in contact,
-        without point forces.
+        Δ; ``angle`` around the hole from the bottom in rad, between −π and π; ``curvature`` in 1/L and
+        ``bending_moment`` in B/L (equal for a uniform rod); ``tension`` along the rod in B/L²; ``contact_pressure`` p
+        in B/L³, negative in contact, without point forces.
         """
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
         x, y, pressure = position(self.fine, places)
         problem = self.problem
-        n = self.force + problem.axial_weight * (places - 1.0)
-        rod = in_space(x, y, n, problem.twist)
+        n, stiffness = self.force + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
+        rod = in_space(x, y, n, problem.twist, stiffness)
         gap = 1.0 - np.hypot(x[0], y[0]) / problem.clearance
         return {
             "s": places, "x": x[0], "y": y[0], "z": along_axis(self.fine, places), "gap": gap,
             "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "tension": rod.tension,
-            "contact_pressure": pressure,
+            "bending_moment": stiffness * rod.curvature, "contact_pressure": pressure,
         }  # fmt: skip
 
     def field_errors(self, s: FloatArray) -> dict[str, float]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import checked_force
 
 SOFTEST, STIFFEST = 1e-6, 1e18
@@ -20,11 +19,6 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     problem.refuse_curved("load paths off the wall are followed")
-    refuse_sections(
-        problem.sections,
-        "a rod of sections is followed on the wall only: its path off the wall is not computed; ask for its branches "
-        "and lift-off, or for the path of a uniform rod",
-    )
     if problem.outside:
         raise InputError(
             "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"

@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.resolve import UNKNOWN, resolved_event
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
+from rodwell.analysis.off_wall.steps import closes_with_slope
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
@@ -49,6 +50,10 @@ AT_BUCKLING = 1e-6
 
 STILL = 1e-4
 """The same, below which it is straight."""
+
+SETTLED = 0.03
+"""The same for a rod with gaps that close with its slope, at ball joints and at steps of the stiffness: they become too
+short to be followed before it is straight."""
 
 SHORT_STEP = 5e-3
 """Largest step where a longer one has jumped over a fold."""
@@ -149,7 +154,7 @@ def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, 
 
 def _first_still(path: Followed) -> int | None:
     """The number of the first state of a path that is straight, if it began bent."""
-    bent = [not _flat(state, STILL) for state in path.states]
+    bent = [not (_flat(state, STILL) or _settles(state)) for state in path.states]
     return bent.index(False) if bent[0] and not all(bent) else None
 
 
@@ -209,6 +214,14 @@ def _flat(state: PatternedState, angle: float = FLAT) -> bool:
     if not pattern.full:
         return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
     return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
+
+
+def _settles(state: PatternedState) -> bool:
+    """Whether a rod that leaves the wall as soon as it buckles is about to be straight."""
+    touching, angles = state.pattern.touching, state.solved.shape.nodes[state.solved.shape.chain.polar, 1]
+    if state.pattern.full or state.pattern.turns or float(np.ptp(angles)) >= SETTLED:
+        return False
+    return all(on or closes_with_slope(state, i) for i, on in enumerate(touching))
 
 
 def _straightens(state: PatternedState, how: How) -> bool:

@@ -6,7 +6,7 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, walked
-from rodwell.analysis.path.start import OnWall, arched, carried, on_wall, released
+from rodwell.analysis.path.start import OnWall, arched, carried, leaving_places, on_wall, released
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 
@@ -25,7 +25,7 @@ def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     begun, start = None, None
     if problem.lateral_weight == 0.0:
         start = arched(problem, how.mode)
-    elif "ball" in problem.ends:
+    elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
     elif problem.pressed:
         begun = on_wall(problem, 1, mirror, how.rtol, before)
@@ -35,8 +35,10 @@ def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
     critical = Value(how.mode.force, how.mode.error)
     leg.straight.append((top, how.mode.force))
     out = walked(start, model, control.value(start.solved), until, leg, how)
-    kinds = (CRITICAL, LIFT_OFF) if begun is None else (CRITICAL,)
-    out.events[:0] = [PathPoint(kind, critical, (), LOADING) for kind in kinds]
+    first = [PathPoint(CRITICAL, critical, (), LOADING)]
+    if begun is None:
+        first.append(PathPoint(LIFT_OFF, critical, leaving_places(problem), LOADING))
+    out.events[:0] = first
     if begun is not None:
         _add_wall(leg, model, begun)
     if begun is not None and begun.snap is not None:

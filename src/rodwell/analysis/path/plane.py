@@ -32,7 +32,7 @@ def out_of_plane(state: PatternedState) -> PatternedState | None:
     """The first state of the branch that leaves the plane at a state where a planar path loses stability."""
     shape, model = state.solved.shape, state.model
     pattern = replace(state.pattern, planar=False)
-    links, _ = chain(model.problem, pattern, state.elements, shape.chain.degree)
+    links, _ = chain(model.problem, model.given, pattern, state.elements, shape.chain.degree)
     direction = softest(state.solved).reshape(-1, 4)
     direction = direction / float(np.max(np.abs(direction[:, :2])))
     nodes, still = ASIDE * direction, np.zeros_like(shape.breaks)

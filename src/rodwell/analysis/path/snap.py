@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import arranged, wavenumber
+from rodwell.analysis.off_wall.arrange import arranged, element_counts
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.pattern import Pattern
@@ -123,10 +123,9 @@ def _alike(minima: list[Solved], event: Solved, control: Control) -> list[list[S
 def _flowed(event: PatternedState, sample: Sampler, control: Control, value: float) -> Solved | None:
     """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held."""
     model, load = event.model, value if control.by_force else event.load
-    count = max(FEWEST_ELEMENTS, int(np.ceil(ELEMENTS_PER_HALF_WAVE * wavenumber(model, load) / np.pi)))
-    shape, _ = arranged(
-        model, Pattern((False,), event.pattern.turns), np.zeros(0), load, sample, degree=FLOW_DEGREE, elements=(count,)
-    )
+    pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
+    elements = element_counts(model, nowhere, load, 1.0 / ELEMENTS_PER_HALF_WAVE, FEWEST_ELEMENTS)
+    shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
     return descended(model, shape, STIFFNESS, control.row(shape.chain, value), control.index_at)
 
 

@@ -24,9 +24,9 @@ from rodwell.numerics.stretches.newton import Row, solve
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
-ENOUGH, MOST = 0.02, 0.6
-"""Largest angle around the hole, in radians, from which on a buckled state is a start for a chain; and up to which the
-rod with ball joints is sought beside it."""
+ENOUGH, BENT, MOST = 0.02, 0.04, 0.6
+"""Largest angle around the hole, in radians, from which on a buckled state is a start for a chain; and from which on,
+and up to which, a rod that leaves the wall as soon as it buckles is sought beside it."""
 
 ARCH = 0.02
 """Height, in clearances, of the first state of a rod that arches away from the wall."""
@@ -107,8 +107,14 @@ def _stable_at(model: RodInHole, branch: Branch, force: float) -> ContactState |
     return None if found is None else contact_state(found)
 
 
+def leaving_places(problem: Problem) -> tuple[float, ...]:
+    """Places at which a rod leaves the wall as soon as it buckles: ball joints, and steps of its stiffness."""
+    ends = [s for end, s in zip(problem.ends, (0.0, 1.0), strict=True) if end == "ball"]
+    return tuple(sorted([*ends, *map(float, problem.rod.stiffness_steps)]))
+
+
 def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | None:
-    """The first state of a rod with ball joints, which leaves the wall there as soon as it buckles.
+    """The first state of a rod that leaves the wall as soon as it buckles: at ball joints, at steps of its stiffness.
 
     From the rod that is radially held there instead, buckled a little. None where no such state was found that is
     stable and from which on the load grows: what follows then is for the descent to find.
@@ -120,7 +126,7 @@ def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | No
         amplitude = _amplitude(branch[i])
         if amplitude > MOST:
             return None
-        kept = carried(model, branch[i]) if amplitude >= ENOUGH else None
+        kept = carried(model, branch[i]) if amplitude >= BENT else None
         if kept is None:
             continue
         after = changed(kept, [one for one in conditions(kept) if one.kind == UNHELD])

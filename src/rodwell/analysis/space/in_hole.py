@@ -45,13 +45,14 @@ def geometry_in_hole(
     t1, d1 = _without_turning(centreline, np.stack([scale * x[1], scale * y[1], rate], axis=1))
     u1 = np.cross(t1, d1)
     turn = -problem.twist / problem.torsional_stiffness
-    d0, v1 = _turned(d1, u1, turn * s)
+    turned, rates = turn * problem.rod.turned(s), turn / problem.rod.torsion(s)
+    d0, v1 = _turned(d1, u1, turned)
     true_t1, true_d1 = _without_turning(axis + (centreline - axis) / scale, np.stack([x[1], y[1], rate], axis=1))
     true_u1 = np.cross(true_t1, true_d1)
     across = np.cross(true_t1, bend)  # the curvature vector t₁ × t₁'
     curvatures, material = (
-        np.stack([0.0 * s + about, *(np.sum(across * vector, axis=1) for vector in frame)], axis=1)
-        for about, frame in ((0.0, (true_d1, true_u1)), (turn, _turned(true_d1, true_u1, turn * s)))
+        np.stack([about, *(np.sum(across * vector, axis=1) for vector in frame)], axis=1)
+        for about, frame in ((0.0 * s, (true_d1, true_u1)), (rates, _turned(true_d1, true_u1, turned)))
     )
     return Geometry(
         s, centreline, t1, d1, u1, d0, v1, curvatures, material, fields, problem.clearance, radius, scale, False,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+import numpy as np
+
 from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_state
 from rodwell.analysis.path.events import LOADING, SNAP, PathPoint
 from rodwell.analysis.path.load_path import LoadPath, Progress, load_path
@@ -154,7 +156,7 @@ def reach(computed: Computed) -> tuple[float, float]:
     """End forces at s = 1 in B/L² to which the rod is loaded, and unloaded."""
     case, lift = computed.case, computed.lift_off
     assert lift is not None
-    half = 0.5 * case.problem.axial_weight
+    half = -case.problem.axial_weight * float(case.problem.rod.lever(np.array([0.5]))[0])
     asked = [load.force for load in case.applied] + ([] if case.until is None else [case.until])
     reach = REACH_ARCHED if case.problem.untouched else REACH
     until = min([half - reach * (half - lift.force), *asked])

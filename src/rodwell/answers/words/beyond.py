@@ -33,7 +33,8 @@ def story(case: Case, found: Beyond) -> str:
     up, down = ([one for one in path.events if one.leg == leg] for leg in (LOADING, UNLOADING))
     lift = next((one for one in up if one.kind == LIFT_OFF), None)
     snaps = [one for one in up if one.kind == SNAP]
-    parts = [] if lift is None else [f"lifts off at {_load(case, lift.force)}"]
+    stepped = "as soon as it buckles, at steps of its stiffness, " if case.problem.rod.stepped else ""
+    parts = [] if lift is None else [f"lifts off {stepped}at {_load(case, lift.force)}"]
     told = gradual(case.problem)
     parts += [gradually(one, _load(case, one.force)) for one in up if one.kind in told]
     if not snaps:

@@ -39,7 +39,7 @@ EFFECTIVE = (
 )
 """What is assumed of mud and pressures."""
 
-HELD_AT_STEPS = "at steps of the bending stiffness something holds the rod's slope across the wall"
+HELD_AT_STEPS = "up to lift-off, something holds the rod's slope across the wall at steps of the bending stiffness"
 """What is assumed of a string of sections."""
 
 LOWER_PART = 0.5
@@ -59,7 +59,7 @@ ENDS_HOLD = {
 def assumptions(case: Case) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
     more = (EFFECTIVE,) if case.with_fluids else ()
-    if case.problem.sections:
+    if case.problem.rod.stepped:
         more = (*more, HELD_AT_STEPS)
     hole = "cylinder rigid and straight" if case.problem.hole is None else "hole rigid, curved as given"
     return (ends_text(case.problem, ENDS_HOLD), *more, *(text.format(hole=hole) for text in ASSUMPTIONS))

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.state.wall import StepLoad
 from rodwell.answers.words.wording import place_text, size_text
-from rodwell.problem.problem import Problem
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 
@@ -15,11 +14,6 @@ if TYPE_CHECKING:
 
 MOST = 6
 """Steps that are named."""
-
-
-def has_steps(problem: Problem) -> bool:
-    """Whether the bending stiffness has a step: a buckled rod stays on the wall there only if its slope is held."""
-    return len({stiffness for _, stiffness, *_ in problem.sections}) > 1
 
 
 def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
-from rodwell.answers.words.steps import has_steps
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -53,7 +52,7 @@ def window_sentences(a: Assessment) -> list[str]:
 def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
     fluids = ", effective forces" if case.with_fluids else ""
-    held = ", its slope held at steps of its stiffness" if has_steps(case.problem) else ""
+    held = ", its slope held at steps of its stiffness" if case.problem.rod.stepped else ""
     hole = "straight hole" if case.problem.hole is None else "curved hole"
     return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{held}{fluids}"
 
@@ -125,7 +124,7 @@ def _window(a: Assessment) -> str:
         return "; the shape it buckles into is unstable from the start"
     part = share_shown(a)
     share = "" if part is None else f" ({percent(part)})"
-    held = ", if its slope is held at steps of its stiffness" if has_steps(a.case.problem) else ""
+    held = ", if its slope is held at steps of its stiffness" if a.case.problem.rod.stepped else ""
     text = f"; buckled, it stays on the wall{held}, stable, for another {size_text(scales, width)}{share} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:

@@ -2,11 +2,11 @@
 
 A model offers, in units where the disc has radius 1,
 
-* ``rim(s, u, load)`` and ``interior(s, u, load)``: energy density, its derivative by the load, gradient (f, 3), mixed
-  derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields and two
-  derivatives;
-* ``load_per_length``: the density depends on s only through load + load_per_length · s;
-* ``rim_reaction(u)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
+* ``rim(s, u, load, given)`` and ``interior(s, u, load, given)``: energy density, its derivative by the load, gradient
+  (f, 3), mixed derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields
+  and two derivatives, and from what is ``given`` in each element, (g, e, 1);
+* ``load_per_length(given)``: in an element the density depends on s only through load + load_per_length · s;
+* ``rim_reaction(u, given)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
 """
 
 from __future__ import annotations
@@ -126,14 +126,15 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     inverse = h[:, None] ** -order  # (k, 3): h^-d
     u = (a @ flat.T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3) * inverse.T[None, :, :, None]
     s = start[:, None] + h[:, None] * element.points
-    e, e_load, g, mixed, hessian = density(s, u, shape.load)
+    given = shape.chain.given[group].T[:, :, None]
+    per_length = model.load_per_length(given)
+    e, e_load, g, mixed, hessian = density(s, u, shape.load, given)
     weight = h[:, None] * element.weights  # (k, q)
     scaled = inverse[:, None, :, None] * weight[:, None, None, :]  # w h h^-d: (k, 1, 3, q)
     # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
     fall = -order[None, :, None, None] * u / h[:, None]
     lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + (1.0 - order)[None, :, None, None] * g / h[:, None]
-    if model.load_per_length:
-        lengthen = lengthen + model.load_per_length * mixed * element.points
+    lengthen = lengthen + per_length * mixed * element.points
     rows = np.stack([g, lengthen, mixed]).transpose(0, 3, 1, 2, 4) * scaled  # (3, k, f, d, q)
     columns = (rows.reshape(3, k, fields, 3 * q) @ flat).reshape(3, k, fields * size)
     gradient, by_length, by_load = columns
@@ -144,7 +145,7 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     half = half.transpose(0, 2, 3, 1, 4).reshape(k, fields, 3 * q, fields * size)
     matrix = (flat.T @ half).reshape(k, fields * size, fields * size)
     by_length = by_length + (matrix @ rate.reshape(k, -1, 1))[..., 0]
-    by_start = model.load_per_length * by_load
+    by_start = per_length * by_load
     work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
     work = work + np.sum(by_load * rate.reshape(k, -1), axis=1)
 
@@ -254,7 +255,7 @@ def _react(model: Any, out: Assembled) -> None:
     cut, ahead = np.concatenate([before, after]), np.repeat([1, 0], [before.size, after.size])
     if cut.size:  # at the end of the element before the node, or at the start of that after it
         u = out.shape.along(moving[cut] - ahead, ahead[:, None].astype(float))[0, ..., 0]
-        turn, by_rate, shear = model.rim_reaction(u)
+        turn, by_rate, shear = model.rim_reaction(u, chain.given[moving[cut] - ahead].T)
         sign = 2.0 * ahead - 1.0
         for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, -shear)):
             np.add.at(total, cut, sign * part)

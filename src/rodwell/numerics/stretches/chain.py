@@ -43,6 +43,8 @@ class Chain:
         The nodes whose place is unknown, (m,), from s = 0.
     base, shares
         Places of the nodes: (e+1,) and (e+1, m).
+    given
+        What the model knows of each element, constant in it: (e, g).
     planar
         Whether shapes stay in the plane Y = 0, as their symmetry has it; disturbances may leave it.
     """
@@ -54,6 +56,7 @@ class Chain:
     moving: IntArray
     base: FloatArray
     shares: FloatArray
+    given: FloatArray
     planar: bool = False
 
     @property

@@ -43,19 +43,18 @@ class SoftRim:
     model: Any
     stiffness: float
 
-    @property
-    def load_per_length(self) -> float:
+    def load_per_length(self, given: FloatArray) -> FloatArray:
         """That of the model."""
-        return float(self.model.load_per_length)
+        return np.asarray(self.model.load_per_length(given))
 
-    def rim(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+    def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """That of the model: on a hard rim nothing is added."""
-        kept: tuple[FloatArray, ...] = self.model.rim(s, u, load)
+        kept: tuple[FloatArray, ...] = self.model.rim(s, u, load, given)
         return kept
 
-    def interior(self, s: FloatArray, u: FloatArray, load: float) -> tuple[FloatArray, ...]:
+    def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density with rim."""
-        energy, by_load, gradient, mixed, hessian = self.model.interior(s, u, load)
+        energy, by_load, gradient, mixed, hessian = self.model.interior(s, u, load, given)
         place = u[:, 0]
         radius = np.maximum(np.hypot(*place), 1e-12)
         inside = radius <= 1.0

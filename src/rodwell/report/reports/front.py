@@ -10,7 +10,6 @@ from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.beyond import story
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.answers.words.shown_loads import shown_sensitivities
-from rodwell.answers.words.steps import has_steps
 from rodwell.answers.words.verdict import load_text, share_shown
 from rodwell.answers.words.wording import forces_of, quantity, size_text
 from rodwell.case.case import Case
@@ -91,7 +90,7 @@ def _numbers(answer: Answer) -> tuple[Number, ...]:
     out = [_load(first, answer, a.window.buckling, spreads.get("critical load of mode 1"))]
     end = a.window.end
     if end is not None and end.load is not None and not answer.off_at_once:
-        leaves = "Leaves the wall between steps at" if has_steps(answer.case.problem) else "Leaves the wall at"
+        leaves = "Leaves the wall between steps at" if answer.case.problem.rod.stepped else "Leaves the wall at"
         label = leaves if end.kind == LIFTS_OFF else "Loses its stability at"
         out.append(_load(label, answer, end.load, spreads.get("lift-off load") if end.kind == LIFTS_OFF else None))
     return (*out, _third(a, said.scales is not None))[:3]

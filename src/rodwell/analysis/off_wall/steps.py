@@ -1,0 +1,84 @@
+"""What steps between the sections of a string do to a pattern of contact.
+
+Where the bending stiffness has a step, a rod in contact on both sides with a slope there would need a couple from the
+wall, which only pushes (:mod:`rodwell.physics.on_wall.sections`): it leaves the wall over a short stretch around the
+step. An end of a stretch in contact that comes to a step from the stiffer side goes no farther: beyond it the rod
+touches at a point, and leaves the wall before the step. All other ends, and points of contact, pass a step; since an
+element ends there, they are set over it (:func:`cross`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rodwell.analysis.off_wall.bumps import at_step, beside, pressure_at, sides
+from rodwell.analysis.off_wall.conditions import BESIDE_STEP, Condition, PatternedState
+from rodwell.analysis.off_wall.plan import Plan
+
+OVER = 2.0
+"""How far beyond a step an end is set, in distances at which it counts as having reached it."""
+
+ROOM = 0.9
+"""Part of the room up to the ends of a stretch that a gap may take as it opens."""
+
+
+SHARE = 0.1
+"""Part of a gap that opens at a step of the weight on the side where contact still pushes."""
+
+
+def closes_with_slope(state: PatternedState, stretch: int) -> bool:
+    """Whether a free stretch is one that a rod opens wherever it has a slope: at a ball joint, at a stiffness step."""
+    problem, (left, right) = state.model.problem, state.bounds[stretch : stretch + 2]
+    ends = [end for end, bound in zip(problem.ends, (left == 0.0, right == 1.0), strict=True) if bound]
+    steps = problem.rod.stiffness_steps
+    return "ball" in ends or bool(np.any((steps > left) & (steps < right)))
+
+
+def open_at(plan: Plan, condition: Condition) -> None:
+    """A gap opens beside a step of the weight, where contact comes to push least at the step itself.
+
+    There the contact force is no parabola: on the other side it still pushes, and the gap hardly reaches over.
+    """
+    i, s, state = condition.number, condition.s, plan.state
+    left, right = state.bounds[i : i + 2]
+    below, above = pressure_at(state, i, sides(s))
+    sense, room = (1.0, right - s) if above > below else (-1.0, s - left)
+    length = min(2.0 * plan.half, 0.8 * float(room))
+    ends = sorted((s - sense * SHARE * length, s + sense * length))
+    plan.bumps.append(beside(state, i, s, s + sense * length))
+    plan.touching[i : i + 1] = [True, False, True]
+    plan.breaks[i:i] = ends
+    plan.pair = (ends[0], ends[1])
+
+
+def release(plan: Plan, condition: Condition) -> None:
+    """The rod leaves the wall around a step of its stiffness, or around several that are close together."""
+    s, state = condition.s, plan.state
+    i = int(np.searchsorted(state.bounds, s)) - 1
+    gap = at_step(state, i, s)
+    left = max(gap.left, s - ROOM * (s - float(state.bounds[i])))
+    right = min(gap.right, s + ROOM * (float(state.bounds[i + 1]) - s))
+    plan.bumps.append(gap.bump)
+    if i < len(plan.breaks) and right >= plan.breaks[i] and not plan.touching[i + 1]:  # into the gap at the next step
+        plan.pair = (left, plan.breaks[i + 1] if i + 1 < len(plan.breaks) else 1.0)
+        plan.breaks[i] = left
+        return
+    plan.touching[i : i + 1] = [True, False, True]
+    plan.breaks[i:i] = [left, right]
+    plan.pair = (left, right)
+
+
+def cross(plan: Plan, condition: Condition) -> None:
+    """An end of a stretch, or a point of contact, has come to a step."""
+    i, up = condition.number // 2, condition.number % 2 == 1
+    state, s, size = plan.state, condition.s, OVER * BESIDE_STEP
+    below, above = state.model.problem.rod.stiffness(sides(s))
+    own, beyond = (below, above) if up else (above, below)
+    into_gap = plan.touching[i if up else i + 1] and not plan.touching[i + 1 if up else i]
+    if into_gap and own > beyond:
+        plan.breaks[i : i + 1] = [s - size, s + size]
+        plan.touching.insert(i + 1, False)
+        plan.pair = (s - size, s + size)
+        return
+    plan.breaks[i] = s + size if up else s - size
+    plan.pair = (0.0, plan.breaks[i]) if up else (plan.breaks[i], 1.0)
