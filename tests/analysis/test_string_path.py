@@ -150,3 +150,23 @@ def test_a_gap_opens_at_a_step_of_the_weight() -> None:
     assert path.events[1].force.value == pytest.approx(rodwell.follow(problem).lift_off.force, rel=1e-7)
     assert path.events[2].s == pytest.approx([0.5], abs=1e-12)
     assert all(event.state.certificate.passed for event in path.events[1:])
+
+
+def test_a_weightless_string_arches_across_the_hole() -> None:
+    """It leaves the wall as a whole, at its Euler load, and touches the opposite side, neither at ½ nor at 0.6."""
+    problem = TWO.but(weight=0.0)
+    path = load_path(problem, until=-31.0, seeds=1)
+    assert [(event.kind, event.s != ()) for event in path.events] == [
+        ("critical", False), ("lift_off", False), ("touches", True)
+    ]  # fmt: skip
+    assert path.events[0].force.value == pytest.approx(rodwell.loads_without_wall(problem, 1).forces[0], rel=1e-9)
+    state = path.at(-30.0)[0].state
+    assert state.certificate.passed
+    (point,) = state.point_forces
+    assert point.force.value > 0.0
+    for gap in state.gaps:
+        end = _integrated(state, gap.start.value, gap.end.value)
+        x, y, _ = position(state.fine, np.array([gap.end.value]))
+        assert end == pytest.approx(
+            np.array([x[0, 0], y[0, 0]]) / TWO.clearance, abs=2e-6
+        )  # third derivatives at its start

@@ -108,7 +108,9 @@ def _stable_at(model: RodInHole, branch: Branch, force: float) -> ContactState |
 
 
 def leaving_places(problem: Problem) -> tuple[float, ...]:
-    """Places at which a rod leaves the wall as soon as it buckles: ball joints, and steps of its stiffness."""
+    """Places at which a pressed rod leaves the wall as soon as it buckles: ball joints, and steps of its stiffness."""
+    if problem.lateral_weight == 0.0:
+        return ()
     ends = [s for end, s in zip(problem.ends, (0.0, 1.0), strict=True) if end == "ball"]
     return tuple(sorted([*ends, *map(float, problem.rod.stiffness_steps)]))
 

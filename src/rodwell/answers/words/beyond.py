@@ -33,7 +33,8 @@ def story(case: Case, found: Beyond) -> str:
     up, down = ([one for one in path.events if one.leg == leg] for leg in (LOADING, UNLOADING))
     lift = next((one for one in up if one.kind == LIFT_OFF), None)
     snaps = [one for one in up if one.kind == SNAP]
-    stepped = "as soon as it buckles, at steps of its stiffness, " if case.problem.rod.stepped else ""
+    at_steps = case.problem.rod.stepped and case.problem.lateral_weight > 0.0
+    stepped = "as soon as it buckles, at steps of its stiffness, " if at_steps else ""
     parts = [] if lift is None else [f"lifts off {stepped}at {_load(case, lift.force)}"]
     told = gradual(case.problem)
     parts += [gradually(one, _load(case, one.force)) for one in up if one.kind in told]
