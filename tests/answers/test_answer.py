@@ -98,7 +98,10 @@ def test_run_writes_everything(
         f"{name}.png" for name in ("sketch", "bifurcation", "modes", "wall-loads", "cylinder", "rod-3d", "along-rod")
     }
     drawn = {name.replace("png", "svg") for name in pictures} - {"rod-3d.svg"}
-    assert {file.name for file in out.iterdir()} == set(FILES) - {"load-path.csv", "load-path-3d.html"} | pictures | drawn
+    assert {file.name for file in out.iterdir()} == set(FILES) - {
+        "load-path.csv",
+        "load-path-3d.html",
+    } | pictures | drawn
     assert list(out.parent.iterdir()) == [out]
     assert (out / "case.toml").read_text(encoding="utf-8") == EXAMPLE.read_text(encoding="utf-8")
     page = (out / "report.html").read_text(encoding="utf-8")

@@ -21,10 +21,16 @@ LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 """An element may become this much longer, or shorter, than a new one would be."""
 
 
+SOFT_WALL = 2.0
+"""Wavenumber of a rod pressed into a soft wall, in units (k/B)^¼: its push has kinks where contact ends."""
+
+
 def wavenumber(model: RodInHole, load: float) -> float:
     """√|F| at its largest along the rod, of a beam column, but at least that of a beam bedded on the wall."""
     problem = model.problem
     bed = (problem.lateral_weight / problem.clearance) ** 0.25
+    if model.soft:
+        bed = max(bed, SOFT_WALL * model.stiffness**0.25)
     return math.sqrt(max(abs(load), abs(load - problem.axial_weight), bed**2, math.pi**2))
 
 

@@ -7,12 +7,14 @@ are equal where both hold.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.off_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, TWIST
 from rodwell.physics.on_wall import parameters as wall
@@ -27,9 +29,15 @@ _FREE = ((0, 1), (0, 2), (1, 1), (1, 2))
 
 @dataclass(frozen=True)
 class RodInHole:
-    """The two densities of a problem."""
+    """The two densities of a problem, behind a hard wall, or one of this stiffness, in B/L⁴."""
 
     problem: Problem
+    stiffness: float = math.inf
+
+    @property
+    def soft(self) -> bool:
+        """Whether the wall gives way."""
+        return math.isfinite(self.stiffness)
 
     @cached_property
     def _free(self) -> FloatArray:
@@ -88,7 +96,11 @@ class RodInHole:
             gradient[f, k], mixed[f, k] = g[1 + i], m[1 + i]
             for j, (other, order) in enumerate(_FREE):
                 hessian[f, k, other, order] = h[i][j]
-        return e / d**2, rate / d**2, gradient / d, mixed / d, hessian
+        gradient /= d
+        e = e / d**2
+        if self.soft:
+            e = e + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
+        return e, rate / d**2, gradient, mixed / d, hessian
 
     def rim_reaction(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.

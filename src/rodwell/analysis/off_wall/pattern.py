@@ -25,17 +25,19 @@ class Pattern:
     """Stretches from s = 0: True in contact. Between two free ones lies a point of contact.
 
     ``turns`` is the angle at s = 1 over 2π where the end holds it. ``planar``: the rod lies in the plane through its
-    ends and the hole's axis, and nothing but a disturbance takes it out.
+    ends and the hole's axis, and nothing but a disturbance takes it out. ``fixed``: where stretches end that lie
+    behind a soft wall, all of them free: places of its contact, given and not solved for.
     """
 
     touching: tuple[bool, ...]
     turns: float = 0
     planar: bool = False
+    fixed: tuple[float, ...] = ()
 
     @property
     def breaks(self) -> int:
         """How many ends of stretches lie within the rod."""
-        return len(self.touching) - 1
+        return 0 if self.fixed else len(self.touching) - 1
 
     @property
     def full(self) -> bool:
@@ -73,7 +75,7 @@ def end_held(problem: Problem, last: bool, turns: float) -> tuple[BoolArray, Flo
 
 def counts(pattern: Pattern, breaks: FloatArray, wavenumber: float) -> tuple[int, ...]:
     """How many elements each stretch gets."""
-    lengths = np.diff(np.concatenate([[0.0], breaks, [1.0]]))
+    lengths = np.diff(np.concatenate([[0.0], pattern.fixed or breaks, [1.0]]))
     return tuple(max(1, math.ceil(length * wavenumber / (WAVES * math.pi))) for length in lengths)
 
 
@@ -87,13 +89,18 @@ def chain(problem: Problem, pattern: Pattern, elements: tuple[int, ...], degree:
         part = np.arange(count + 1) / count
         here = slice(first[i], first[i + 1] + 1)
         base[here], shares[here] = 0.0, 0.0
+        if pattern.fixed:
+            left, right = (0.0, *pattern.fixed, 1.0)[i : i + 2]
+            base[here] = left + (right - left) * part
+            continue
         for end, weight in ((i - 1, 1.0 - part), (i, part)):
             if 0 <= end < m:
                 shares[here, end] += weight
             elif end == m:
                 base[here] += weight
     polar = np.zeros(total + 1, dtype=bool)
-    polar[first[1:-1]] = True
+    moving = first[1:-1] if m else first[:0]
+    polar[moving] = True
     polar[:-1] |= touching
     polar[1:] |= touching
     held, values = np.zeros((total + 1, 4), dtype=bool), np.full((total + 1, 4), np.nan)
@@ -106,7 +113,9 @@ def chain(problem: Problem, pattern: Pattern, elements: tuple[int, ...], degree:
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = 1.0, 0.0
-    if pattern.planar and pattern.touching == (False,):  # it may turn about the line between its ends at no cost
+    if (
+        pattern.planar and pattern.touching == (False,) and problem.lateral_weight == 0.0
+    ):  # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
-    moving = first[1:-1].astype(np.int64)
-    return Chain(degree, touching, polar, held, moving, base, shares, pattern.planar), values
+    links = Chain(degree, touching, polar, held, moving.astype(np.int64), base, shares, pattern.planar)
+    return links, values
