@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,6 +43,10 @@ UNIT = "B/L²"
 )
 @click.option("--axial-stiffness", type=float, help="EA of the rod in B/L², with --control shortening; else rigid.")
 @click.option("--spring", type=float, help="Stiffness in B/L³ of a spring that drives it, with --control shortening.")
+@click.option(
+    "--wall-stiffness", type=float, default=math.inf,
+    help="Stiffness k L⁴/B of a wall that gives way, push per length and depth.  [default: a hard wall]",
+)  # fmt: skip
 @click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
 @click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
 @click.option("--out", type=OutPath(), help="Folder for a figure of the path, load against shortening.")
@@ -54,6 +59,7 @@ def path(
     control: str,
     axial_stiffness: float | None,
     spring: float | None,
+    wall_stiffness: float,
     mirror: bool,
     seeds: int,
     out: Path | None,
@@ -79,7 +85,7 @@ def path(
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
             problem, until=until, unload_to=unload_to, control=control, axial_stiffness=axial_stiffness, spring=spring,
-            mirror=mirror, seeds=seeds, rtol=rtol,
+            wall_stiffness=wall_stiffness, mirror=mirror, seeds=seeds, rtol=rtol,
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
     if out is not None:
@@ -130,13 +136,12 @@ def _print_states(result: LoadPath, force: float) -> None:
 
 def _print(result: LoadPath) -> None:
     """Events as a list."""
-    from rodwell.analysis.path.load_path import ASSUMPTIONS  # noqa: PLC0415
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     click.echo(
         f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"
     )
-    click.echo(f"controlled. {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
+    click.echo(f"controlled. {result.assumptions[0].upper()}{result.assumptions[1:]}.")
     leg = ""
     for event in result.events:
         if event.leg != leg:

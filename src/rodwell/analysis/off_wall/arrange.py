@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import DEGREE, WAVES, Elements, Pattern, chain, counts
+from rodwell.analysis.off_wall.pattern import DEGREE, WAVES, Elements, Pattern, chain, counts, pieces_of
 from rodwell.numerics.stretches.carry import Sampler, fit, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
@@ -21,11 +21,17 @@ LONGEST_ELEMENT, SHORTEST_ELEMENT = 1.5, 0.45
 """An element may become this much longer, or shorter, than a new one would be."""
 
 
+SOFT_WALL = 2.0
+"""Wavenumber of a rod pressed into a soft wall, in units (k/B)^¼: its push has kinks where contact ends."""
+
+
 def wavenumbers(model: RodInHole, load: float) -> FloatArray:
     """√(|N|/b) at its largest in each section (n,), of a beam column, at least that of a beam bedded on the wall."""
     problem = model.problem
     (b, q, d), breaks = model.given.T, problem.rod.breaks
     wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance))
+    if model.soft:
+        bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))
     ends = np.stack([load + wa * (d + q * (s - 1.0)) for s in (breaks[:-1], breaks[1:])])
     return np.asarray(np.sqrt(np.max([*(np.abs(ends) / b), bed, np.full(b.size, math.pi**2)], axis=0)))
 
@@ -36,10 +42,16 @@ def wavenumber(model: RodInHole, load: float) -> float:
 
 
 def element_counts(
-    model: RodInHole, breaks: FloatArray, load: float, waves: float = WAVES, fewest: int = 1
+    model: RodInHole,
+    breaks: FloatArray,
+    load: float,
+    waves: float = WAVES,
+    fewest: int = 1,
+    fixed: tuple[float, ...] = (),
 ) -> Elements:
-    """Elements of each piece of each stretch, as its waves ask for."""
-    return counts(breaks, model.problem.rod.breaks[1:-1], wavenumbers(model, load), waves, fewest)
+    """Elements of each piece of each stretch, as its waves ask for; ``fixed`` as in :class:`Pattern`."""
+    corners, section = pieces_of(model.problem, fixed)
+    return counts(breaks, corners, wavenumbers(model, load)[section], waves, fewest)
 
 
 def arranged(
@@ -53,7 +65,7 @@ def arranged(
     elements: Elements | None = None,
 ) -> tuple[Shape, Elements]:
     """A shape of a pattern that follows a sampler, not yet in equilibrium, and its numbers of elements."""
-    elements = elements or element_counts(model, breaks, load)
+    elements = elements or element_counts(model, breaks, load, fixed=pattern.fixed)
     links, held = chain(model.problem, model.given, pattern, elements, degree)
     return fit(links, breaks, load, sample, held), elements
 
@@ -123,7 +135,7 @@ def refined(state: PatternedState, more: int, along: Motion | None = None) -> Pa
 
 def needs_new_elements(state: PatternedState) -> bool:
     """Whether elements have become too long, or far too short."""
-    wanted = element_counts(state.model, state.solved.shape.breaks, state.load)
+    wanted = element_counts(state.model, state.solved.shape.breaks, state.load, fixed=state.pattern.fixed)
     return any(
         have * LONGEST_ELEMENT < want or (have > 1 and have * SHORTEST_ELEMENT > want)
         for pieces, wants in zip(state.elements, wanted, strict=True)

@@ -43,7 +43,7 @@ class ContactCertificate:
         Relative to the end force (or the weight, if that is larger): "balance of free stretches", "balance of
         stretches in contact", "point forces by two routes" and "jumps across the wall's normal".
     penetration
-        Largest penetration of the wall, in Δ; 0 for none.
+        Largest penetration of a hard wall, in Δ; 0 for none, and behind a soft wall, which gives way.
     least_force
         Least concentrated contact force in B/L² (infinite without one), and
     least_pressure
@@ -84,7 +84,7 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
     scale = max(abs(state.load), problem.weight, 1.0)
     free, touching, routes, across = 0.0, 0.0, 0.0, 0.0
     ends = []
-    for i, on in enumerate(state.pattern.touching):
+    for i, on in enumerate(state.touching):
         left, right = bounds[i : i + 2]
         inset = INSET * (right - left)
         places = np.linspace(left + inset, right - inset, PANELS + 1)
@@ -122,7 +122,7 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
     """∫ wₗ i + wₐ k + p d₁ ds between places, (3, m−1)."""
     problem = state.model.problem
     points, weights = np.polynomial.legendre.leggauss(ORDER)
-    inner = state.solved.shape.places
+    inner = np.unique(np.concatenate([state.solved.shape.places, state.bounds]))
     out = np.zeros((3, places.size - 1))
     for k, (a, b) in enumerate(pairwise(places)):
         grid = np.concatenate([[a], inner[(inner > a) & (inner < b)], [b]])
@@ -132,15 +132,18 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
                 s = left + half * (right - left) + 0.5 * h * (points + 1.0)
                 x, y, pressure = position(state, s)
                 w, weight = 0.5 * h * weights, problem.rod.weight(s)
-                out[0, k] += w @ (problem.foundation * weight - pressure * x[0] / problem.clearance)
-                out[1, k] += w @ (-pressure * y[0] / problem.clearance)
+                outward = pressure / np.hypot(x[0], y[0])
+                out[0, k] += w @ (problem.foundation * weight - outward * x[0])
+                out[1, k] += w @ (-outward * y[0])
                 out[2, k] += problem.axial_weight * (w @ weight)
     return out
 
 
 def _penetration(state: PatternedState) -> float:
-    """How deep free stretches reach into the wall."""
+    """How deep free stretches reach into a hard wall; a soft one gives way."""
     deepest = 0.0
+    if state.model.soft:
+        return deepest
     for i, on in enumerate(state.pattern.touching):
         if not on:
             s = np.linspace(float(state.bounds[i]), float(state.bounds[i + 1]), 400)

@@ -16,10 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from rodwell.analysis.off_wall.depth import Piece, contact_pieces
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Elements, Pattern
 from rodwell.numerics.stretches.chain import ANGLE_RATE
@@ -88,9 +90,26 @@ class PatternedState:
         """End force F at s = 1 in B/L², tension positive."""
         return float(self.solved.shape.load)
 
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """Contact and gaps from s = 0 behind a soft wall, where the pattern says nothing of them."""
+        return contact_pieces(self.solved.shape)
+
+    @property
+    def touching(self) -> tuple[bool, ...]:
+        """Which stretches are in contact, from s = 0; of a hard wall those of the pattern."""
+        return tuple(piece.on for piece in self.pieces) if self.model.soft else self.pattern.touching
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether the rod is in contact everywhere."""
+        return self.touching == (True,)
+
     @property
     def bounds(self) -> FloatArray:
         """Where the stretches begin and end, (k+1,)."""
+        if self.model.soft:
+            return np.array([piece.left for piece in self.pieces] + [1.0])
         return np.concatenate([[0.0], self.solved.shape.breaks, [1.0]])
 
     def elements_of(self, stretch: int) -> range:
@@ -102,6 +121,8 @@ class PatternedState:
 def conditions(state: PatternedState) -> list[Condition]:
     """All conditions of a state."""
     found: list[Condition] = []
+    if state.model.soft:
+        return found  # the wall's push is part of the energy: nothing is left to be asked
     solved, pattern = state.solved, state.pattern
     found += pressing(state, [i for i, on in enumerate(pattern.touching) if on])
     found += [apart(state, i) for i, on in enumerate(pattern.touching) if not on]

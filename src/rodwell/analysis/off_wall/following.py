@@ -21,6 +21,7 @@ from rodwell.analysis.off_wall.happening import (
     together,
     unresolved,
 )
+from rodwell.analysis.off_wall.soft import with_ends_of
 from rodwell.analysis.off_wall.turning import driven_rate, growing_direction
 from rodwell.analysis.off_wall.within import Step, first_event
 from rodwell.numerics.stretches.walk import (
@@ -94,6 +95,7 @@ class _Walker:
     control: Control
     size: float = FIRST_STEP
     largest: float = LARGEST_STEP
+    close: bool = False
     progress: Callable[[float], str | None] | None = None
 
     def walk(self, most_states: int) -> Followed:
@@ -128,6 +130,8 @@ class _Walker:
             self._accept(new, turned)
             self.size *= 0.6 if steps >= HARD else (1.5 if steps <= EASY else 1.0)
             self.size = min(self.size, self.largest)
+        elif found.kind != END and self._closer(found):
+            return
         elif found.kind in (FOLD, BRANCH_POINT, LOAD_PEAK):
             self._turned(found, new, turned)
         elif found.kind == END:
@@ -137,13 +141,23 @@ class _Walker:
         else:
             self._change(found)
 
+    def _closer(self, event: PathEvent) -> bool:
+        """Behind a soft wall, whether the step is taken again on elements that end where contact does at an event."""
+        again = None
+        if self.state.model.soft and event.state.bounds.size > 2 and not self.close:
+            again = with_ends_of(self.state, event.state)
+        self.close = again is not None
+        if again is not None:
+            self.state, self.along = again, tangent_in_load(again.solved, self.along.load)
+        return self.close
+
     def _lengths(self) -> tuple[FloatArray, FloatArray]:
         """Lengths of the stretches and their rates along the path."""
         return np.diff(self.state.bounds), np.diff(np.concatenate([[0.0], self.along.breaks, [0.0]]))
 
     def _renew_elements(self) -> None:
         """Make new elements where the old ones no longer fit; breaks and load tell the direction."""
-        if not needs_new_elements(self.state):
+        if self.close or not needs_new_elements(self.state):
             return
         renewed = with_new_elements(self.state)
         if renewed is not None:
@@ -268,7 +282,7 @@ class _Walker:
         return any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))
 
     def _accept(self, new: PatternedState, along: Motion) -> None:
-        self.state, self.along = new, along
+        self.state, self.along, self.close = new, along, False
         self.result.states.append(new)
         if self.progress is not None and (enough := self.progress(new.load)):
             self.result.ended = enough

@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState, lowest, pressure_on
+from rodwell.analysis.off_wall.depth import depth
 from rodwell.numerics.stretches.basis import reference_element
 from rodwell.numerics.stretches.carry import elements_at, fields_at
+from rodwell.numerics.stretches.chain import Shape
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES = 16
@@ -36,6 +38,8 @@ class Numbers(NamedTuple):
 
 def measured(state: PatternedState) -> Numbers:
     """Numbers of a state."""
+    if state.model.soft:
+        return _behind_soft_wall(state)
     d, shape, out = state.model.problem.clearance, state.solved.shape, state.solved.out
     count = len(state.pattern.touching)
     forces, gaps, places = np.zeros((3, count))
@@ -59,6 +63,37 @@ def measured(state: PatternedState) -> Numbers:
         out.energy * d**2, out.energy_by_load * d**2, state.bounds, d * state.solved.forces, forces, gaps, places,
         highest, at,
     )  # fmt: skip
+
+
+def _behind_soft_wall(state: PatternedState) -> Numbers:
+    """Numbers of a rod that a soft wall pushes by its stiffness times the depth."""
+    model, shape, out = state.model, state.solved.shape, state.solved.out
+    d, per_depth = model.problem.clearance, model.problem.clearance * model.stiffness
+    bounds, nodes = state.bounds, np.unique(np.concatenate([shape.places, state.bounds]))
+    element = reference_element(shape.chain.degree)
+    forces, gaps, places = np.zeros((3, bounds.size - 1))
+    highest, at = 0.0, float("nan")
+    for i, on in enumerate(state.touching):
+        ends = nodes[(nodes >= bounds[i]) & (nodes <= bounds[i + 1])]
+        left, length = ends[:-1, None], np.diff(ends)[:, None]
+        function = _farther(shape, left, length, on)
+        low, xi = lowest(function, np.broadcast_to(np.linspace(0.0, 1.0, SAMPLES + 1), (left.size, SAMPLES + 1)))
+        k = int(np.argmin(low))
+        largest, where = float(-low[k]), float(left[k, 0] + length[k, 0] * xi[k])
+        if on:
+            pressed = -function(np.broadcast_to(element.points, (left.size, element.points.size)))
+            forces[i] = per_depth * float(length[:, 0] @ pressed @ element.weights)
+            if per_depth * largest > highest:
+                highest, at = per_depth * largest, where
+        else:
+            gaps[i], places[i] = largest, where
+    return Numbers(out.energy * d**2, out.energy_by_load * d**2, bounds, np.zeros(0), forces, gaps, places, highest, at)
+
+
+def _farther(shape: Shape, left: FloatArray, length: FloatArray, on: bool) -> Callable[[FloatArray], FloatArray]:
+    """The negative depth in a soft wall (in contact), or gap, of pieces (k, 1) of the rod as a function of ξ (k, n)."""
+    sign = -1.0 if on else 1.0
+    return lambda xi: sign * depth(shape, (left + length * xi).ravel()).reshape(xi.shape)
 
 
 def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
@@ -94,4 +129,6 @@ def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
         fields[:, 3, on] = around * sin - radial * cos, around * cos + radial * sin
         given = shape.chain.given[elements_at(shape, s[on])].T
         pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load, given)
+    if state.model.soft:
+        pressure = -d * state.model.stiffness * np.maximum(np.hypot(fields[0, 0], fields[1, 0]) - 1.0, 0.0)
     return d * fields[0], d * fields[1], pressure

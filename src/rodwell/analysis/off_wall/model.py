@@ -8,12 +8,14 @@ are equal where both hold. A section of a string is a uniform rod of its own con
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
@@ -30,9 +32,15 @@ _BY_FORCE = np.eye(COUNT)[FORCE]
 
 @dataclass(frozen=True)
 class RodInHole:
-    """The two densities of a problem."""
+    """The two densities of a problem, behind a hard wall, or one of this stiffness, in B/L⁴."""
 
     problem: Problem
+    stiffness: float = math.inf
+
+    @property
+    def soft(self) -> bool:
+        """Whether the wall gives way."""
+        return math.isfinite(self.stiffness)
 
     @cached_property
     def _unloaded(self) -> FloatArray:
@@ -85,7 +93,10 @@ class RodInHole:
             gradient[f, k], mixed[f, k] = g[1 + i], m[1 + i]
             for j, (other, order) in enumerate(_FREE):
                 hessian[f, k, other, order] = h[i][j]
-        return b * e / d**2, rate / d**2, b * gradient / d, mixed / d, b * hessian
+        energy, gradient, hessian = b * e / d**2, b * gradient / d, b * hessian
+        if self.soft:
+            energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
+        return energy, rate / d**2, gradient, mixed / d, hessian
 
     def rim_reaction(self, u: FloatArray, given: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.

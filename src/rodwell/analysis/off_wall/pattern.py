@@ -10,7 +10,7 @@ import numpy as np
 
 from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE, RADIAL_SLOPE, RADIUS, Chain
 from rodwell.problem.problem import Problem
-from rodwell.quantities.arrays import BoolArray, FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 
 DEGREE = 9
 """Degree of the elements of the coarse chain; the fine one has two more."""
@@ -29,12 +29,14 @@ class Pattern:
     """Stretches from s = 0: True in contact. Between two free ones lies a point of contact.
 
     ``turns`` is the angle at s = 1 over 2π where the end holds it. ``planar``: the rod lies in the plane through its
-    ends and the hole's axis, and nothing but a disturbance takes it out.
+    ends and the hole's axis, and nothing but a disturbance takes it out. ``fixed``: where elements end too, of a rod
+    behind a soft wall, which is one free stretch: there its contact ends.
     """
 
     touching: tuple[bool, ...]
     turns: float = 0
     planar: bool = False
+    fixed: tuple[float, ...] = ()
 
     @property
     def breaks(self) -> int:
@@ -75,12 +77,19 @@ def end_held(problem: Problem, last: bool, turns: float) -> tuple[BoolArray, Flo
     return held, np.where(held, values, np.nan)
 
 
+def pieces_of(problem: Problem, fixed: tuple[float, ...] = ()) -> tuple[FloatArray, IntArray]:
+    """Places (n,) at which elements end wherever stretches do, and in which section each piece between them lies."""
+    steps = problem.rod.breaks[1:-1]
+    corners = np.union1d(steps, fixed)
+    return corners, np.concatenate([[0], np.cumsum(np.isin(corners, steps))]).astype(np.int64)
+
+
 def counts(
     breaks: FloatArray, steps: FloatArray, wavenumbers: FloatArray, waves: float = WAVES, fewest: int = 1
 ) -> Elements:
     """How many elements each piece of each stretch gets: ``waves`` of them in a half-wave, and so many of the whole.
 
-    Steps (n − 1,) between sections part a stretch into pieces, ``wavenumbers`` (n,) are those of the sections.
+    Steps (n − 1,) part a stretch into pieces, ``wavenumbers`` (n,) are those between the steps.
     """
     bounds, out = np.concatenate([[0.0], breaks, [1.0]]), []
     for left, right in pairwise(bounds):
@@ -105,9 +114,11 @@ def chain(
     pieces = np.array([count for stretch in elements for count in stretch])
     owner = np.repeat(np.arange(pieces.size), pieces)
     part = ((np.arange(total) - (np.cumsum(pieces) - pieces)[owner]) / pieces[owner])[:, None]
-    corners = _corners(problem.rod.breaks[1:-1], elements)
+    ends, section_after = pieces_of(problem, pattern.fixed)
+    corners = _corners(ends, elements)
     places = np.concatenate([corners[owner] * (1.0 - part) + corners[owner + 1] * part, corners[-1:]])
-    section = owner - np.repeat(np.arange(len(elements)), sizes)  # one more at each corner that is a step, not a break
+    # one piece more at each corner that is fixed, not a break
+    section = section_after[owner - np.repeat(np.arange(len(elements)), sizes)]
     polar = np.zeros(total + 1, dtype=bool)
     polar[first[1:-1]] = True
     polar[:-1] |= touching
@@ -122,7 +133,8 @@ def chain(
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = 1.0, 0.0
-    if pattern.planar and pattern.touching == (False,):  # it may turn about the line between its ends at no cost
+    if pattern.planar and pattern.touching == (False,) and problem.lateral_weight == 0.0:
+        # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
     moving = first[1:-1].astype(np.int64)
     base, shares = places[:, 0], places[:, 1:]

@@ -13,6 +13,7 @@ from rodwell.analysis.off_wall.certificate import LIMIT, ContactCertificate, con
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.measured import Numbers, along_axis, measured, position
 from rodwell.analysis.off_wall.pattern import FINER
+from rodwell.analysis.off_wall.soft import aligned
 from rodwell.errors import NotConvergedError
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.stretches.carry import sampler
@@ -34,7 +35,7 @@ def kind_of(state: PatternedState, turns: int) -> str:
     """What a state is that winds so many times around the hole: see :attr:`ContactState.kind`."""
     if turns:
         return HELIX
-    if not state.pattern.full:
+    if not state.everywhere:
         return PARTIAL
     return STRAIGHT if float(np.max(np.abs(state.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
 
@@ -138,7 +139,7 @@ class ContactState:
         places = self._numbers[1].gap_places
         return tuple(
             Gap(self._value("bounds", i), self._value("bounds", i + 1), self._value("gaps", i), float(places[i]))
-            for i, on in enumerate(self.fine.pattern.touching) if not on
+            for i, on in enumerate(self.fine.touching) if not on
         )  # fmt: skip
 
     @cached_property
@@ -146,7 +147,7 @@ class ContactState:
         """Stretches in contact from s = 0."""
         return tuple(
             Contact(self._value("bounds", i), self._value("bounds", i + 1), self._value("stretches", i))
-            for i, on in enumerate(self.fine.pattern.touching) if on
+            for i, on in enumerate(self.fine.touching) if on
         )  # fmt: skip
 
     @cached_property
@@ -239,6 +240,8 @@ def contact_state(state: PatternedState) -> ContactState:
         If Newton's method fails there.
     """
     found: ContactState | None = None
+    if state.model.soft:
+        state = aligned(state) or state
     for more in range(FINER, MOST_DEGREES + 1, FINER):
         fine = refined(state, more)
         if fine is None:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import refuse_sections
 from rodwell.quantities.tolerance import checked_force
 
 SOFTEST, STIFFEST = 1e-6, 1e18
 """Range of stiffnesses in series, in units B = L = 1."""
+
+SOFTEST_WALL, STIFFEST_WALL = 1.0, 1e10
+"""Range of the stiffness of a soft wall in B/L⁴: stiffer ones are told from a hard one by nothing but the cost."""
 
 MOST_DRIVEN = 1e9
 """Largest shortening, in L, of a driven end behind something soft."""
@@ -37,6 +43,23 @@ def checked_problem(problem: Problem) -> None:
         )
     if "loose" in problem.ends:
         raise InputError("ends", "-".join(problem.ends), "loose ends have no load path yet: take ball or free")
+
+
+def checked_wall(problem: Problem, stiffness: float) -> float:
+    """Return the stiffness of the wall in B/L⁴, infinite for a hard one, or raise."""
+    allowed = f"from {SOFTEST_WALL:g} to {STIFFEST_WALL:g} in B/L⁴, or infinite: a hard wall"
+    if stiffness == math.inf:
+        return stiffness
+    refuse_sections(
+        problem.sections,
+        "a soft wall is for uniform rods: leave wall_stiffness out, for a hard wall, or take one section",
+    )
+    if problem.lateral_weight == 0.0:
+        raise InputError(
+            "wall_stiffness", stiffness, "a soft wall is for rods that weight presses to it: leave it out, for a hard "
+            "wall, or give the rod some lateral weight",
+        )  # fmt: skip
+    return checked_number("wall_stiffness", stiffness, SOFTEST_WALL, STIFFEST_WALL, allowed)
 
 
 def checked_control(problem: Problem, control: str, axial_stiffness: float | None, spring: float | None) -> Control:

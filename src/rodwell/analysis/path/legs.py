@@ -11,10 +11,11 @@ from rodwell.analysis.off_wall.arrange import solved
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.following import followed
-from rodwell.analysis.off_wall.happening import END, Followed
+from rodwell.analysis.off_wall.happening import END, Followed, PathEvent
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.resolve import UNKNOWN, resolved_event
+from rodwell.analysis.off_wall.soft import with_contact
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
 from rodwell.analysis.off_wall.steps import closes_with_slope
 from rodwell.analysis.path.events import (
@@ -113,6 +114,8 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
             continue
         leg.runs.append(path.states)
         out.last = path.last
+        if model.soft:
+            path.events = with_contact(path)
         _tell(out, path, how)
         if path.ended == END:
             out.ended = END
@@ -200,17 +203,26 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
             continue
         one = resolved_event(event, how.rtol)
         kind = event.kind
-        if kind == "gap_opens" and event.state.pattern.full:
+        if kind == "gap_opens" and _complete(event):
             kind = LIFT_OFF
-        elif kind == "gap_closes" and event.state.pattern.full:
+        elif kind == "gap_closes" and _complete(event):
             kind = TOUCH_DOWN
         state = ContactState(event.state.model.problem, event.state, one.event.state)
         out.events.append(PathPoint(kind, one.load, tuple(map(float, event.s)), out.leg.name, None, state, one.met))
 
 
+def _complete(event: PathEvent) -> bool:
+    """Whether contact is complete on one side of an event of a gap."""
+    if not event.state.model.soft:
+        return event.state.pattern.full
+    return event.between is not None and any(one.everywhere for one in event.between)
+
+
 def _flat(state: PatternedState, angle: float = FLAT) -> bool:
     """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
     shape, pattern = state.solved.shape, state.pattern
+    if state.model.soft:
+        return False  # it has sunk into the wall: states of its own, which are followed
     if not pattern.full:
         return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
     return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
@@ -249,7 +261,8 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     held = load.value if how.control.by_force else how.control.value(finer.solved)
     beside = _beside_plane(path, sense, how, held)
     if beside is not None:
-        out.events.append(PathPoint(BRANCH_POINT, load, (), out.leg.name, None, contact_state(beside)))
+        kind = CRITICAL if last.model.soft else BRANCH_POINT
+        out.events.append(PathPoint(kind, load, (), out.leg.name, None, contact_state(beside)))
         out.last = beside
         return
     _to(out, last, sense, how, load, held, fold=path.ended == FOLD)

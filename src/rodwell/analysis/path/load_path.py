@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +16,7 @@ from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
-from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range
+from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range, checked_wall
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.legs import How, straight_state, walked
 from rodwell.analysis.path.loading import loaded
@@ -34,7 +35,8 @@ if TYPE_CHECKING:
 SEEDS = 3
 """Random disturbances with which a rod that gives way is sent downhill, either way along its softest direction."""
 
-ASSUMPTIONS = "quasi-static, frictionless and without inertia; hard wall"
+HARD = "hard wall"
+ASSUMPTIONS = f"quasi-static, frictionless and without inertia; {HARD}"
 
 Progress = Callable[[str, float], str | None]
 
@@ -66,6 +68,8 @@ class LoadPath(Shown):
         What is controlled: "force" or "shortening".
     compliance
         Of what gives way in series with the shape, 1/EA + 1/k in L³/B; 0: rigid.
+    wall_stiffness
+        Stiffness of the wall in B/L⁴, push per length and depth; infinite: hard.
     """
 
     problem: Problem
@@ -79,6 +83,7 @@ class LoadPath(Shown):
     mirror: bool = False
     control: str = "force"
     compliance: float = 0.0
+    wall_stiffness: float = math.inf
 
     @property
     def way(self) -> Control:
@@ -135,12 +140,19 @@ class LoadPath(Shown):
         return tuple(found)
 
     @property
+    def assumptions(self) -> str:
+        """What is assumed, in words."""
+        if math.isinf(self.wall_stiffness):
+            return ASSUMPTIONS
+        return ASSUMPTIONS.replace(HARD, f"wall of stiffness {self.wall_stiffness:g} B/L⁴")
+
+    @property
     def meaning(self) -> tuple[str, ...]:
         """What happens, in sentences: loads as compression at s = 1 in B/L²."""
         return sentences(self.problem, self.events)
 
     def _on(self, leg: Leg, value: float, control: Control) -> ContactState:
-        model = RodInHole(self.problem)
+        model = RodInHole(self.problem, self.wall_stiffness)
         if _straight(leg, value, control):
             return contact_state(straight_state(model, control.straight_load(value) or 0.0))
         for near in leg.near(value, control):
@@ -179,7 +191,8 @@ class LoadPath(Shown):
             "ended_because": self.ended_because,
             "control": self.control,
             "compliance": self.compliance,
-            "assumptions": ASSUMPTIONS,
+            "assumptions": self.assumptions,
+            "wall_stiffness": self.wall_stiffness if math.isfinite(self.wall_stiffness) else None,
         }
 
     def _driven(self, event: PathPoint) -> dict[str, Any]:
@@ -226,6 +239,7 @@ def load_path(
     control: str = "force",
     axial_stiffness: float | None = None,
     spring: float | None = None,
+    wall_stiffness: float = math.inf,
     mirror: bool = False,
     seeds: int = SEEDS,
     rtol: float = RTOL,
@@ -250,6 +264,9 @@ def load_path(
         controlled; None: rigid. Then ``until`` and ``unload_to`` are those of the driven end, u − F/EA − F/k with the
         shortening u of the shape, counted from the straight rod without end force. What the strain F/EA changes in the
         shape is left out.
+    wall_stiffness
+        Stiffness k L⁴/B of a wall that gives way: it pushes by k times the depth, per length, where the rod's axis is
+        farther from the hole's than Δ. Infinite: a hard wall.
     mirror
         The other of the two arms of the buckling mode: with twist they differ.
     seeds
@@ -269,6 +286,7 @@ def load_path(
     """
     checked_problem(problem)
     first_run.begin(problem)
+    model = RodInHole(problem, checked_wall(problem, wall_stiffness))
     rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
     until, unload_to = checked_range(way, until, unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
@@ -277,12 +295,15 @@ def load_path(
     def told(leg: str) -> Callable[[float], str | None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
-    up = loaded(problem, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
+    up = loaded(model, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
     walks = [up]
     if up.ended == END and unload_to is not None:
         how = How(way, rtol, seeds, mode, told(UNLOADING))
-        walks.append(walked(up.last, RodInHole(problem), until, unload_to, Leg(UNLOADING), how))
+        walks.append(walked(up.last, model, until, unload_to, Leg(UNLOADING), how))
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
     events = tuple(event for walk in walks for event in walk.events)
     legs = tuple(walk.leg for walk in walks)
-    return LoadPath(problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance)
+    return LoadPath(
+        problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance,
+        model.stiffness,
+    )  # fmt: skip

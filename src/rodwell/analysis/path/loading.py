@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.soft import sunk
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import How, Walked, walked
 from rodwell.analysis.path.start import OnWall, arched, carried, leaving_places, on_wall, released
-from rodwell.problem.problem import Problem
+from rodwell.analysis.straight.without_wall import loads_without_wall
+from rodwell.errors import NotConvergedError
 from rodwell.quantities.value import Value
 
+BEFORE = 0.2
+"""How far below the load that its ends alone bear the straight rod in a soft wall is followed from, relative."""
 
-def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
+
+def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
-    model, leg, top = RodInHole(problem), Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    problem, leg, top = model.problem, Leg(LOADING), max(0.0, 0.5 * how.mode.force)
+    if model.soft:
+        return _into_soft_wall(model, until, leg, how)
     control, sense = how.control, -1.0 if how.control.by_force else 1.0
     if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
         begin = max(top, until) if control.by_force else control.of_straight(top)
@@ -45,6 +52,16 @@ def loaded(problem: Problem, until: float, mirror: bool, how: How) -> Walked:
         to = Destination(begun.snap.kind, 0, begun.snap.energy, critical, 1, 1)
         out.events.insert(1, PathPoint(SNAP, critical, (), LOADING, to, begun.snap))
     return out
+
+
+def _into_soft_wall(model: RodInHole, until: float, leg: Leg, how: How) -> Walked:
+    """From the straight rod that has sunk into a soft wall, a little below the load that its ends alone would bear."""
+    alone = loads_without_wall(model.problem).modes[0].force
+    top = alone + BEFORE * max(abs(alone), 1.0)
+    start = sunk(model, max(top, until) if how.control.by_force else top)
+    if start is None:
+        raise NotConvergedError(f"the straight rod in a wall of stiffness {model.stiffness:g} B/L⁴ was not found")
+    return walked(start, model, top, until, leg, how)
 
 
 def _add_wall(leg: Leg, model: RodInHole, begun: OnWall) -> None:

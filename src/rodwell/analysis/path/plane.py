@@ -1,4 +1,4 @@
-"""A rod that nothing presses to the wall leaves the plane in which it has buckled, and comes back to it.
+"""A rod leaves the plane in which it lies in a soft wall, or has arched away from a hard one, and comes back to it.
 
 Planar states keep to the plane while Newton's method solves for them, and disturbances out of it count in their
 stability index. Where it changes, states on either side of the plane branch off, mirror images of each other.
@@ -46,7 +46,8 @@ def back_in_plane(state: PatternedState, sense: float) -> PatternedState | None:
     """The planar state beside one that has come back to the plane, in this sense of the load; None if it has not."""
     problem, shape = state.model.problem, state.solved.shape
     aside = float(np.max(np.abs(shape.cartesian[:, 1])))
-    if problem.lateral_weight > 0.0 or not problem.isotropic_ends or state.pattern.planar or aside > IN_PLANE:
+    arched, sunk = problem.lateral_weight == 0.0 and problem.isotropic_ends, state.model.soft and problem.twist == 0.0
+    if not (arched or sunk) or state.pattern.planar or aside > IN_PLANE:
         return None
     load = state.load + sense * FARTHER * abs(state.load)
     pattern = replace(state.pattern, planar=True, turns=0)

@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.recognise import recognised
+from rodwell.analysis.off_wall.soft import settled
 from rodwell.numerics.stretches.assembly import bubbles_of
 from rodwell.numerics.stretches.carry import Sampler, fields_at, sampler
 from rodwell.numerics.stretches.chain import Shape
@@ -80,7 +81,9 @@ def snapped(
         value += sense * part * control.scale(value, event.load)
         minima = _minima(event, seeds, control, value, near if part != beyond[-1] else 0.0)
         for group in _alike(minima, event.solved, control):
-            state = recognised(event.model, group[0].shape, control, value)
+            low = group[0]
+            soft = event.model.soft
+            state = settled(event.model, low) if soft else recognised(event.model, low.shape, control, value)
             if state is not None:
                 others = tuple(sorted({round(control.potential(one), 9) for one in minima if one not in group}))
                 return Snap(state, 2 * seeds, len(group), others)
@@ -126,7 +129,8 @@ def _flowed(event: PatternedState, sample: Sampler, control: Control, value: flo
     pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
     elements = element_counts(model, nowhere, load, 1.0 / ELEMENTS_PER_HALF_WAVE, FEWEST_ELEMENTS)
     shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
-    return descended(model, shape, STIFFNESS, control.row(shape.chain, value), control.index_at)
+    stiffness = 0.0 if model.soft else STIFFNESS  # a soft wall is in the model already
+    return descended(model, shape, stiffness, control.row(shape.chain, value), control.index_at)
 
 
 def _kicked(state: Solved, sign: float) -> Shape:

@@ -93,7 +93,7 @@ def _until(steps: Sequence[Step], snap: PathPoint) -> list[Step]:
 def _contact(steps: Sequence[Step]) -> str:
     """What a rod keeps that has not snapped: partial contact, unless all contact was lost, or is complete again."""
     known = [one.state.state for one in steps if one.state is not None]
-    if known and known[-1].fine.pattern.full:
+    if known and known[-1].fine.everywhere:
         return "full contact"
     lost = bool(known) and known[-1].contact_total.value <= known[-1].contact_total.error
     return "its side of the hole, off the wall," if lost else "partial contact"

@@ -55,19 +55,26 @@ class SoftRim:
     def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density with rim."""
         energy, by_load, gradient, mixed, hessian = self.model.interior(s, u, load, given)
-        place = u[:, 0]
-        radius = np.maximum(np.hypot(*place), 1e-12)
-        inside = radius <= 1.0
-        depth = np.where(inside, 0.0, radius - 1.0)
-        energy = energy + 0.5 * self.stiffness * depth**2
-        across = np.where(inside, 0.0, depth / radius)
-        gradient[:, 0] += self.stiffness * across * place
-        normal = place / radius
-        hard = self.stiffness * np.where(inside, 0.0, 1.0 - across)
-        for i in range(2):
-            for j in range(2):
-                hessian[i, 0, j, 0] += hard * normal[i] * normal[j] + (self.stiffness * across if i == j else 0.0)
+        energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
         return energy, by_load, gradient, mixed, hessian
+
+
+def pressed_in(stiffness: float, place: FloatArray, gradient: FloatArray, hessian: FloatArray) -> FloatArray:
+    """Energy ½k(R − 1)² of a soft rim per length where the place (2, …) is beyond it.
+
+    Its first and second derivatives are added to ``gradient`` (2, 3, …) and ``hessian`` (2, 3, 2, 3, …).
+    """
+    radius = np.maximum(np.hypot(*place), 1e-12)
+    inside = radius <= 1.0
+    depth = np.where(inside, 0.0, radius - 1.0)
+    across = depth / radius
+    gradient[:, 0] += stiffness * across * place
+    normal = place / radius
+    hard = stiffness * np.where(inside, 0.0, 1.0 - across)
+    for i in range(2):
+        for j in range(2):
+            hessian[i, 0, j, 0] += hard * normal[i] * normal[j] + (stiffness * across if i == j else 0.0)
+    return np.asarray(0.5 * stiffness * depth**2)
 
 
 def _mass(shape: Shape) -> FloatArray:

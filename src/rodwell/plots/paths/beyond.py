@@ -9,7 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from rodwell.analysis.off_wall.state import STRAIGHT
-from rodwell.analysis.path.events import LIFT_OFF, SNAP
+from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP
+from rodwell.analysis.path.words import gradual
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
@@ -44,7 +45,11 @@ def plot_beyond(case: Case, found: Beyond) -> Figure:
 
 
 def pictured(found: Beyond) -> list[StateBeyond]:
-    """Lift-off, and around each snap the state just before it and that after it, unless that is the straight rod."""
+    """Lift-off, and around each snap the state just before it and that after it, unless that is the straight rod.
+
+    Of a rod that nothing presses to the wall, what happens without a jump as the load grows.
+    """
+    steadily = () if found.path is None else gradual(found.path.problem)
     chosen: list[StateBeyond] = []
     last: StateBeyond | None = None
     for one in found.events:
@@ -52,6 +57,7 @@ def pictured(found: Beyond) -> list[StateBeyond]:
             chosen.append(last)
         there = one.state
         taken = one.before or one.event.kind == SNAP or (one.event.kind == LIFT_OFF and not chosen)
+        taken |= one.event.kind in steadily and one.event.leg == LOADING
         if there is not None and taken and there.state.kind != STRAIGHT:
             chosen.append(there)
         last = there

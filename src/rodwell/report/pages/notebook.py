@@ -10,7 +10,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.endless.endless import Endless
 from rodwell.analysis.endless.state import NUMBERS
-from rodwell.analysis.path.load_path import ASSUMPTIONS, LoadPath
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
@@ -174,7 +174,7 @@ def _(result: LoadPath) -> Card:
     )
     grid = Grid(("leg", "what", "F in B/L²", "± error", "s/L"), rows, (2, 3))
     lines = (_problem(result.problem), ended, _converged(not result.missed))
-    return Card("Load path", lines, (grid,), f"{FORCE} {ASSUMPTIONS[0].upper()}{ASSUMPTIONS[1:]}.")
+    return Card("Load path", lines, (grid,), f"{FORCE} {result.assumptions[0].upper()}{result.assumptions[1:]}.")
 
 
 @card.register

@@ -17,7 +17,7 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import HELIX, kind_of
 from rodwell.analysis.path.events import LOADING, SNAP, Leg, PathPoint
 from rodwell.analysis.path.legs import straight_state
-from rodwell.analysis.path.load_path import ASSUMPTIONS, LoadPath
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.space.scene import drawn
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
@@ -122,7 +122,7 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
         title=title or "A rod in its hole as the load grows and comes back", viewer=first.markup, css=first.css,
         scripts=(*first.scripts, (HERE / "assets" / "path.js").read_text(encoding="utf-8")),
         data=json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
-        assumptions=ASSUMPTIONS, ends=ends_text(path.problem), reached=path.ended_because,
+        assumptions=path.assumptions, ends=ends_text(path.problem), reached=path.ended_because,
     )  # fmt: skip
     file.write_text(page, encoding="utf-8")
 
@@ -137,7 +137,7 @@ def described(state: PatternedState, scales: Scales | None) -> str:
     turns = turns_of(state.model, sampler(state.solved.shape))
     kind, numbers = kind_of(state, turns), measured(state)
     parts = [f"{kind} of {abs(turns)} turn{'s' if abs(turns) != 1 else ''}" if kind == HELIX else kind]
-    gaps = [float(gap) for gap, on in zip(numbers.gaps, state.pattern.touching, strict=True) if not on]
+    gaps = [float(gap) for gap, on in zip(numbers.gaps, state.touching, strict=True) if not on]
     if gaps:
         parts.append(f"{len(gaps)} gap{'s' if len(gaps) != 1 else ''} up to {plain(max(gaps), 3)} of the clearance")
     if numbers.points.size:

@@ -1,0 +1,48 @@
+"""How far a rod is pressed into a soft wall, and which pieces of it are in contact: read off its shape."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from rodwell.numerics.stretches.carry import fields_at
+from rodwell.numerics.stretches.chain import Shape
+from rodwell.quantities.arrays import FloatArray
+
+PER_ELEMENT = 12
+"""Places in an element at which the depth is looked at first."""
+
+
+class Piece(NamedTuple):
+    """A piece of the rod, in contact or not, from where to where."""
+
+    on: bool
+    left: float
+    right: float
+
+    def overlaps(self, other: Piece) -> bool:
+        """Whether they have a place in common."""
+        return self.left < other.right and other.left < self.right
+
+
+def depth(shape: Shape, s: FloatArray) -> FloatArray:
+    """How far beyond the wall the rod is at places (k,), in Δ; negative: a gap."""
+    x, y = fields_at(shape, s)[0][:, 0]
+    return np.asarray(np.hypot(x, y) - 1.0)
+
+
+def contact_pieces(shape: Shape) -> list[Piece]:
+    """Contact and gaps in turn, from s = 0."""
+    s = np.concatenate([np.linspace(a, b, PER_ELEMENT, endpoint=False) for a, b in pairwise(shape.places)] + [[1.0]])
+    on = depth(shape, s[1:-1]) > 0.0  # ends are held right at the wall
+    inner = s[1:-1]
+    bounds = [0.0]
+    for i in np.flatnonzero(on[1:] != on[:-1]):
+        bounds.append(
+            float(brentq(lambda t: float(depth(shape, np.array([t]))[0]), inner[i], inner[i + 1], xtol=1e-14))
+        )
+    bounds.append(1.0)
+    return [Piece(bool(on[0]) ^ bool(i % 2), *ends) for i, ends in enumerate(pairwise(bounds))]
