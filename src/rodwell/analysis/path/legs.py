@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import solved
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
 from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import END, Followed, PathEvent
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.resolve import UNKNOWN, resolved_event
 from rodwell.analysis.off_wall.soft import with_contact
 from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, contact_state
-from rodwell.analysis.off_wall.steps import closes_with_slope
 from rodwell.analysis.path.events import (
     BRANCH_POINT,
     CRITICAL,
@@ -31,33 +27,14 @@ from rodwell.analysis.path.events import (
 )
 from rodwell.analysis.path.plane import back_in_plane, out_of_plane
 from rodwell.analysis.path.snap import BEYOND, BEYOND_BUCKLING, NEAR, Snap, snapped
-from rodwell.analysis.straight.critical import Mode
-from rodwell.errors import NotConvergedError
-from rodwell.numerics.stretches.carry import rim_fields
-from rodwell.quantities.arrays import FloatArray
+from rodwell.analysis.path.straightening import How, first_still, flat, straight_state, straightens, without_jump
 from rodwell.quantities.value import Value
 
 MOST_SNAPS = 12
 """Snaps and changes of shape on a leg, after which it is given up."""
 
-FLAT = 0.05
-"""Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
-
 SLACK = 1e-9
 """A condition on contact that is missed by no more than this part of the load is as good as met."""
-
-AT_BUCKLING = 1e-6
-"""Loads that differ from the buckling load by no more than this part of it are that load."""
-
-STILL = 1e-4
-"""The same, below which it is straight."""
-
-SETTLED = 0.03
-"""The same for a rod with gaps that close with its slope, at ball joints and at steps of the stiffness: they become too
-short to be followed before it is straight."""
-
-SHORT_STEP = 5e-3
-"""Largest step where a longer one has jumped over a fold."""
 
 NO_DROP = 1e-3
 """A state that gives way to one whose energy differs by less than this part has not snapped: the other branches off."""
@@ -73,30 +50,6 @@ class Walked:
     ended: str = ""
 
 
-@dataclass(frozen=True)
-class How:
-    """How a path is followed: what is controlled, tolerance, seeds of disturbances, buckling mode, who is told."""
-
-    control: Control
-    rtol: float
-    seeds: int
-    mode: Mode
-    progress: Callable[[float], str | None] | None = None
-
-
-def straight_state(model: RodInHole, load: float) -> PatternedState:
-    """The straight rod at a load, as a chain in contact everywhere."""
-
-    def flat(s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        angle = np.zeros((3, s.size))
-        return rim_fields(angle), angle
-
-    found = solved(model, Pattern((True,)), np.zeros(0), load, flat)
-    if found is None:
-        raise NotConvergedError(f"the straight rod at F = {load:.8g} B/L² is singular")
-    return found
-
-
 def walked(start: PatternedState | None, model: RodInHole, begin: float, target: float, leg: Leg, how: How) -> Walked:
     """Go from a state, or the straight rod, to ``target``: ``begin`` and it are values of what is controlled."""
     out = Walked(leg, last=start)
@@ -108,7 +61,7 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
                 return out
             continue
         path = followed(out.last, target, control=how.control, progress=how.progress)
-        path = _without_jump(path, target, sense, how)
+        path = without_jump(path, target, sense, how)
         if _came_to_rest(out, path, how):
             begin = how.control.of_straight(how.mode.force)
             continue
@@ -155,35 +108,9 @@ def _along_straight(out: Walked, model: RodInHole, begin: float, target: float, 
     return buckles
 
 
-def _first_still(path: Followed) -> int | None:
-    """The number of the first state of a path that is straight, if it began bent."""
-    bent = [not (_flat(state, STILL) or _settles(state)) for state in path.states]
-    return bent.index(False) if bent[0] and not all(bent) else None
-
-
-def _without_jump(path: Followed, target: float, sense: float, how: How) -> Followed:
-    """A path that does not jump over a fold.
-
-    A bent rod that is past the buckling load cannot become straight there, and one that is bent much may fold beyond
-    it: the last part is followed again in short steps.
-    """
-    load_sense = sense if how.control.by_force else -sense
-    first = _first_still(path)
-    if first is None:
-        return path
-    past = (path.states[first - 1].load - how.mode.force) * load_sense > 0.0
-    if not past and _flat(path.states[first - 1]):
-        return path
-    begin = max(first - 3, 0)
-    kept = path.states[:begin]
-    again = followed(path.states[begin], target, control=how.control, progress=how.progress, largest=SHORT_STEP)
-    events = [event for event in path.events if event.state in kept] + again.events
-    return Followed(kept + again.states, events, again.ended, again.along)
-
-
 def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
     """Whether a path on the wall has met the straight rod, at its buckling load, and would go on along it."""
-    first = _first_still(path)
+    first = first_still(path)
     if first is None:
         return False
     out.leg.runs.append(path.states[:first])
@@ -218,38 +145,15 @@ def _complete(event: PathEvent) -> bool:
     return event.between is not None and any(one.everywhere for one in event.between)
 
 
-def _flat(state: PatternedState, angle: float = FLAT) -> bool:
-    """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
-    shape, pattern = state.solved.shape, state.pattern
-    if state.model.soft:
-        return False  # it has sunk into the wall: states of its own, which are followed
-    if not pattern.full:
-        return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
-    return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
-
-
-def _settles(state: PatternedState) -> bool:
-    """Whether a rod that leaves the wall as soon as it buckles is about to be straight."""
-    touching, angles = state.pattern.touching, state.solved.shape.nodes[state.solved.shape.chain.polar, 1]
-    if state.pattern.full or state.pattern.turns or float(np.ptp(angles)) >= SETTLED:
-        return False
-    return all(on or closes_with_slope(state, i) for i, on in enumerate(touching))
-
-
-def _straightens(state: PatternedState, how: How) -> bool:
-    """Whether a path that ends here meets the straight rod, at its buckling load; a fold nearby is another one's."""
-    return _flat(state) and abs(state.load - how.mode.force) <= AT_BUCKLING * abs(how.mode.force)
-
-
 def _met_another(state: PatternedState, how: How) -> bool:
     """Whether a path that folds has met another one: the straight rod, or states in the plane of its ends."""
-    return _straightens(state, how) or back_in_plane(state, 0.0) is not None
+    return straightens(state, how) or back_in_plane(state, 0.0) is not None
 
 
 def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     """What follows where a state ceases to exist, or to be stable."""
     last = path.last
-    if _straightens(last, how):
+    if straightens(last, how):
         critical = Value(how.mode.force, how.mode.error)
         out.events.append(PathPoint(CRITICAL, critical, (), out.leg.name))
         out.last = None
@@ -283,7 +187,7 @@ def _to(
 ) -> None:
     """Go where the flow leads from a state that gives way at a load, with ``held`` of what is controlled."""
     control = how.control
-    where = (BEYOND_BUCKLING, 0.0) if _flat(event) else (BEYOND, NEAR)
+    where = (BEYOND_BUCKLING, 0.0) if flat(event) else (BEYOND, NEAR)
     snap = snapped(event, sense, how.seeds, control, *where)
     if snap is None:
         out.ended = (
@@ -294,7 +198,7 @@ def _to(
     found, at = _destination(snap, control, held)
     if not fold and _continuous(event, snap.state, at, control):
         kind = BRANCH_POINT
-        if _flat(event):
+        if flat(event):
             kind = "" if found.fine.pattern.full else LIFT_OFF
         if kind:
             out.events.append(PathPoint(kind, load, (), out.leg.name, None, found))
@@ -310,7 +214,7 @@ def _continuous(event: PatternedState, after: PatternedState, at: PatternedState
     if at is None:
         return True  # it exists beyond that load only
     before, beyond, there = (control.potential(one.solved) for one in (event, after, at))
-    if _flat(event):
+    if flat(event):
         return abs(there - before) < 0.1 * abs(beyond - before)
     same_load = abs(at.load - event.load) <= NO_DROP * abs(event.load)
     return same_load and abs(there - before) < NO_DROP * max(abs(there), abs(before))

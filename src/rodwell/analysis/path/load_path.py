@@ -18,8 +18,9 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
 from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range, checked_wall
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
-from rodwell.analysis.path.legs import How, straight_state, walked
+from rodwell.analysis.path.legs import walked
 from rodwell.analysis.path.loading import loaded
+from rodwell.analysis.path.straightening import How, straight_state
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole

@@ -16,8 +16,8 @@ from rodwell.analysis.off_wall.measured import measured
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import HELIX, kind_of
 from rodwell.analysis.path.events import LOADING, SNAP, Leg, PathPoint
-from rodwell.analysis.path.legs import straight_state
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.analysis.path.straightening import straight_state
 from rodwell.analysis.space.scene import drawn
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case

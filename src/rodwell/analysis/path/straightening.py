@@ -1,0 +1,110 @@
+"""The straight rod of a load path, and how a path comes to it: by getting flatter and flatter, or over a fold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import solved
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.control import Control
+from rodwell.analysis.off_wall.following import followed
+from rodwell.analysis.off_wall.happening import Followed
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.pattern import Pattern
+from rodwell.analysis.off_wall.steps import closes_with_slope
+from rodwell.analysis.straight.critical import Mode
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.stretches.carry import rim_fields
+from rodwell.quantities.arrays import FloatArray
+
+FLAT = 0.05
+"""Largest angle around the hole, in radians, below which a state that loses stability is about to be straight."""
+
+AT_BUCKLING = 1e-6
+"""Loads that differ from the buckling load by no more than this part of it are that load."""
+
+STILL = 1e-4
+"""The same, below which it is straight."""
+
+SETTLED = 0.03
+"""The same for a rod with gaps that close with its slope, at ball joints and at steps of the stiffness: they become too
+short to be followed before it is straight."""
+
+SHORT_STEP = 5e-3
+"""Largest step where a longer one has jumped over a fold."""
+
+
+@dataclass(frozen=True)
+class How:
+    """How a path is followed: what is controlled, tolerance, seeds of disturbances, buckling mode, who is told."""
+
+    control: Control
+    rtol: float
+    seeds: int
+    mode: Mode
+    progress: Callable[[float], str | None] | None = None
+
+
+def straight_state(model: RodInHole, load: float) -> PatternedState:
+    """The straight rod at a load, as a chain in contact everywhere."""
+
+    def flat(s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        angle = np.zeros((3, s.size))
+        return rim_fields(angle), angle
+
+    found = solved(model, Pattern((True,)), np.zeros(0), load, flat)
+    if found is None:
+        raise NotConvergedError(f"the straight rod at F = {load:.8g} B/L² is singular")
+    return found
+
+
+def first_still(path: Followed) -> int | None:
+    """The number of the first state of a path that is straight, if it began bent."""
+    bent = [not (flat(state, STILL) or settles(state)) for state in path.states]
+    return bent.index(False) if bent[0] and not all(bent) else None
+
+
+def without_jump(path: Followed, target: float, sense: float, how: How) -> Followed:
+    """A path that does not jump over a fold.
+
+    A bent rod that is past the buckling load cannot become straight there, and one that is bent much may fold beyond
+    it: the last part is followed again in short steps.
+    """
+    load_sense = sense if how.control.by_force else -sense
+    first = first_still(path)
+    if first is None:
+        return path
+    past = (path.states[first - 1].load - how.mode.force) * load_sense > 0.0
+    if not past and flat(path.states[first - 1]):
+        return path
+    begin = max(first - 3, 0)
+    kept = path.states[:begin]
+    again = followed(path.states[begin], target, control=how.control, progress=how.progress, largest=SHORT_STEP)
+    events = [event for event in path.events if event.state in kept] + again.events
+    return Followed(kept + again.states, events, again.ended, again.along)
+
+
+def flat(state: PatternedState, angle: float = FLAT) -> bool:
+    """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
+    shape, pattern = state.solved.shape, state.pattern
+    if state.model.soft:
+        return False  # it has sunk into the wall: states of its own, which are followed
+    if not pattern.full:
+        return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
+    return pattern.full and not pattern.turns and float(np.ptp(shape.nodes[:, 1])) < angle
+
+
+def settles(state: PatternedState) -> bool:
+    """Whether a rod that leaves the wall as soon as it buckles is about to be straight."""
+    touching, angles = state.pattern.touching, state.solved.shape.nodes[state.solved.shape.chain.polar, 1]
+    if state.pattern.full or state.pattern.turns or float(np.ptp(angles)) >= SETTLED:
+        return False
+    return all(on or closes_with_slope(state, i) for i, on in enumerate(touching))
+
+
+def straightens(state: PatternedState, how: How) -> bool:
+    """Whether a path that ends here meets the straight rod, at its buckling load; a fold nearby is another one's."""
+    return flat(state) and abs(state.load - how.mode.force) <= AT_BUCKLING * abs(how.mode.force)
