@@ -67,12 +67,12 @@ class WallLoads:
 
     @property
     def bending_mu(self) -> Peak:
-        """Largest |μ|."""
+        """Largest size of μ."""
         return self.carried.bending_mu
 
     @property
     def bending_lambda(self) -> Peak:
-        """Largest |λ cos η|."""
+        """Largest size of λ cos η."""
         return self.carried.bending_lambda
 
     @property
