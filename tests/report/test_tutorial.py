@@ -34,6 +34,7 @@ def test_cells_of_the_tutorial_run(notebook: dict[str, Any], capsys: pytest.Capt
 
     before = mpl.get_backend()
     pyplot.switch_backend("agg")
+    pyplot.close("all")  # what other tests left open does not count
     names: dict[str, Any] = {}
     try:
         for cell in notebook["cells"]:
