@@ -164,18 +164,18 @@ def _lose(plan: Plan, condition: Condition) -> None:
 
 def _grow(plan: Plan, condition: Condition) -> None:
     """A point of contact grows to a stretch."""
-    i, half = condition.number, 0.5 * plan.contact
-    s = plan.breaks[i]
-    plan.touching.insert(i + 1, True)
-    plan.breaks[i : i + 1] = [s - half, s + half]
-    plan.pair = (s - half, s + half)
+    _widen(plan, condition.number, touching=True)
 
 
 def _split(plan: Plan, condition: Condition) -> None:
     """A point of contact becomes two with a gap between them: in contact the stretch between them would pull."""
-    i, half = condition.number, 0.5 * plan.contact
-    s = plan.breaks[i]
-    plan.touching.insert(i + 1, False)
+    _widen(plan, condition.number, touching=False)
+
+
+def _widen(plan: Plan, i: int, *, touching: bool) -> None:
+    """Put a short stretch, in contact or free, in the place of a point of contact."""
+    s, half = plan.breaks[i], 0.5 * plan.contact
+    plan.touching.insert(i + 1, touching)
     plan.breaks[i : i + 1] = [s - half, s + half]
     plan.pair = (s - half, s + half)
 

@@ -22,7 +22,7 @@ from rodwell.analysis.space.scene import drawn
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.numerics.stretches.carry import sampler
-from rodwell.plots.paths.path import units_of
+from rodwell.plots.paths.path import Units, units_of
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.forces import Forces
@@ -102,20 +102,28 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
     shown, scales = frames(path), None if case is None else case.scales
     said = Forces(None, path.problem.hung_weight) if case is None else forces_of(case)
     # one enlargement for all, so that they can be compared: that of the state which bears the least
-    enlarged = min(drawn(frame.state, scales, PLACES).radial_scale for frame in shown)
+    rods = [drawn(frame.state, scales, PLACES) for frame in shown]
+    enlarged = min(rod.radial_scale for rod in rods)
     views = [
-        view(frame.state, scales, drawn(frame.state, scales, PLACES, None, enlarged), SIDES, readings=False)
-        for frame in shown
+        view(
+            frame.state,
+            scales,
+            rod if rod.radial_scale == enlarged else drawn(frame.state, scales, PLACES, None, enlarged),
+            SIDES,
+            readings=False,
+        )
+        for frame, rod in zip(shown, rods, strict=True)
     ]
+    units = units_of(path, case)
     data = {
         "frames": [
             {"scene": _lean(seen), "leg": frame.leg, "run": frame.run, "says": words(frame, said), "bar": seen.bar}
-            | _at(frame, path, case)
+            | _at(frame, units)
             for frame, seen in zip(shown, views, strict=True)
         ],
         "shared": _shared(views),
         "events": [{"text": event.meaning, "frame": _frame_of(event, shown)} for event in path.events],
-        "axes": units_of(path, case)._asdict() | {"load": None},
+        "axes": units._asdict() | {"load": None},
     }
     first = viewer(views[0])
     page = template("path3d.html.j2").render(
@@ -148,10 +156,9 @@ def described(state: PatternedState, scales: Scales | None) -> str:
     return ", ".join(parts)
 
 
-def _at(frame: Frame, path: LoadPath, case: Case | None) -> dict[str, float]:
+def _at(frame: Frame, units: Units) -> dict[str, float]:
     """Where a state lies in load against shortening, as drawn."""
-    units = units_of(path, case)
-    shortening = frame.state.solved.out.energy_by_load * path.problem.clearance**2
+    shortening = frame.state.solved.out.energy_by_load * frame.state.problem.clearance**2
     return {"x": float(units.shortening * shortening), "y": float(units.load(frame.state.load))}
 
 
