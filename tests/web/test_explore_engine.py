@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
+from rodwell.web import words
 from rodwell.web.engine import Cancelled, Engine
 from rodwell.web.inputs import DEFAULT, as_toml, moved
 from rodwell.web.worker import as_json
@@ -190,6 +191,16 @@ def test_what_is_copied_runs_and_gives_the_state(plain: Engine, capsys: pytest.C
 
     command = cli.commands["diagram"].make_context("diagram", texts["command"].split()[2:])
     assert command.params["until"] == pytest.approx(-data["range"][1])
+
+
+def test_what_is_copied_leaves_out_nothing_of_the_problem() -> None:
+    for values in (
+        {"weight": 10.0, "alpha": 60.0, "build": 0.2, "walk": 0.1},
+        {"weight": 10.0, "poisson": 0.4, "twist": 1.0, "ends": "pinned-clamped", "turns": 1.5},
+        {"weight": 10.0, "torsion": 0.7, "sections": [(0.5, 1.0, 1.0), (0.5, 2.0, 1.5)]},
+    ):
+        problem = rodwell.Problem(**values)
+        assert eval(words._call(problem)) == problem
 
 
 def test_files_are_what_they_are_called(plain: Engine, field: Engine) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 from rodwell.analysis.off_wall.state import ContactState
@@ -64,7 +64,7 @@ def as_python(explored: Explored, solution: Shown, branch: str, which: int) -> s
 
 def _call(problem: Problem) -> str:
     """The problem as it is written in Python: what differs from its defaults."""
-    names = ("alpha", "clearance", "poisson", "twist", "torsion", "sections")
+    names = [field.name for field in fields(problem) if field.name not in ("weight", "ends")]
     default = Problem(problem.weight)
     given = [f"weight={problem.weight!r}"]
     given += [
