@@ -29,7 +29,7 @@ def test_kernels_are_compiled_for_the_arguments_with_which_they_are_called():
 
 def test_each_kernel_is_announced(capsys):
     first_run.main()
-    assert capsys.readouterr().out.split() == ["maxima", "newton", "softest"]
+    assert capsys.readouterr().out.split() == ["state_numbers", "newton", "softest"]
 
 
 def test_no_kernel_is_announced_that_is_not_on_disk(capsys, monkeypatch):

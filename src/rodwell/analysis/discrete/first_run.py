@@ -1,6 +1,7 @@
 """What the second process of a first run compiles: see :mod:`rodwell.compiling.second_process`.
 
-``python -m rodwell.analysis.discrete.first_run`` compiles the kernels below in the order in which a branch needs them.
+``python -m rodwell.analysis.discrete.first_run`` compiles the kernels below in the order in which a branch needs them:
+what takes longest, with all that it calls.
 """
 
 from __future__ import annotations
@@ -12,10 +13,10 @@ import numpy as np
 from numba import types
 
 from rodwell.analysis.discrete.choices import DEGREE, POINTS_OF_BRANCH
+from rodwell.analysis.discrete.measures import state_numbers
 from rodwell.compiling import second_process
 from rodwell.compiling.cache import on_disk
 from rodwell.numerics.continuation.softest import softest
-from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import Tolerances, newton
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -25,6 +26,7 @@ _VECTOR = types.Array(types.float64, 1, "C")
 _POSITIONS = types.Array(types.int64, 1, "C")
 _MATRIX = types.Array(types.float64, 2, "C")
 _TABLE = types.Array(types.float64, 3, "C")
+_TABLES = types.Tuple((_VECTOR, _POSITIONS, _VECTOR, _TABLE, _TABLE))  # type: ignore[no-untyped-call]
 
 
 def _typical() -> tuple[Discretisation, Tolerances]:
@@ -42,7 +44,13 @@ def _typical() -> tuple[Discretisation, Tolerances]:
 _MESH, _TOLERANCES = (numba.typeof(record) for record in _typical())  # type: ignore[no-untyped-call]
 
 KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
-    (maxima, (_MESH, _VECTOR, _VECTOR, _TABLE, _VECTOR, _VECTOR, types.float64)),
+    (
+        state_numbers,
+        (
+            *(_MESH, _VECTOR, _TABLE, _POSITIONS, _TABLES, _VECTOR, _VECTOR, types.float64),  # landmarks, marks, probes
+            *(_VECTOR, _VECTOR, types.float64),  # places, sizes, lowest
+        ),
+    ),
     (
         newton,
         (

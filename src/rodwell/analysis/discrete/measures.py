@@ -102,7 +102,7 @@ PROBES = (0.21, 0.46, 0.5, 0.78)
 
 
 @kernel
-def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, places, sizes, lowest):
+def state_numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, places, sizes, lowest):
     """Rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,),
@@ -157,7 +157,7 @@ def _numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, place
     return out
 
 
-_quick_numbers, _quick_maxima = direct(_numbers), direct(maxima)
+_quick_numbers, _quick_maxima = direct(state_numbers), direct(maxima)
 
 _probed: WeakKeyDictionary[SplineSpace, Any] = WeakKeyDictionary()
 """What is tabulated at the :data:`PROBES`, for each space: the states of a branch are all measured on a few."""
@@ -198,6 +198,7 @@ def measure(family: Family, state: State) -> FloatArray:
     probes = _probed.get(space)
     if probes is None:
         probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
+    wait_for("state_numbers")
     numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
     return np.asarray(numbers)
 
@@ -240,7 +241,6 @@ def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[Floa
     value just below the step.
     """
     space, mesh = family.space, family.mesh
-    wait_for("maxima")
     if not space.kinks.size:
         places, values, lowest = _quick_maxima(mesh, space.knots, *space.samples, c, parameters, NEAR_THE_TOP)
         return places, values, lowest
