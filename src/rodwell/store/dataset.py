@@ -231,6 +231,7 @@ def problem_attributes(problem: Problem) -> dict[str, Any]:
         "turns": problem.turns,
         "on_top": int(problem.on_top),
         "outside": int(problem.outside),
+        "floats": int(problem.floats),
         "ends": "-".join(problem.ends),
         **problem.given_more,
     }
