@@ -89,3 +89,26 @@ def test_what_cannot_be_followed_is_refused(branch: Branch) -> None:
     other = follow(Problem(15.0, 89.0), start=branch[5], parameter="weight", until=16.0)
     with pytest.raises(InputError, match="a branch in the end force"):
         special_curve(other.special_points[-1], "alpha", 80.0)
+
+
+def test_from_a_fold_a_branch_goes_on_as_it_did() -> None:
+    """At the fold −358.8964174 of γ = 15, α = 89° both arms lead up: the one behind it is followed, of index 1."""
+    problem = Problem(15.0, 89.0)
+    branch = follow(problem, until=-380.0)
+    fold = branch.labelled("fold 1")
+    on = follow(problem, start=fold, until=-340.0)
+    assert on.reached_end
+    assert [point.kind for point in on.special_points] == ["end"]
+    assert set(on.stability_index[1:]) == {1}
+    behind = max(branch.states_at(-340.0), key=lambda state: state.number("energy").value)
+    assert on[-1].number("energy").value == pytest.approx(behind.number("energy").value, rel=1e-9)
+
+
+def test_the_side_of_a_fold_without_states_is_told() -> None:
+    problem = Problem(15.0, 89.0)
+    fold = follow(problem, until=-380.0).labelled("fold 1")
+    with pytest.raises(
+        InputError, match=r"no states beside its fold at force = -358\.8964174.*values above it"
+    ) as caught:
+        follow(problem, start=fold, until=-360.0)
+    assert caught.value.field == "until"

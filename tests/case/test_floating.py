@@ -1,53 +1,137 @@
-"""Rods that float: refused in case files, with the case that is the same rod upside down and from its other end."""
+"""Rods that float: lighter than the fluid around them, pressed to the upper side of the hole.
+
+Upside down such a rod is one with its weight downwards at 180° − α; from its other end, one at α with its ends
+exchanged and the load at the other end.
+"""
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
 import pytest
 
-from rodwell import Case, InputError, Problem, critical_loads, follow
+from rodwell import Case, InputError, Problem, answer, certify, critical_loads, follow, sensitivities
+from rodwell.answers.words.meaning import sentences
+from rodwell.plots.sketch import plot_sketch
+from rodwell.report.reports.front import inputs_in_words
 
 HOLE = {"diameter": "150 mm", "angle_from_vertical": "62 deg"}
 ROD = {"length": "12 m", "outer_diameter": "60 mm", "inner_diameter": "56 mm", "youngs_modulus": "70 GPa"}
 """An empty pipe of aluminium in brine: it weighs 9.65 N/m in air and displaces 33.3 N/m."""
+
+METAL, CIRCLE = 0.25 * np.pi * (0.060**2 - 0.056**2), 0.25 * np.pi * 0.060**2
+LIFT = 9.80665 * (1200.0 * CIRCLE - 2700.0 * METAL)
+"""Buoyed weight by hand: that of the brine that the outer circle displaces, less ρ g A of the metal."""
 
 
 def case(rod: dict[str, Any], **more: Any) -> Case:
     return Case.from_dict({"rod": {**ROD, **rod}, "hole": HOLE, **more})
 
 
-def floating() -> InputError:
-    with pytest.raises(InputError) as caught:
-        case({"density": "2700 kg/m^3", "ends": "clamped-pinned"}, mud={"outside": "1200 kg/m^3"})
-    return caught.value
+def floating(**more: Any) -> Case:
+    return case({"density": "2700 kg/m^3", "ends": "clamped-pinned"}, mud={"outside": "1200 kg/m^3"}, **more)
 
 
-def test_a_rod_that_floats_is_refused_with_the_case_that_it_is() -> None:
-    """Buoyed weight by hand: ρ g A of the metal, less that of the brine that the outer circle displaces."""
-    error = floating()
-    assert error.field == "mud.outside"
-    metal, circle = 0.25 * np.pi * (0.060**2 - 0.056**2), 0.25 * np.pi * 0.060**2
-    lift = 9.80665 * (1200.0 * circle - 2700.0 * metal)
-    found = re.search(r'weight_per_length = "([0-9.]+) N/m"', str(error))
-    assert found is not None
-    assert float(found.group(1)) == pytest.approx(lift, rel=1e-9)
-    assert "ends in reverse order" in str(error)
+def upright(**more: Any) -> Case:
+    """The same rod upside down and from its other end: its weight acts downwards."""
+    return case({"weight_per_length": f"{LIFT:.17g} N/m", "ends": "pinned-clamped"}, **more)
 
 
-def test_that_case_is_the_rod_seen_upside_down() -> None:
-    """With its weight upwards a rod at α is, upside down, one with its weight downwards at 180° − α: the same loads.
+def test_the_problem_by_hand() -> None:
+    found = floating()
+    assert found.problem.floats
+    assert found.scales is not None
+    assert found.problem.weight * found.scales.factor("force_per_length") == pytest.approx(LIFT, rel=1e-12)
+    assert found.problem.alpha == 62.0
+    assert found.problem.axial_weight == pytest.approx(-found.problem.weight * np.cos(np.radians(62.0)), rel=1e-14)
 
-    The case that the message writes is that rod seen from its other end, where the end force is F − γ cos α.
-    """
-    found = re.search(r'weight_per_length = "([0-9.]+ N/m)"', str(floating()))
-    assert found is not None
-    written = case({"weight_per_length": found.group(1), "ends": "pinned-clamped"}).problem
-    upside_down = Problem(written.weight, 180.0 - 62.0, clearance=written.clearance, ends=("clamped", "pinned"))
-    mine, theirs = critical_loads(written, 3), critical_loads(upside_down, 3)
-    hung = written.axial_weight  # compression at the lower end of the one is that at the upper end of the other
-    assert mine.forces - hung == pytest.approx(theirs.forces, abs=1e-7)
-    lift, other = (follow(rod).labelled("lift_off 1") for rod in (written, upside_down))
-    assert lift.force - hung == pytest.approx(other.force, abs=lift.error + other.error + 1e-9)
+
+def test_loads_are_those_of_the_rod_upside_down_and_from_its_other_end() -> None:
+    """Compression at the top of the one is compression at the bottom of the other."""
+    mine, other = floating().problem, upright().problem
+    hung = other.axial_weight
+    assert critical_loads(mine, 3).forces == pytest.approx(critical_loads(other, 3).forces - hung, abs=1e-7)
+    lift, theirs = (follow(rod).labelled("lift_off 1") for rod in (mine, other))
+    assert lift.force == pytest.approx(theirs.force - hung, abs=lift.error + theirs.error + 1e-9)
+    assert sorted(1.0 - s for s in lift.s) == pytest.approx(sorted(theirs.s), abs=1e-6)
+
+
+def test_a_load_at_either_end() -> None:
+    """From the bottom to the top the force falls by what lifts the rod: N(0) = N(1) + lift L cos α."""
+    top, bottom = (floating(load={"applied": "-1 kN", "at": at}) for at in ("top", "bottom"))
+    assert top.scales is not None
+    less = (top.applied[0].force - bottom.applied[0].force) * top.scales.factor("force")
+    assert less == pytest.approx(LIFT * 12.0 * np.cos(np.radians(62.0)), rel=1e-12)
+
+
+def test_what_varies_with_the_inclination() -> None:
+    """Derivatives by α against differences, and branches followed in α."""
+    problem = Problem(30.0, 60.0, floats=True)
+    (load, *_) = sensitivities(problem)
+    low, high = (critical_loads(problem.but(alpha=60.0 + h), 1).forces[0] for h in (-1e-3, 1e-3))
+    assert load.derivatives["alpha"].value == pytest.approx((high - low) / 2e-3, rel=1e-6)
+    state = follow(problem, until=-150.0)[-1]
+    there = follow(problem, start=state, parameter="alpha", until=61.0)[-1]
+    assert there.number("energy").value == pytest.approx(
+        follow(there.problem, until=-150.0)[-1].number("energy").value, rel=1e-8
+    )
+
+
+def test_loads_with_proof() -> None:
+    problem = Problem(30.0, 0.0, ends="pinned-clamped", floats=True)  # type: ignore[arg-type]
+    (proved,) = certify(problem, 1)
+    assert float(proved.force.middle) == pytest.approx(critical_loads(problem, 1).forces[0], abs=1e-9)
+
+
+def test_the_rod_is_drawn_at_the_top() -> None:
+    problem = Problem(30.0, 60.0, floats=True)
+    state = follow(problem, until=-150.0)[-1]
+    rod, other = state.geometry(41), equilibrium_upside_down(problem).geometry(41)
+    assert rod.centreline[0] == pytest.approx([problem.clearance, 0.0, 0.0], abs=1e-12)
+    turned = np.array([-1.0, -1.0, 1.0])  # by half a turn about the hole's axis
+    for name in ("centreline", "t1", "d1", "u1", "d0", "v1"):
+        assert getattr(rod, name) == pytest.approx(turned * getattr(other, name), abs=1e-9)
+
+
+def equilibrium_upside_down(problem: Problem) -> Any:
+    return follow(problem.but(floats=False, alpha=180.0 - problem.alpha), until=-150.0)[-1]
+
+
+def test_the_answer_in_the_users_words() -> None:
+    found = answer(floating(load={"applied": "-0.5 kN"}, analysis={"off_wall": False}))
+    text = " ".join(sentences(found))
+    assert "presses on the upper side of the hole" in text
+    assert "Compression is largest at the top" in text
+    assert found.assessment.formulas == ()
+    assert found.assessment.local is None
+    assert found.converged
+    other = answer(upright(load={"applied": "-0.5 kN", "at": "bottom"}, analysis={"off_wall": False}))
+    mine, theirs = (one.key_numbers["largest_wall_force"].number for one in (found, other))
+    assert mine.value == pytest.approx(theirs.value, rel=1e-7)
+    assert "upwards: the rod floats" in dict(inputs_in_words(found.case))["Weight per length"]
+    assert plot_sketch(found.case).axes[0].texts
+
+
+def test_without_dimensions() -> None:
+    data = {"dimensionless": {"weight": -15.0, "alpha": 60.0}, "load": {"applied": -90.0}}
+    found = Case.from_dict(data).problem
+    assert (found.weight, found.floats) == (15.0, True)
+
+
+def test_what_stays_refused() -> None:
+    with pytest.raises(InputError, match="straight holes only") as caught:
+        Case.from_dict({
+            "rod": {**ROD, "density": "2700 kg/m^3"}, "hole": {**HOLE, "build": "3 deg/30 m"},
+            "mud": {"outside": "1200 kg/m^3"},
+        })  # fmt: skip
+    assert caught.value.field == "mud.outside"
+    heavy, light = ({"outer_diameter": "60 mm", "youngs_modulus": "70 GPa", "length": "6 m", **more}
+                    for more in ({"inner_diameter": "0 mm"}, {"inner_diameter": "56 mm"}))  # fmt: skip
+    with pytest.raises(InputError, match="unlike the string as a whole"):
+        Case.from_dict({
+            "string": [{"density": "2700 kg/m^3", **heavy}, {"density": "2700 kg/m^3", **light}],
+            "hole": HOLE, "mud": {"outside": "1200 kg/m^3"},
+        })  # fmt: skip
+    with pytest.raises(InputError, match="floats=True"):
+        Problem(-15.0, 60.0)

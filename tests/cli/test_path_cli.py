@@ -44,7 +44,7 @@ def test_as_text_with_files(tmp_path: Path) -> None:
     assert "the rod lifts off the wall, s/L = 0.5" in done.output
     assert "without inertia" in done.output
     assert "at the end of a stretch in contact" in done.output
-    files = ["load-path-3d.html", "load-path.csv", "load-path.json", "load-path.png", "load-path.svg"]
+    files = ["load-path-3d.html", "load-path.csv", "load-path.json", "load-path.nc", "load-path.png", "load-path.svg"]
     assert sorted(file.name for file in out.iterdir()) == files
 
 

@@ -36,7 +36,8 @@ def dimensionless(
         raise InputError("dimensionless.alpha", given.alpha, reason)
     try:
         problem = Problem(
-            weight=given.weight,
+            weight=abs(given.weight),
+            floats=given.weight < 0.0,
             alpha=given.alpha,
             clearance=given.clearance,
             poisson=given.poisson,

@@ -87,22 +87,10 @@ def fluids_of(mud: schema.Mud | None, pressure: schema.PressureAtEnd | None, rod
     return fluids
 
 
-def checked_weight(fluids: Fluids, rod: PhysicalRod, gravity: float) -> float:
-    """Buoyed weight per length in N/m; raises InputError if the rod floats."""
+def weight_in(fluids: Fluids, rod: PhysicalRod, gravity: float) -> float:
+    """Buoyed weight per length in N/m; negative of a rod that floats, and 0 of one that the fluid carries."""
     weight = fluids.buoyed_weight(rod, gravity)
-    if abs(weight) < NEUTRAL * rod.weight_in_air:
-        return 0.0
-    if weight < 0.0:
-        what = (
-            f"lifts the rod: its weight of {rod.weight_in_air:.4g} N/m becomes {weight:.4g} N/m, and it presses on the "
-            "high side, which reports and strength do not know: give a lighter fluid outside, a heavier one inside, or "
-            "check units and diameters. If it does float: in a straight hole, seen upside down and from its other end, "
-            f'it is a rod with its weight downwards. Write weight_per_length = "{-weight:.10g} N/m" without [mud] and '
-            "[pressure], the ends in reverse order, and effective loads at the other end; the upper end and the low "
-            "side of that case are the lower end and the high side of yours"
-        )
-        raise InputError("mud.outside", fluids.outside, what)
-    return weight
+    return 0.0 if abs(weight) < NEUTRAL * rod.weight_in_air else weight
 
 
 def fluid_facts(fluids: Fluids, rod: PhysicalRod, gravity: float) -> list[Fact]:
@@ -112,6 +100,8 @@ def fluid_facts(fluids: Fluids, rod: PhysicalRod, gravity: float) -> list[Fact]:
     how = "w = w_air + ρᵢ g Aᵢ − ρₒ g Aₒ"
     if rod.density is not None:
         how += "; Aₒ is Aᵢ and the metal that the weight in air stands for"
+    if weight_in(fluids, rod, gravity) < 0.0:
+        how += "; negative: the rod floats, and presses on the upper side of the hole"
     return [
         Fact("weight per length in air", rod.weight_in_air, "force_per_length"),
         Fact("buoyed weight per length mg", fluids.buoyed_weight(rod, gravity), "force_per_length", how),

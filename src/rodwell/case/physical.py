@@ -9,7 +9,7 @@ from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
-from rodwell.case.fluids import Fluids, checked_weight, fluid_facts, fluids_of
+from rodwell.case.fluids import Fluids, fluid_facts, fluids_of, weight_in
 from rodwell.case.hole.lie import Lie, lie_of
 from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
@@ -67,7 +67,7 @@ def physical(
         assert parsed.rod is not None
         rod = physical_rod(parsed.rod, hole.gravity, catalogue, parsed.rod.length)
         fluids = fluids_of(parsed.mud, parsed.pressure, rod)
-        weight = checked_weight(fluids, rod, hole.gravity)
+        weight = weight_in(fluids, rod, hole.gravity)
         clearance = _clearance(rod, hole)
     if clearance >= rod.length:
         raise InputError(
@@ -113,7 +113,8 @@ def _problem(
     """The problem in units B = L = 1; errors in the names of the case file."""
     try:
         return Problem(
-            weight=weight / scales.factor("force_per_length"),
+            weight=abs(weight) / scales.factor("force_per_length"),
+            floats=weight < 0.0,
             alpha=90.0 if lie.axis else lie.alpha,
             build=lie.build,
             walk=lie.walk,
@@ -140,17 +141,18 @@ def _problem(
             "build": "hole.build",
             "walk": "hole.walk",
             "axis": "hole.centerline" if hole.survey is None else "hole.survey",
+            "floats": "mud.outside",
         }
         name = names.get(error.field, error.field)
         what = error.reason
         if error.field == "weight":
-            what = (
-                f"makes γ = mg L³/B = {weight / scales.factor('force_per_length'):g}, which {what}: check the units of "
-            )
-            what += "length, weight or density, stiffness or diameters, and gravity"
+            what = f"makes γ = mg L³/B = {abs(weight) / scales.factor('force_per_length'):g}, which {what}: check the "
+            what += "units of length, weight or density, stiffness or diameters, and gravity"
         if error.field == "clearance":
             what = f"makes Δ/L = {clearance / rod.length:.3g}, which {what}: check its unit and that of the length"
-        raise InputError(name, None if error.field == "weight" else error.value, what) from None
+        if error.field == "floats":
+            what = "lifts the rod, and rods that float are computed in straight holes only: check density and diameters"
+        raise InputError(name, None if error.field in ("weight", "floats") else error.value, what) from None
 
 
 def _end_force(

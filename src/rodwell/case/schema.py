@@ -192,7 +192,7 @@ class ReportInput(SectionInput):
 class Dimensionless(SectionInput):
     """[dimensionless]: instead of [rod] and [hole]."""
 
-    weight: Number = _key(REQUIRED, "γ = mg L³/B", 16.5, allowed="from 0 to 1e9")
+    weight: Number = _key(REQUIRED, "γ = mg L³/B; negative: the rod floats", 16.5, -15.0, allowed="up to 1e9 in size")
     alpha: Number = _key(90.0, "inclination α from the vertical, in degrees", 60, allowed="from 0 to 90")
     clearance: Number = _key(0.01, "Δ/L, from axis to axis", 0.01, allowed="above 0 and below 1")
     poisson: Number = _key(0.3, "Poisson's ratio ν", 0.3, allowed=POISSON)

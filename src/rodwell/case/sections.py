@@ -10,7 +10,7 @@ from functools import cached_property
 from rodwell.case import schema
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
-from rodwell.case.fluids import Fluids, checked_weight, fluids_of
+from rodwell.case.fluids import Fluids, fluids_of, weight_in
 from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.errors import InputError
@@ -82,7 +82,7 @@ class PhysicalString:
             (
                 one.rod.length / self.length,
                 one.rod.stiffness / unit.rod.stiffness,
-                one.weight / mean if mean > 0.0 else 1.0,
+                one.weight / mean if mean != 0.0 else 1.0,
                 1.0,
                 one.torsional_stiffness / unit.torsional_stiffness,
             )
@@ -154,7 +154,13 @@ def string_of(
             members.append(Member(number, name, rod, weight))
     if fluids is None:
         raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
-    return PhysicalString(tuple(members)), fluids
+    string = PhysicalString(tuple(members))
+    for member in string.members:
+        if member.weight * string.weight < 0.0:
+            what = "floats" if member.weight < 0.0 else "does not float"
+            reason = f"{what}, unlike the string as a whole: sections that lie on both sides of a hole are not computed"
+            raise InputError(member.key, None, reason)
+    return string, fluids
 
 
 def name_of(one: schema.StringInput, number: int) -> str:
@@ -173,7 +179,7 @@ def section_rod(
     """The rod of a section of a length in m, the fluids in and around it, and its weight in these in N/m."""
     rod = physical_rod(one, gravity, catalogue, length)
     fluids = fluids_of(mud, pressure, rod)
-    return rod, fluids, checked_weight(fluids, rod, gravity)
+    return rod, fluids, weight_in(fluids, rod, gravity)
 
 
 def check_length(string: PhysicalString, length: float | None) -> None:

@@ -31,6 +31,7 @@ PARAMETERS = (
     "ends",
     "on_top",
     "outside",
+    "floats",
     "turns",
     "sections",
     "build",
@@ -61,6 +62,9 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."
             ),
             click.option("--outside", is_flag=True, help="The rod lies on the outside of the cylinder."),
+            click.option(
+                "--floats", is_flag=True, help="The rod is lighter than what surrounds it: weight acts upwards."
+            ),
             click.option(
                 "--sections",
                 metavar="L:B:W,…",

@@ -70,9 +70,10 @@ def plot_string(case: Case, ax: Any = None) -> Any:
         patch = Rectangle((0.0, base / across), string.length / length, WALL * hole / across, color="#d9dee3", lw=0)
         ax.add_patch(patch)
     for number, (one, (start, end)) in enumerate(zip(string.members, string.ends, strict=True)):
-        low = -0.5 * hole  # it lies on the bottom of the hole
+        outer = one.rod.outer_diameter or 0.0
+        low = 0.5 * hole - outer if case.problem.floats else -0.5 * hole  # the side of the hole that it lies on
         x, width = start * string.length / length, (end - start) * string.length / length
-        outer, inner = one.rod.outer_diameter or 0.0, one.rod.inner_diameter
+        inner = one.rod.inner_diameter
         colour, bore = MODES[number % len(MODES)], low + 0.5 * (outer - inner)
         body: dict[str, Any] = {"facecolor": colour, "alpha": 0.55, "edgecolor": INK, "lw": 1.0}
         ax.add_patch(Rectangle((x, low / across), width, outer / across, **body))

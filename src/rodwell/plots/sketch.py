@@ -23,7 +23,7 @@ UNKNOWN_RADIUS = 0.3
 
 
 def plot_sketch(case: Case) -> Figure:
-    """Draw what is given: the hole at its inclination, the rod on its low side, ends, loads; beside it the section.
+    """Draw what is given: the hole at its inclination, the rod on its side of it, ends, loads; beside it the section.
 
     The cross-section is to scale. Length and width are to scale with each other where the rod is short enough; else
     the picture says how many widths of the hole it is long. Returns the figure.
@@ -63,7 +63,8 @@ class _View:
         self.true = true_width >= 0.4
         self.hole = 0.5 * (true_width if self.true else WIDE)
         self.rod = self.hole * rod / hole
-
+        self.side = 1.0 if case.problem.floats else -1.0
+        self.middle = self.side * (self.hole - self.rod)
         self.axis = case.problem.hole
 
     def __call__(self, along: float, across: float) -> FloatArray:
@@ -97,7 +98,8 @@ def _side(ax: Any, case: Case) -> None:
     for edge in edges:
         ax.plot(*edge.T, color=GREY, lw=1.6)
     low = -view.hole
-    rod = np.concatenate([view.line(0.0, LONG, low), view.line(0.0, LONG, low + 2.0 * view.rod)[::-1]])
+    body = [view.line(0.0, LONG, view.middle + edge) for edge in (-view.rod, view.rod)]
+    rod = np.concatenate([body[0], body[1][::-1]])
     ax.add_patch(Polygon(rod, closed=True, fc=ROD, ec=INK, lw=1.0))
     for end, place in enumerate((0.0, LONG)):
         _end(ax, view, place, case.problem.ends[end])
@@ -120,7 +122,7 @@ def _range(points: list[FloatArray], axis: int) -> tuple[float, float]:
 
 
 def _weight(ax: Any, view: _View, case: Case) -> None:
-    """The weight per length, with an arrow that points down."""
+    """The weight per length, with an arrow that points down; what lifts a rod that floats, with one that points up."""
     if case.problem.weight == 0.0:
         return
     buoyed = " (buoyed)" if case.fluids.inside or case.fluids.outside else ""
@@ -128,13 +130,14 @@ def _weight(ax: Any, view: _View, case: Case) -> None:
     if case.scales is not None:
         text = f"{case.scales.text(case.problem.weight, 'force_per_length')}{buoyed}"
     at = view(0.55 * LONG, -view.hole - (1.15 if case.problem.alpha == 90.0 else 0.9))
-    ax.annotate("", at - np.array([0.0, 0.9]), at, arrowprops={"arrowstyle": "-|>", "color": GREY, "lw": 1.4})
-    ax.text(at[0] - 0.25, at[1] - 0.45, f"weight\n{text}", ha="right", va="center", fontsize=8.5)
+    tail, head = (at - np.array([0.0, 0.9]), at)[:: 1 if case.problem.floats else -1]
+    ax.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": GREY, "lw": 1.4})
+    name = "lift" if case.problem.floats else "weight"
+    ax.text(at[0] - 0.25, at[1] - 0.45, f"{name}\n{text}", ha="right", va="center", fontsize=8.5)
 
 
 def _end(ax: Any, view: _View, place: float, held: str) -> None:
     """The sign of an end condition: a plate that holds both, a dot that lets turn, a plate on rollers that slides."""
-    middle = -view.hole + view.rod
     out = 0.22 if place > 0.0 else -0.22
     if held in ("clamped", "guided"):
         plate = [
@@ -145,7 +148,7 @@ def _end(ax: Any, view: _View, place: float, held: str) -> None:
         ]
         ax.add_patch(Polygon(plate, closed=True, fc="none", ec=INK, lw=1.2, hatch="////" if held == "clamped" else ""))
     if held == "pinned":
-        ax.plot(*view(place, middle), "o", ms=7, mfc="white", mec=INK, mew=1.4, zorder=5)
+        ax.plot(*view(place, view.middle), "o", ms=7, mfc="white", mec=INK, mew=1.4, zorder=5)
 
 
 def _say(ax: Any, view: _View, along: float, text: str, across: float, side: str) -> None:
@@ -222,8 +225,7 @@ def _loads(ax: Any, view: _View, case: Case) -> None:
     tail, head = end + out * 2.1, end + out * 0.35
     if not push:
         tail, head = head, tail
-    middle = -view.hole + view.rod
-    ax.annotate("", view(head, middle), view(tail, middle),
+    ax.annotate("", view(head, view.middle), view(tail, view.middle),
                 arrowprops={"arrowstyle": "-|>,head_width=.35,head_length=.7", "color": ACTS, "lw": 2.6})  # fmt: skip
     if most is None:
         text = "end force F"
@@ -237,20 +239,20 @@ def _loads(ax: Any, view: _View, case: Case) -> None:
 
 
 def _across(ax: Any, case: Case) -> None:
-    """The cross-section at its true proportions: hole, rod with its bore on the low side, clearance of the axes."""
-    hole, rod = _radii(case)
+    """The cross-section at its true proportions: hole, rod with its bore on its side, clearance of the axes."""
+    (hole, rod), side = _radii(case), 1.0 if case.problem.floats else -1.0
     ax.add_patch(Circle((0.0, 0.0), hole, fc=BUCKLES, alpha=0.09, ec="none"))
     ax.add_patch(Circle((0.0, 0.0), hole, fc="none", ec=GREY, lw=1.6))
-    ax.add_patch(Circle((0.0, -1.0), rod, fc=ROD, ec=INK, lw=1.0))
+    ax.add_patch(Circle((0.0, side), rod, fc=ROD, ec=INK, lw=1.0))
     scales = case.scales
     if case.rod is not None and case.rod.inner_diameter and case.rod.outer_diameter:
         bore = rod * case.rod.inner_diameter / case.rod.outer_diameter
-        ax.add_patch(Circle((0.0, -1.0), bore, fc=BORE, ec=INK, lw=0.8))
-    for y in (0.0, -1.0):
+        ax.add_patch(Circle((0.0, side), bore, fc=BORE, ec=INK, lw=0.8))
+    for y in (0.0, side):
         ax.plot([-0.12 * hole, 0.12 * hole], [y, y], color=INK, lw=0.8)
-    ax.annotate("", (0.0, -1.0), (0.0, 0.0), arrowprops={"arrowstyle": "<|-|>", "color": ACTS, "lw": 1.4})
+    ax.annotate("", (0.0, side), (0.0, 0.0), arrowprops={"arrowstyle": "<|-|>", "color": ACTS, "lw": 1.4})
     clearance = "Δ" if scales is None else f"Δ = {scales.text(case.problem.clearance, 'length')}"
-    ax.text(0.08 * hole, -0.5, clearance, fontsize=8.5, va="center",
+    ax.text(0.08 * hole, 0.5 * side, clearance, fontsize=8.5, va="center",
             bbox={"fc": "#ffffff", "ec": "none", "alpha": 0.75, "pad": 0.8})  # fmt: skip
     known = scales is not None and scales.radius is not None
     name = f"Δ/L = {plain(case.problem.clearance)}"

@@ -42,10 +42,11 @@ STEEP = 1.01 * max(RADIANS)
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
-    """End conditions in words: their names, or what ``words`` says of each; and how many sections a string has."""
+    """End conditions in words: names, or what ``words`` says of each; how many sections, and whether the rod floats."""
     first, last = (words[end] if words else end for end in problem.ends)
     ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
-    return f"{ends}, string of {len(problem.sections)} sections" if problem.sections else ends
+    ends += f", string of {len(problem.sections)} sections" if problem.sections else ""
+    return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,7 @@ class Problem:
         γ = mg L³/B ≥ 0, weight of the whole rod (paper, section 4).
     alpha
         Angle α between the cylinder and the vertical in degrees, 0 (vertical, s = 1 above) over 90 (horizontal) to 180
-        (vertical, s = 1 below). Seen from its other end, a rod has 180° − α and its ends exchanged; a rod lighter than
-        what surrounds it is one with its weight downwards and 180° − α, seen upside down.
+        (vertical, s = 1 below). Seen from its other end, a rod has 180° − α and its ends exchanged.
     clearance
         Δ/L, distance between the axes of rod and cylinder, 0 < Δ < 1.
     poisson
@@ -94,6 +94,9 @@ class Problem:
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
         inclination at the middle of the undeformed rod.
+    floats
+        The rod is lighter than what surrounds it: ``weight`` acts upwards, and "bottom" is the side of the cylinder to
+        which it is pressed, the upper one. Upside down it is a rod with its weight downwards at 180° − α.
     axis
         Points (x, y, z) of the hole's axis in L from s = 0 to s = 1, z vertically up, in place of ``build``, ``walk``;
         ``alpha`` is then taken from it.
@@ -126,12 +129,12 @@ class Problem:
     build: float = 0.0
     walk: float = 0.0
     axis: Points = ()
+    floats: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.weight, int | float) and self.weight < 0.0:
-            floats = "a rod lighter than what surrounds it presses on the upper side; seen upside down, it is one of "
-            same = f"weight={-self.weight:g} at alpha={180.0 - self.alpha:g}"
-            raise InputError("weight", self.weight, f"must be {LIMITS['weight'][2]}: {floats}{same}")
+            reason = f"must be {LIMITS['weight'][2]}: for a rod that floats give {-self.weight:g} and floats=True"
+            raise InputError("weight", self.weight, reason)
         for name, (low, high, allowed) in LIMITS.items():
             value = getattr(self, name)
             if (type(value) is float and low <= value <= high) or (name == "torsion" and value is None):
@@ -139,7 +142,7 @@ class Problem:
             object.__setattr__(self, name, checked_number(name, value, low, high, allowed))
         turns = checked_number("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS, TURNS_ALLOWED)
         object.__setattr__(self, "turns", int(turns) if turns.is_integer() else turns)
-        for flag in ("on_top", "outside"):
+        for flag in ("on_top", "outside", "floats"):
             if not isinstance(getattr(self, flag), bool):
                 raise InputError(flag, getattr(self, flag), "must be True or False")
         object.__setattr__(self, "ends", checked_ends(self.ends))
@@ -198,6 +201,10 @@ class Problem:
         hole.check(self.clearance)
         if hole.straight:
             return
+        if self.floats:
+            raise InputError(
+                "floats", True, "must be False in a curved hole: rods that float are computed in straight ones"
+            )
         refuse_off_wall(self.ends, "the states of a rod in a curved hole")
         if self.turns != 0:
             raise InputError("turns", self.turns, "must be 0 in a curved hole: coils are computed in straight ones")
@@ -275,11 +282,13 @@ class Problem:
     def axial_weight(self) -> float:
         """wₐ = γ cos α, exactly zero for a horizontal cylinder; negative where the end s = 1 is the lower one.
 
-        Of sections, that of weight ratio 1.
+        Of a rod that floats −γ cos α. Of sections, that of weight ratio 1.
         """
-        if self.alpha > 90.0:  # exactly what it is for 180° − α, but for the sign
-            return -self.weight * math.cos(math.radians(180.0 - self.alpha))
-        return self.weight * (0.0 if self.alpha == 90.0 else math.cos(math.radians(self.alpha)))
+        if self.alpha == 90.0:
+            return 0.0
+        # exactly what it is for 180° − α, but for the sign
+        size = self.weight * math.cos(math.radians(min(self.alpha, 180.0 - self.alpha)))
+        return -size if (self.alpha > 90.0) != self.floats else size
 
     @property
     def lateral_weight(self) -> float:

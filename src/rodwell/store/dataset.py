@@ -45,7 +45,7 @@ def branch_variables(branch: Branch, places: int = GRID) -> dict[str, Variable]:
     names = [name for name in FIELDS if name in states[0][0]]
     out = {
         "s": Variable(("s",), s, {"long_name": "arclength of the rod from s = 0", "units": "L"}),
-        "field": Variable(("field",), _text(names), {"long_name": "names of the fields"}),
+        "field": Variable(("field",), text_array(names), {"long_name": "names of the fields"}),
         "force": Variable(("point",), branch.force, _about("force")),
         "parameter": Variable(("point",), branch.values, {"long_name": f"what varies: {branch.parameter}"}),
     }
@@ -78,7 +78,7 @@ def _special_points(branch: Branch) -> dict[str, Variable]:
     places = [", ".join(f"{x:.9g}" for x in p.s) for p in points]
     forces, errors = np.array([p.force for p in points]), np.array([p.error for p in points])
     return {
-        "special_kind": Variable(("special",), _text(p.kind for p in points), {"long_name": "what happens there"}),
+        "special_kind": Variable(("special",), text_array(p.kind for p in points), {"long_name": "what happens there"}),
         "special_force": Variable(("special",), forces, _about("force")),
         "special_force_error": Variable(("special",), errors, _about_error("force")),
         "special_index_before": Variable(
@@ -87,13 +87,13 @@ def _special_points(branch: Branch) -> dict[str, Variable]:
         "special_index_after": Variable(
             ("special",), np.array([p.index_after for p in points]), {"long_name": "stability index after"}
         ),
-        "special_s": Variable(("special",), _text(places), {"long_name": "places along the rod that lift off"}),
+        "special_s": Variable(("special",), text_array(places), {"long_name": "places along the rod that lift off"}),
     }
 
 
 def branch_attributes(branch: Branch) -> dict[str, Any]:
     """What the arrays of a branch belong to: problem, conventions, tolerance, version."""
-    return _problem_attributes(branch.problem) | {
+    return problem_attributes(branch.problem) | {
         "title": "Branch of equilibria of a heavy rod on a cylinder",
         "name": branch.name,
         "parameter": str(branch.parameter),
@@ -209,7 +209,7 @@ _SMALLEST = 1e-300
 
 
 def _solution_attributes(solution: Solution) -> dict[str, Any]:
-    return _problem_attributes(solution.problem) | {
+    return problem_attributes(solution.problem) | {
         "title": "Equilibrium of a heavy rod on a cylinder",
         "stability_index": solution.stability_index,
         "converged": int(solution.converged),
@@ -219,7 +219,8 @@ def _solution_attributes(solution: Solution) -> dict[str, Any]:
     }
 
 
-def _problem_attributes(problem: Problem) -> dict[str, Any]:
+def problem_attributes(problem: Problem) -> dict[str, Any]:
+    """The problem that arrays belong to, and the conventions for rods on the wall."""
     return {
         "conventions": CONVENTIONS,
         "weight": problem.weight,
@@ -230,12 +231,14 @@ def _problem_attributes(problem: Problem) -> dict[str, Any]:
         "turns": problem.turns,
         "on_top": int(problem.on_top),
         "outside": int(problem.outside),
+        "floats": int(problem.floats),
         "ends": "-".join(problem.ends),
         **problem.given_more,
     }
 
 
-def _text(words: Any) -> np.ndarray:
+def text_array(words: Any) -> np.ndarray:
+    """Words (n,) as an array of them."""
     return np.array(list(words), dtype=object)
 
 

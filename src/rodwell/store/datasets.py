@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.store.dataset import branch_dataset, solution_dataset
 from rodwell.store.map_arrays import map_dataset
+from rodwell.store.path_arrays import path_dataset
 from rodwell.studies.maps.result import Map
 
 if TYPE_CHECKING:
@@ -24,3 +26,4 @@ def dataset(result: object, *_arguments: Any, **_options: Any) -> xr.Dataset:
 dataset.register(Branch, branch_dataset)
 dataset.register(Solution, solution_dataset)
 dataset.register(Map, map_dataset)
+dataset.register(LoadPath, path_dataset)

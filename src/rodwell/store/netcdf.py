@@ -1,4 +1,4 @@
-"""NetCDF files: all branches of a case, with units, equation numbers, tolerance, version and the case itself."""
+"""NetCDF files: branches of a case, curves, load paths, with units, equations, tolerance, version and the case."""
 
 from __future__ import annotations
 
@@ -13,11 +13,13 @@ import numpy as np
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
+from rodwell.store.path_arrays import path_attributes, path_variables
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer  # what it is made of is slow to import
@@ -124,6 +126,12 @@ def write_curves(curves: Sequence[Curve], path: Path) -> None:
             ("mark",), np.array([n for n, _ in marks]), {"long_name": "curve it lies on"}
         )
     _write(variables, curves[0].attributes(), path)
+
+
+def write_load_path(result: LoadPath, path: Path) -> None:
+    """Write states and events of a load path to a NetCDF file."""
+    variables, left_out = path_variables(result)
+    _write(variables, path_attributes(result, left_out), path)
 
 
 def _write(variables: dict[str, Variable], attributes: dict[str, Any], path: Path) -> None:

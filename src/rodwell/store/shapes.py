@@ -131,12 +131,12 @@ def about(solution: State, rod: Geometry, scales: Scales | None) -> list[str]:
         "s = 1 (tension positive)",
         f"weight mg L^3/B = {p.weight:.10g}, alpha = {p.alpha:.10g} degrees from the vertical, clearance Delta/L = "
         f"{p.clearance:.10g}, {_torsion(p)}, T1 = {p.twist:.10g} B/L, turns {p.turns}, "
-        f"ends {'-'.join(p.ends)}, on top {p.on_top}, outside {p.outside}",
+        f"ends {'-'.join(p.ends)}, on top {p.on_top}, outside {p.outside}, floats {p.floats}",
         f"lengths in {length}; rod radius {rod.rod_radius * unit:.10g} {length}, "
         f"radius of the wall that it touches {rod.wall_radius / rod.radial_scale * unit:.10g} {length}",
         f"scale: {scale}",
         "axes: z along the cylinder (k), x up (i: lateral gravity acts along -x), y = z cross x (j); straight rod at "
-        + ("x > 0" if p.on_top else "x < 0"),
+        + ("x > 0" if p.on_top != p.floats else "x < 0"),
         "frames: t1 tangent, " + (OFF_THE_WALL if rod.may_leave else ON_THE_WALL)
         + "; twist = rate of turning of d0, v1 about t1 = -T1/C",
         "contact pressure p: the wall pushes the rod towards the axis with -p per length; p < 0 is contact inside a "

@@ -58,9 +58,13 @@ class Exceeded:
 
 
 def string_of(case: Case) -> PipeString | None:
-    """The local rod of a case, with its end conditions; None without dimensions or weight, of a string, in a bend."""
+    """The local rod of a case, with its end conditions; None without dimensions or weight, of a string, in a bend.
+
+    None of a rod whose compression is largest at s = 1 either: local limits are told from the end s = 0.
+    """
     problem, scales = case.problem, case.scales
-    if problem.sections or problem.hole is not None or scales is None or not problem.weight > 0.0:
+    bent_or_stepped = problem.sections or problem.hole is not None or problem.hung_weight < 0.0
+    if bent_or_stepped or scales is None or not problem.weight > 0.0:
         return None
     weight = problem.weight * scales.factor("force_per_length")
     return PipeString(scales.stiffness, weight, problem.clearance * scales.length, problem.ends)

@@ -61,7 +61,7 @@ class RodSection:
             top = height_of_rod(p, np.array([end]), np.array([math.pi if p.on_top else 0.0]))
             return self.scales.length * (top - height_of_rod(p, start + f["z"], f["xi2"]))
         alpha = math.radians(p.alpha)
-        up = p.clearance * math.sin(alpha) * (1.0 - np.cos(f["xi2"]))
+        up = (-1.0 if p.floats else 1.0) * p.clearance * math.sin(alpha) * (1.0 - np.cos(f["xi2"]))
         axial = 0.0 if p.alpha == 90.0 else math.cos(alpha)
         return self.scales.length * ((1.0 - f["z"]) * axial - up)
 

@@ -8,8 +8,17 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.functionals import Numbers, checked_numbers
 from rodwell.analysis.branch.making import continued, made
 from rodwell.analysis.branch.solution import Solution, solution_of
-from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, REJOINS, Origin, SpecialPoint
-from rodwell.analysis.branch.starts import at_branch_point, at_critical, at_state, checked_end, crossing, place_of
+from rodwell.analysis.branch.special import BRANCH_POINT, END, FOLD, LIFT_OFF, REJOINS, Origin, SpecialPoint
+from rodwell.analysis.branch.starts import (
+    at_branch_point,
+    at_critical,
+    at_state,
+    check_side,
+    checked_end,
+    crossing,
+    onward,
+    place_of,
+)
 from rodwell.analysis.branch.tracing import Progress, traced
 from rodwell.analysis.branch.watching import Watched
 from rodwell.analysis.discrete import first_run
@@ -84,7 +93,8 @@ def follow(
     mirror
         The other of the two arms that leave the straight rod: the paper draws ω₂(1) < 0, this is ω₂(1) > 0.
     start
-        A state to start from instead (a coiled one, from :func:`equilibrium`; a special point); needs ``until``.
+        A state to start from instead (a coiled one, from :func:`equilibrium`; a special point); needs ``until``. From a
+        fold the branch is followed as it went on there, to the side of the fold on which it has states.
     parameter
         What varies, from ``start``: "force", "weight", "alpha" (degrees), "clearance", "twist", "poisson" or "torsion"
         (on the last two, no state depends but by how far it is twisted); or a path of one's own, on which several vary:
@@ -196,6 +206,7 @@ def from_state(
             raise InputError("until", None, "must be given to follow a branch from a given state")
         until = parameter.limits[1]
     until = checked_end(problem, parameter, until)
+    fold = start if isinstance(start, SpecialPoint) and start.kind == FOLD and start.parameter is parameter else None
     here, start = place_of(start, parameter)
     if start.problem != problem:
         differ = problem.differences(start.problem)
@@ -207,11 +218,13 @@ def from_state(
     if not start.point.fine.c.any() and problem.turns == 0 and (parameter == "force" or problem.hole is None):
         reason = "is the rod that has not buckled, which stays so whatever varies: follow a mode from its critical load"
         raise InputError("start", start, reason)
-    begin, stepping = at_state(problem, start, parameter, here, until, how.rtol), how.stepping(FIRST_STEP_ON)
+    if fold is not None:
+        check_side(fold, until)
+    begin = at_state(problem, start, parameter, here, until, how.rtol, fold=fold is not None)
     how.watched.tried(start)
     result = traced(
-        problem, begin, until, stepping, parameter=parameter, progress=how.progress,
-        halt=how.watched.halt(problem, parameter),
+        problem, begin, until, how.stepping(FIRST_STEP_ON), parameter=parameter, progress=how.progress,
+        leaves=None if fold is None else onward(fold), halt=how.watched.halt(problem, parameter),
     )  # fmt: skip
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
     return how.watched.seen(made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter))

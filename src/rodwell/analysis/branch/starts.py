@@ -100,10 +100,20 @@ def place_of(start: Solution | SpecialPoint, parameter: Parameter) -> tuple[floa
     return parameter.limits[0] if isinstance(parameter, ParameterPath) else start.value_of(parameter), start
 
 
-def at_state(problem: Problem, start: Solution, parameter: Parameter, here: float, until: float, rtol: float) -> Start:
+def at_state(
+    problem: Problem,
+    start: Solution,
+    parameter: Parameter,
+    here: float,
+    until: float,
+    rtol: float,
+    *,
+    fold: bool = False,
+) -> Start:
     """A known state, heading from its value ``here`` of a parameter for ``until``.
 
-    A fold is no regular state at a given value: it is solved for where it lies in the direction of its tangent.
+    A ``fold`` is no regular state at a given value: it is solved for where it lies in the direction of its tangent, and
+    left in that sense, since both ways lead to the same side.
     """
     old = start.point
     equilibria = family(
@@ -125,8 +135,32 @@ def at_state(problem: Problem, start: Solution, parameter: Parameter, here: floa
             outcome, state, _ = exact.correct(known.c, here, row, 0.0, float(row @ known.c))
         if state is None:
             raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
-        states.append(state if (until - here) * state.tangent_lam > 0.0 else state.reversed())
+        states.append(state if fold or (until - here) * state.tangent_lam > 0.0 else state.reversed())
     return meshes, meshes.point(*states)
+
+
+def beside(solution: Solution) -> tuple[float, ...]:
+    """By how much the parameter differs on either side of a state along its branch, where states are found there."""
+    equilibria, state = solution.levels[1]
+    sides = (equilibria.step(state, sign * BESIDE) for sign in (1.0, -1.0))
+    return tuple(side.lam - state.lam for side in sides if side is not None)
+
+
+def check_side(fold: SpecialPoint, until: float) -> None:
+    """Raise where a branch is to be followed from a fold to where there are no states beside it."""
+    ways = beside(fold.solution)
+    if not ways or any(way * (until - fold.value) > 0.0 for way in ways):
+        return
+    side = "above" if ways[0] > 0.0 else "below"
+    reason = (
+        f"lies where the branch has no states beside its fold at {fold.parameter} = {fold.value:.10g}: both ways from "
+        f"there lead to values {side} it; give one of these, or start from another state"
+    )
+    raise InputError("until", until, reason)
+
+
+BESIDE = 1e-2
+"""How far from a fold its branch is looked at, in the metric of the family."""
 
 
 def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
@@ -150,6 +184,11 @@ def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:
             replace(f.state(state.c, state.lam, tangent, tangent_lam, point.index_before), energy=state.energy)
         )
     return meshes, meshes.point(*states)
+
+
+def onward(fold: SpecialPoint) -> Leaving:
+    """What is known of the index of a branch that is followed from its own fold: it is that behind it."""
+    return Leaving(falling=fold.index_after, rising=fold.index_after)
 
 
 def crossing(point: SpecialPoint) -> Leaving:

@@ -233,6 +233,7 @@ class Curve:
             **{k: getattr(self.problem, k) for k in ("weight", "alpha", "clearance", "poisson", "twist", "turns")},
             "on_top": int(self.problem.on_top),
             "outside": int(self.problem.outside),
+            "floats": int(self.problem.floats),
             "ends": "-".join(self.problem.ends),
             **self.problem.given_more,
             "ended_because": self.ended_because,

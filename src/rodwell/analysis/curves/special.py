@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from rodwell.analysis.branch.functionals import Number
 from rodwell.analysis.branch.special import BRANCH_POINT, EQUAL_ENERGY, FOLD, LIFT_OFF, TOUCH_DOWN, SpecialPoint
-from rodwell.analysis.branch.starts import kept_parity
+from rodwell.analysis.branch.starts import beside, kept_parity
 from rodwell.analysis.curves.curve import OVER, TURN, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.curves.points import CurveLostError, CurveStart, Zero
 from rodwell.analysis.curves.tracing import trace_curve
@@ -21,9 +21,6 @@ cusp); else a closed loop shrinks to a point, or two branches meet there and are
 
 KINDS = {LIFT_OFF: "lift-off", TOUCH_DOWN: "touch-down", FOLD: "fold", BRANCH_POINT: "secondary"}
 """Kinds of curves of special points; those of one's own have their own names."""
-
-BESIDE = 1e-2
-"""How far from a fold its branch is looked at, in the metric of the family."""
 
 
 def special_curve(
@@ -129,6 +126,5 @@ def _named(mark: Mark, points: tuple[CurvePoint, ...]) -> Mark:
 def _is_highest(fold: CurvePoint) -> bool:
     """Whether the states next to a fold have lower end forces than it has."""
     assert fold.solution is not None
-    equilibria, state = fold.solution.levels[1]
-    sides = [equilibria.step(state, sign * BESIDE) for sign in (1.0, -1.0)]
-    return all(side is not None and side.lam < state.lam for side in sides)
+    ways = beside(fold.solution)
+    return len(ways) == 2 and max(ways) < 0.0

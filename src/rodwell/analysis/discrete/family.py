@@ -85,7 +85,7 @@ def path(problem: Problem, parameter: Parameter, force: float = 0.0) -> FloatArr
         out[1, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = _per_weight(problem)
         out[0, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = 0.0
     elif parameter == "alpha":
-        out[2, AXIAL_WEIGHT] = problem.weight
+        out[2, AXIAL_WEIGHT] = -problem.weight if problem.floats else problem.weight
         out[3, LATERAL_WEIGHT] = -problem.weight if problem.on_top else problem.weight
         out[0, [AXIAL_WEIGHT, LATERAL_WEIGHT]] = 0.0
     elif parameter not in TORSIONAL:

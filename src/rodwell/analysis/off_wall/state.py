@@ -187,25 +187,14 @@ class ContactState:
         in B/L³, negative in contact, without point forces.
         """
         places = np.linspace(0.0, 1.0, s) if isinstance(s, int) else np.asarray(s, dtype=float)
-        x, y, pressure = position(self.fine, places)
-        problem = self.problem
-        n, stiffness = self.force + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
-        rod = in_space(x, y, n, problem.twist, stiffness)
-        gap = 1.0 - np.hypot(x[0], y[0]) / problem.clearance
-        return {
-            "s": places, "x": x[0], "y": y[0], "z": along_axis(self.fine, places), "gap": gap,
-            "angle": np.arctan2(y[0], -x[0]), "curvature": rod.curvature, "tension": rod.tension,
-            "bending_moment": stiffness * rod.curvature, "contact_pressure": pressure,
-        }  # fmt: skip
+        return {"s": places} | _fields(self.fine, places)
 
     def field_errors(self, s: FloatArray) -> dict[str, float]:
-        """Error estimates of x, y, z and the contact pressure, the largest at places ``s`` (k,)."""
-        (xc, yc, pc), (xf, yf, pf) = (position(state, s) for state in (self.coarse, self.fine))
-        pairs = {
-            "x": (xf[0], xc[0]), "y": (yf[0], yc[0]), "contact_pressure": (pf, pc),
-            "z": (along_axis(self.fine, s), along_axis(self.coarse, s)),
-        }  # fmt: skip
-        return {name: float(np.max(estimated_error(*pair))) for name, pair in pairs.items()}
+        """Error estimates of the fields, the largest at places ``s`` (k,)."""
+        coarse, fine = _fields(self.coarse, s), _fields(self.fine, s)
+        turned = 2.0 * np.pi * np.round((fine["angle"] - coarse["angle"]) / (2.0 * np.pi))
+        coarse["angle"] += turned  # π and −π are the same place
+        return {name: float(np.max(estimated_error(fine[name], coarse[name]))) for name in fine}
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
@@ -224,6 +213,20 @@ class ContactState:
             "shortening": plain(self.shortening),
             "certificate": self.certificate.as_dict(),
         }
+
+
+def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
+    """Fields of a state on one set of elements at ``places`` (k,)."""
+    x, y, pressure = position(state, places)
+    problem = state.problem
+    n, stiffness = state.load + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
+    rod = in_space(x, y, n, problem.twist, stiffness)
+    return {
+        "x": x[0], "y": y[0], "z": along_axis(state, places),
+        "gap": 1.0 - np.hypot(x[0], y[0]) / problem.clearance, "angle": np.arctan2(y[0], -x[0]),
+        "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
+        "contact_pressure": pressure,
+    }  # fmt: skip
 
 
 def plain(number: Value) -> dict[str, float]:

@@ -22,15 +22,18 @@ from rodwell.analysis.path.legs import walked
 from rodwell.analysis.path.loading import loaded
 from rodwell.analysis.path.straightening import How, straight_state
 from rodwell.analysis.path.words import sentences
+from rodwell.analysis.state.fields import GRID
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
-from rodwell.faces import Shown, drawn
+from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from rodwell.faces import Axes
 
 SEEDS = 3
@@ -216,6 +219,11 @@ class LoadPath(Shown):
             return [state.as_dict() for state in self.at(force)]
         except RodwellError as error:
             return [{"force": force, "reached": False, "why": str(error)}]
+
+    def dataset(self, places: int = GRID) -> xr.Dataset:
+        """States, what touches in them, and events as an xarray Dataset: see :mod:`rodwell.store.path_arrays`."""
+        data: xr.Dataset = face("dataset")(self, places)
+        return data
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw load against shortening, with events and snaps."""

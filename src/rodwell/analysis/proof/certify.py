@@ -84,7 +84,7 @@ class CertifiedLoads(tuple[CertifiedLoad, ...]):
         return {
             "problem": {
                 "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
-                "ends": "-".join(problem.ends), "on_top": problem.on_top,
+                "ends": "-".join(problem.ends), "on_top": problem.on_top, "floats": problem.floats,
             },
             "loads": [
                 {
@@ -175,13 +175,13 @@ def ball(value: Fraction) -> Ball:
 
 
 def weights(problem: Problem) -> tuple[Ball, Ball]:
-    """Axial and lateral weight γ cos α and γ sin α, exactly zero where they vanish."""
+    """Axial and lateral weight γ cos α (−γ cos α of a rod that floats) and γ sin α, exactly zero where they vanish."""
     from flint import arb, fmpq  # noqa: PLC0415
 
     weight, angle = ball(exact(problem.weight)), exact(problem.alpha) / 180
     turn = fmpq(angle.numerator, angle.denominator)
     zero = arb(0)
-    axial = zero if angle == Fraction(1, 2) else weight * arb.cos_pi_fmpq(turn)
+    axial = zero if angle == Fraction(1, 2) else (-weight if problem.floats else weight) * arb.cos_pi_fmpq(turn)
     return axial, zero if angle == 0 else weight * arb.sin_pi_fmpq(turn)
 
 

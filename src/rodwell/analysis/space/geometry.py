@@ -4,7 +4,8 @@ Axes i, j, k: k along the cylinder's axis from s = 0 to s = 1, i up (the lateral
 straight rod at x = −Δ (at x = Δ if it lies on top). The centreline is r₁ = −Δ cos ξ₂ i + Δ sin ξ₂ j + z k, with the
 braid frame {t₁, d₁, u₁} of Section 2 of the paper: d₁ points from the rod to the cylinder's axis. The cross-section of
 the rod carries the material frame {t₁, d₀, v₁}; (1) with R₁₁ = R₀₁ R₁(ξ₁) makes d₁ = cos ξ₁ d₀ + sin ξ₁ v₁, so the
-material frame is the braid frame turned about t₁ by −ξ₁. Its rate of turning is ω̃₁ = ω₁ − ξ₁' = −T₁/C about t₁.
+material frame is the braid frame turned about t₁ by −ξ₁. Its rate of turning is ω̃₁ = ω₁ − ξ₁' = −T₁/C about t₁. Of a
+rod that floats the straight one is at x = Δ, and −i and −j stand in these formulas for i and j.
 
 In a curved hole all this holds with N1, N2, T of the hole beside the rod in place of i, j, k, and i, j, k are those in
 the middle of the hole, at S = ½, where the hole is as far along k as if it were straight.
@@ -172,12 +173,17 @@ def _beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Axis (m, 3) and unit vectors across it (m, 2, 3) at distances z (m,) along it from the end s = 0."""
     if problem.hole is None:
         axis = np.stack([0.0 * z, 0.0 * z, z], axis=1)
-        return axis, np.tile(np.eye(3)[:2], (z.size, 1, 1))
+        return axis, np.tile(upwards(problem) * np.eye(3)[:2], (z.size, 1, 1))
     places = float(undeformed_place(problem, np.array([0.0]))[0]) + z
     middle = np.array([0.5])
     turn = problem.hole.frame(middle)[0]
     axis = (problem.hole.points(places) - problem.hole.points(middle)) @ turn.T + np.array([0.0, 0.0, 0.5])
     return axis, problem.hole.frame(places)[:, :2] @ turn.T
+
+
+def upwards(problem: Problem) -> float:
+    """1, or −1 of a rod that floats: what it calls up, away from the side to which it is pressed, points down."""
+    return -1.0 if problem.floats else 1.0
 
 
 def readable_scale(eta: FloatArray, reach: float, sharpest: float = 0.0) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.measured import along_axis, position
-from rodwell.analysis.space.geometry import Geometry, checked_places, checked_radius, checked_scale
+from rodwell.analysis.space.geometry import Geometry, checked_places, checked_radius, checked_scale, upwards
 from rodwell.quantities.arrays import FloatArray
 
 PLACES = 401
@@ -49,14 +49,17 @@ def geometry_in_hole(
     d0, v1 = _turned(d1, u1, turned)
     true_t1, true_d1 = _without_turning(axis + (centreline - axis) / scale, np.stack([x[1], y[1], rate], axis=1))
     true_u1 = np.cross(true_t1, true_d1)
+    turned_over = np.array([upwards(problem), upwards(problem), 1.0])
     across = np.cross(true_t1, bend)  # the curvature vector t₁ × t₁'
     curvatures, material = (
         np.stack([about, *(np.sum(across * vector, axis=1) for vector in frame)], axis=1)
         for about, frame in ((0.0 * s, (true_d1, true_u1)), (rates, _turned(true_d1, true_u1, turned)))
     )
+    centreline, t1, d1, u1, d0, v1 = (turned_over * one for one in (centreline, t1, d1, u1, d0, v1))
+    ends = tuple(float(end) for end in state.bounds[1:-1])
     return Geometry(
         s, centreline, t1, d1, u1, d0, v1, curvatures, material, fields, problem.clearance, radius, scale, False,
-        axis, np.tile(np.eye(3)[:2], (s.size, 1, 1)), tuple(float(end) for end in state.bounds[1:-1]),
+        axis, np.tile(upwards(problem) * np.eye(3)[:2], (s.size, 1, 1)), ends,
     )  # fmt: skip
 
 

@@ -77,7 +77,8 @@ def weight_rates(problem: Problem, over: str) -> tuple[float, float]:
         return unit.axial_weight, unit.foundation / problem.clearance
     if over == "alpha":
         rate = math.radians(1.0) * problem.weight
-        return -rate * math.sin(angle), sign * rate * math.cos(angle) / problem.clearance
+        upwards = -1.0 if problem.floats else 1.0
+        return -upwards * rate * math.sin(angle), sign * rate * math.cos(angle) / problem.clearance
     if over == "clearance":
         return 0.0, -problem.foundation / problem.clearance**2
     return 0.0, 0.0

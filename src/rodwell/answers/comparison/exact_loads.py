@@ -55,7 +55,7 @@ class ExactLoad:
 
     def meets(self, rtol: float) -> bool:
         """Whether the load is known to a tolerance, judged like that of a branch."""
-        return self.error <= rtol * max(abs(self.force), EULER + self.axial_weight)
+        return self.error <= rtol * max(abs(self.force), EULER + max(self.axial_weight, 0.0))
 
     def at(self, place: Place) -> float:
         """Compression −N(s) at a place in B/L², **compression positive**; N(s) = F + γ cos α (s − 1)."""

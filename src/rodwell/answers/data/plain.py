@@ -150,6 +150,7 @@ def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
             "poisson": problem.poisson,
             "twist": problem.twist,
             "ends": list(problem.ends),
+            **({"floats": True} if problem.floats else {}),
             **problem.given_more,
         },
         **_critical_loads(answer),

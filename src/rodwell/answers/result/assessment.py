@@ -235,9 +235,10 @@ class Assessment:
     def formulas(self) -> tuple[FormulaRow, ...]:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer.
 
-        None of a string of sections: they are those of a uniform rod.
+        None of a string of sections: they are those of a uniform rod; nor of a rod whose weight acts towards s = 1, for
+        they count from the end that weight loads.
         """
-        if self.case.problem.sections:
+        if self.case.problem.sections or self.case.problem.hung_weight < 0.0:
             return ()
         weight = self.case.problem.hung_weight
         first = self.buckling if self.computed.left_before is None else self.computed.critical[0].load

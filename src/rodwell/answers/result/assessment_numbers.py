@@ -59,7 +59,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
         if limit.kind == LIFTS_OFF or limit.load is None:
             continue
         label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
-        scale = force_scale(limit.load.value) + a.case.problem.hung_weight
+        scale = force_scale(limit.load.value) + a.case.problem.heaviest
         out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _when(limit), _places(limit)))
     return out
 

@@ -26,7 +26,7 @@ def critical_number(mode: Mode, *, kept: bool = False) -> KeyNumber:
     """Critical load of a mode; ``kept``: it is that of a rod kept on the wall, and twist makes it buckle before."""
     symmetry = {1: "even about mid-length", -1: "odd about mid-length", 0: "no symmetry"}[mode.parity]
     label = f"Critical load of mode {mode.number}{' if kept on the wall' if kept else ''}, end force at s = 1"
-    scale = force_scale(mode.force) + mode.problem.hung_weight
+    scale = force_scale(mode.force) + mode.problem.heaviest
     return KeyNumber(f"critical_load_{mode.number}", label, mode.load, "force", scale, symmetry)
 
 
@@ -45,7 +45,7 @@ def without_wall(mode: SpatialMode) -> KeyNumber:
 
 def _size(mode: Mode | SpatialMode) -> float:
     """Size against which the error of such a load is judged."""
-    return force_scale(mode.force) + mode.problem.hung_weight + 0.25 * mode.problem.twist**2
+    return force_scale(mode.force) + mode.problem.heaviest + 0.25 * mode.problem.twist**2
 
 
 STANDING = {

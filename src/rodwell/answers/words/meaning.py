@@ -15,6 +15,7 @@ from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.curved import in_curved_hole
 from rodwell.answers.words.first_met import other_arm, without_wall
+from rodwell.answers.words.floating import floating
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import steps_note
@@ -70,6 +71,7 @@ def sentences(answer: Answer) -> list[str]:
     a = answer.assessment
     out = [
         verdict(a),
+        *floating(answer.case),
         *load_sentences(a),
         *unreached(a),
         without_wall(answer),

@@ -24,6 +24,7 @@ def at_bottom(load: Sensitivity) -> Sensitivity:
     """The load as force at the lower end, N(0) = F − γ cos α, and its derivatives."""
     problem, alpha = load.problem, math.radians(load.problem.alpha)
     whole = problem.rod.whole_weight if problem.sections else 1.0
+    whole *= -1.0 if problem.floats else 1.0
     slopes = {"weight": -whole * math.cos(alpha), "alpha": whole * problem.weight * math.sin(alpha) * math.radians(1.0)}
     derivatives = {name: Value(v.value + slopes.get(name, 0.0), v.error) for name, v in load.derivatives.items()}
     return replace(load, force=load.force - problem.hung_weight, derivatives=derivatives)

@@ -50,7 +50,7 @@ def place_text(case: Case, place: Value) -> str:
 
 def side_of(case: Case) -> str:
     """The side of the hole that the rod lies on before it buckles: "low" or "high"."""
-    return "high" if case.problem.on_top else "low"
+    return "high" if case.problem.on_top != case.problem.floats else "low"
 
 
 def around_text(angle: Value) -> str:

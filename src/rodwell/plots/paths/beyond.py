@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from rodwell.analysis.off_wall.state import STRAIGHT
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP
 from rodwell.analysis.path.words import gradual
+from rodwell.analysis.space.geometry import upwards
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
@@ -72,8 +73,9 @@ def _along_the_hole(ax: Any, case: Case, one: StateBeyond, letter: str) -> None:
     f, size = one.state.fields(s), case.problem.clearance
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     ax.plot(np.cos(turn), np.sin(turn), color=GREY, lw=0.9)
-    ax.plot(f["y"] / size, f["x"] / size, color=_colour(one), lw=1.7)
-    ax.plot(f["y"][[0, -1]] / size, f["x"][[0, -1]] / size, "o", color=INK, ms=3)
+    x, y = (upwards(case.problem) * f[name] / size for name in "xy")
+    ax.plot(y, x, color=_colour(one), lw=1.7)
+    ax.plot(y[[0, -1]], x[[0, -1]], "o", color=INK, ms=3)
     ax.set_aspect("equal")
     ax.set_axis_off()
     ax.set_title(f"{letter}  {forces_of(case).label(one.load.value)}\n{one.state.kind}", fontsize=8.5)

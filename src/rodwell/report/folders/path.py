@@ -14,11 +14,14 @@ from rodwell.plots.style import RC
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.pages.path import PAGE, write_path_page
 from rodwell.store.folder import whole_folder
+from rodwell.store.netcdf import write_load_path
 from rodwell.store.text import write_json
 
 
 def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[str, ...]:
-    """Write figure (PNG, SVG), events and states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
+    """Write figure (PNG, SVG), events, states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
+
+    All states with what touches in them are in ``load-path.nc`` (NetCDF).
 
     The page shows the rod in its hole along the path, with a slider.
 
@@ -33,6 +36,7 @@ def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[s
         with mpl.rc_context(RC):
             save_figure(plot_path(result).figure, folder / "load-path")
         write_json(result.as_dict(at), folder / "load-path.json")
+        write_load_path(result, folder / "load-path.nc")
         write_path_page(folder / PAGE, result)
         curve = result.curve
         with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:

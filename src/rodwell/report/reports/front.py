@@ -50,16 +50,17 @@ def inputs_in_words(case: Case) -> tuple[tuple[str, str], ...]:
     p, scales, rod = case.problem, case.scales, case.rod
     lying = {0.0: "vertical", 90.0: "horizontal"}.get(p.alpha, f"{plain(p.alpha)}° from the vertical")
     bent = ", straight" if p.hole is None else f" at mid-length, {bend_text(case)}"
+    upwards = ", upwards: the rod floats" if p.floats else ""
     if scales is None or rod is None:
-        return (("Weight γ = mg L³/B", plain(p.weight, 6)), ("Hole", lying if p.hole is None else f"{lying}{bent}"),
-                ("Clearance Δ/L", plain(p.clearance, 6)),
+        return (("Weight γ = mg L³/B", f"{plain(p.weight, 6)}{upwards}"),
+                ("Hole", lying if p.hole is None else f"{lying}{bent}"), ("Clearance Δ/L", plain(p.clearance, 6)),
                 ("Ends", ends_text(p)), *_loads(case))  # fmt: skip
     text = scales.system.text
     pipe = next((str(fact.value) for fact in case.facts if fact.label == "pipe"), "")
     across = "" if rod.outer_diameter is None else text(rod.outer_diameter, "length")
     bore = f", bore {text(rod.inner_diameter, 'length')}" if rod.inner_diameter else ""
     section = f"{across}{bore}" if across else f"stiffness {text(rod.stiffness, 'stiffness')}"
-    weight = f"{scales.text(p.weight, 'force_per_length')}{', buoyed' if case.with_fluids else ''}"
+    weight = f"{scales.text(p.weight, 'force_per_length')}{upwards or (', buoyed' if case.with_fluids else '')}"
     hole = (
         f"{text(2.0 * p.clearance * scales.length + rod.outer_diameter, 'length')} wide, " if rod.outer_diameter else ""
     )

@@ -100,7 +100,7 @@ def derived(case: Case) -> list[tuple[str, str]]:
     """The dimensionless problem and its scales."""
     p = case.problem
     out = [
-        ("weight γ = mg L³/B", plain(p.weight, 8)),
+        ("weight γ = mg L³/B", f"{plain(p.weight, 8)}{', upwards: the rod floats' if p.floats else ''}"),
         ("angle α from the vertical", f"{plain(p.alpha, 8)}°"),
         ("clearance Δ/L (between the axes)", plain(p.clearance, 6)),
         ("Poisson's ratio ν", plain(p.poisson, 6))

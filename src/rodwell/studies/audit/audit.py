@@ -122,6 +122,13 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         problem.sections,
         "formulas of practice are those of a uniform rod: audit the section that buckles as a rod of its own",
     )
+    if problem.hung_weight < 0.0:
+        reason = (
+            "makes compression grow towards s = 1, and formulas of practice count from the end that weight loads: "
+            "audit the rod seen from its other end (and upside down, if it floats)"
+        )
+        name = "floats" if problem.floats else "alpha"
+        raise InputError(name, getattr(problem, name), reason)
     loads, notes = exact_loads(problem, RTOL if rtol is None else rtol)
     rod = _known_rod(case, extra or {})
     rows = load_rows(case, loads, extra)

@@ -32,6 +32,7 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
         "problem": {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
             "ends": list(problem.ends), "on_top": problem.on_top, "outside": problem.outside,
+            "floats": problem.floats,
         },
         "exact": [
             {
