@@ -67,10 +67,13 @@ STRAIGHT_END = 1e-6
 def telling(branches: Sequence[Branch], scales: Scales | None = None) -> Measured:
     """Ordinate that tells branches apart: ω₂ at an end that bends the rod, s = 1 if it can be; energy for a coil.
 
-    A long string under its weight buckles at its lower end only: ω₂(1) is then zero to all digits. A case with
-    dimensions shows by how much the ends approach each other, which can be measured.
+    A rod that lies along a hole out of the vertical plane shows where around it its middle lies. A long string under
+    its weight buckles at its lower end only: ω₂(1) is then zero to all digits. A case with dimensions shows by how much
+    the ends approach each other, which can be measured.
     """
     problem = branches[0].problem
+    if lies(branches[0]):
+        return Measured.ANGLE_MID
     if problem.turns:
         return Measured.ENERGY
     if scales is not None:
@@ -79,6 +82,12 @@ def telling(branches: Sequence[Branch], scales: Scales | None = None) -> Measure
     if problem.ends[1] in HOLDS_SLOPE and last >= STRAIGHT_END * first:
         return Measured.OMEGA2_1
     return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_SLOPE else Measured.SHORTENING
+
+
+def lies(branch: Branch) -> bool:
+    """Whether a branch has the states of a rod as it lies in a hole that leaves the vertical plane, not buckled."""
+    hole = branch.problem.hole
+    return hole is not None and not hole.planar and not branch.origin.switched
 
 
 def plot_bifurcation(
@@ -166,7 +175,8 @@ def _panel(ax: Any, look: _Look, *, named: bool) -> None:
 def _legend(ax: Any, look: _Look) -> None:
     for kind, (marker, text) in MARKERS.items():
         if kind in look.kinds:
-            ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=text)
+            label = text.replace("secondary ", "") if any(lies(branch) for branch in look.branches) else text
+            ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=label)
     ax.plot([], [], color=INK, lw=2.2, label="stable")
     ax.plot([], [], color=INK, lw=1.0, ls=UNSTABLE, label="unstable")
     ax.plot([], [], color=INK, lw=1.4, alpha=PALE, label="off the wall somewhere")
@@ -263,7 +273,7 @@ MOST_NAMES = 10
 
 def _labels(ax: Any, look: _Look) -> None:
     """Name the branches at their ends, pushed apart where they would overlap, each with a line to its end."""
-    named = [(i, b) for i, b in enumerate(look.branches) if "mirror" not in b.name]
+    named = [(i, b) for i, b in enumerate(look.branches) if "mirror" not in b.name and not _pulled(b)]
     named = sorted(named, key=lambda item: item[1].origin.parent is not None)[:MOST_NAMES]
     ends = sorted(
         ((_upper(float(b.numbers(look.ordinate)[-1]) * look.fy, look.ordinate), float(look.x(b.force[-1])), i, b)
@@ -284,6 +294,11 @@ def _labels(ax: Any, look: _Look) -> None:
         last = place
 
 
+def _pulled(branch: Branch) -> bool:
+    """Whether a branch goes on from the beginning of another one towards tension: it has no name of its own."""
+    return branch.mode is None and not branch.origin.switched and bool(branch.force[-1] > branch.force[0])
+
+
 def _upper(y: float, ordinate: Measured) -> float:
     """The ordinate of a branch or of its image, whichever is higher."""
     return abs(y) if ordinate in ODD else y
@@ -293,6 +308,8 @@ def _style(branch: Branch, number: int) -> dict[str, Any]:
     """Colour, and mark where colours repeat: of a mode, or of what branches off."""
     if branch.mode is not None:
         return marked(branch.mode.number - 1)
+    if lies(branch):
+        return marked(0)
     return {"color": SECONDARY, "marker": ("x", "+", "1", "2")[number % 4], "markevery": 0.13, "ms": 5.0}
 
 

@@ -32,11 +32,12 @@ def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
         axes: dict[str, Any] = {
             "sketch": plot_sketch(answer.case),
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
-            "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
             "rod-3d": plot_rod(answer.shown, scales),
             "along-rod": _along(answer.assessment),
         }
+        if answer.critical:
+            axes["modes"] = plot_modes(answer.critical, scales)
         if answer.case.problem.hole is None:
             axes["cylinder"] = plot_cylinder_moments(answer.shown, scales)
         if answer.case.string is not None:
