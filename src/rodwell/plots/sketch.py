@@ -10,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Polygon
 
+from rodwell.answers.words.wording import bend_text
 from rodwell.case.case import Case
 from rodwell.plots.style import ACTS, BORE, BUCKLES, GREY, INK, RC, ROD
 from rodwell.quantities.arrays import FloatArray
@@ -173,17 +174,6 @@ def _length(ax: Any, view: _View, case: Case) -> None:
         ratio = 1.0 / (2.0 * _radii(case)[0] * case.problem.clearance)
         text += f"\n({plain(ratio, 2)} widths of the hole:\nnot to scale)"
     _say(ax, view, 0.5 * LONG, text, at + (0.4 if view.axis is None else 0.8), "high")
-
-
-def bend_text(case: Case) -> str:
-    """How the hole of a case is bent, in a few words."""
-    hole = case.problem.hole
-    assert hole is not None
-    one = not hole.axis
-    turns = f"turns by {plain(np.degrees(hole.turning), 3)}°"
-    if case.scales is None:
-        return f"{turns}, {'' if one else 'least '}radius {plain(1.0 / hole.sharpest, 3)} L"
-    return f"{turns}, {'' if one else 'least '}radius {case.scales.text(1.0 / hole.sharpest, 'length')}"
 
 
 def _inclination(ax: Any, view: _View, case: Case) -> None:

@@ -19,7 +19,7 @@ from rodwell.analysis.path.load_path import LoadPath
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.bifurcation import ORDINATES, telling
+from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from rodwell.analysis.discrete.curved import along_rod
@@ -199,7 +201,11 @@ def given_of(rod: Rod) -> Given:
     columns = np.stack(
         [rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1
     )
-    return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
+    return partial(_columns_at, columns, rod)
+
+
+def _columns_at(columns: FloatArray, rod: Rod, places: FloatArray) -> FloatArray:
+    return np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 
 
 def reflections(problem: Problem, parameter: Parameter = END_FORCE) -> tuple[tuple[int, bool], ...]:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.assessment_numbers import assessment_numbers
-from rodwell.answers.result.beyond import Beyond, beyond
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.answers.result.key_numbers import (
@@ -29,6 +28,7 @@ from rodwell.faces import Shown, drawn, plain
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.functionals import Number
+    from rodwell.answers.result.beyond import Beyond
     from rodwell.faces import Axes
 
 
@@ -57,6 +57,8 @@ class Answer(Computed, Shown):
     @cached_property
     def beyond(self) -> Beyond:
         """What happens beyond lift-off, and as the load is taken off again: computed when first asked for, seconds."""
+        from rodwell.answers.result.beyond import beyond  # noqa: PLC0415 - what is on the wall does not wait for it
+
         return beyond(self)
 
     @cached_property

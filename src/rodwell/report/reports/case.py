@@ -12,7 +12,7 @@ from rodwell.answers.words.first_met import KEPT
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.bifurcation import ORDINATES, telling
+from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.quantities.text import plain
 from rodwell.report.reports.beyond import beyond_section
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words

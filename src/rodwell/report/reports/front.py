@@ -11,9 +11,8 @@ from rodwell.answers.words.beyond import story
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.verdict import load_text, share_shown
-from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.answers.words.wording import bend_text, forces_of, quantity, size_text
 from rodwell.case.case import Case
-from rodwell.plots.sketch import bend_text
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
