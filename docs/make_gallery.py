@@ -25,7 +25,7 @@ ORDER = {
         "column",
         "twist",
     ),
-    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "build_section", "helix"),
+    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "build_section", "surveyed_well", "helix"),
 }
 
 CHECKED = {
@@ -50,6 +50,7 @@ CHECKED = {
     "heavy_weight": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
     "bent_vessel": "the push of the wire that has not buckled, w cos ψ − κᵣ(F − κᵣ²), by hand",
     "build_section": "bending by the hole, E r κ/(1 + κΔ), and stress of the pipe that has not buckled, by hand",
+    "surveyed_well": "bending of the pipe at rest, its stiffness times the angle between stations over their distance",
     "helix": "load to 1e-8 and push to 1e-7 of the closed form",
 }
 """What the tests hold each picture's numbers against."""

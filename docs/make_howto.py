@@ -51,6 +51,7 @@ COMMANDS = {
     "critical-drop": "critical --weight 15 --alpha 90 --build -0.4 --modes 2",
     "liftoff-build": "liftoff --weight 15 --alpha 90 --build 0.2",
     "run-build": "run examples/build-section.toml --out results/build",
+    "run-surveyed": "run examples/surveyed-well.toml --out results/surveyed",
     "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",
     "string": "run examples/bottom-hole-assembly.toml --out results/string",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",

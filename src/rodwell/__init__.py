@@ -39,6 +39,7 @@ _HOME = {
     "InputError": "rodwell.errors",
     "LocalState": "rodwell.analysis.endless.local",
     "LoadPath": "rodwell.analysis.path.load_path",
+    "LyingRod": "rodwell.analysis.loads.lying_rod",
     "LoadsWithoutWall": "rodwell.analysis.straight.without_wall",
     "Map": "rodwell.studies.maps.result",
     "Mode": "rodwell.analysis.straight.critical",
@@ -77,6 +78,7 @@ _HOME = {
     "sensitivities": "rodwell.analysis.loads.sensitivity",
     "load_path": "rodwell.analysis.path.load_path",
     "load_branch": "rodwell.store.restart",
+    "lying_rod": "rodwell.analysis.loads.lying_rod",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
     "map": "rodwell.store.mapping",
     "mode_pairs": "rodwell.analysis.straight.modes",
@@ -112,6 +114,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.endless.endless import Endless, endless
     from rodwell.analysis.endless.local import LocalState, local_state
+    from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.path.load_path import LoadPath, load_path

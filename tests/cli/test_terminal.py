@@ -93,8 +93,9 @@ HARMLESS = r"a\x1b[31mb\x00c\u202e <b> = [bold]"
 
 def test_a_title_with_control_characters_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pypdf = pytest.importorskip("pypdf")
-    pictures = dict.fromkeys(PICTURES, ("svg", b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"></svg>'))
-    monkeypatch.setattr("rodwell.report.folders.case.draw", lambda *_: pictures)  # they have no title
+    empty = {"svg": b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"></svg>'}
+    pictures = dict.fromkeys(PICTURES, empty)
+    monkeypatch.setattr("rodwell.report.folders.case.drawing", lambda: lambda _: pictures)  # they have no title
     text = f"title = {json.dumps(ESCAPES)}\n{GOOD}"
     (tmp_path / "case.toml").write_text(text, encoding="utf-8")
     case = Case.read(tmp_path / "case.toml")

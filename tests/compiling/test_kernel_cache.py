@@ -371,7 +371,7 @@ def test_only_an_interruption_is_told_as_one(cause, capsys, monkeypatch):
     def broken(**_options: Any) -> None:
         raise cause
 
-    monkeypatch.setattr(command_line.critical, "callback", broken)
+    monkeypatch.setattr(command_line.cli.commands["critical"], "callback", broken)
     monkeypatch.setattr(sys, "argv", ["rodwell", "critical", "--weight", "15", "--alpha", "90"])
     with warnings.catch_warnings(), pytest.raises((EOFError, SystemExit)) as left:
         command_line.main()

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+import shlex
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import pytest
+from click.testing import CliRunner
+from written import OF_SYSTEM, of_page, said, violations
 
 import rodwell
+from rodwell.cli.main import cli
 from rodwell.cli.run import _details, _verdict
 from rodwell.quantities.units import SYSTEMS
 from rodwell.report.reports.case import case_report
@@ -20,42 +23,6 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 CASES = sorted(
     path for path in EXAMPLES.glob("*.toml") if not is_study(path) and "[packer]" not in path.read_text("utf-8")
 )
-
-VIOLATIONS = {
-    "an exponent": re.compile(r"(?<![\w#])\d+(?:\.\d+)?e[−+-]?\d"),
-    "a hyphen for a minus": re.compile(r"(?<![\w.,–-])-\d"),
-    "thousands together": re.compile(r"(?<![\d.\u202f])\d{5,}(?!\d*[\w/-])"),
-    "N m": re.compile(r"\bN m\b"),
-    "deg": re.compile(r"\d\s?deg\b|\[deg\]"),
-    "a raised fraction": re.compile(r"\^[¼⅓½]"),
-    "N_real": re.compile(r"N_real"),
-    "no number": re.compile(r"(?<![\w])(?:nan|inf)(?![\w])"),
-    "an article": re.compile(r"\ba (?:angle|end|inclin)"),
-}
-OF_SYSTEM = {
-    "field": re.compile(r"\d\s?(?:[kM]?N|N/m|m|mm|[kMG]?Pa|N·m)(?![\w·/.])"),
-    "si": re.compile(r"\d\s?(?:lbf|psi|ft|in)(?![\w·/.])"),
-    "mm": re.compile(r"\d\s?(?:lbf|psi|ft|in|m)(?![\w·/.])"),
-}
-"""Units of other systems."""
-
-
-def said(item: Any) -> Iterator[str]:
-    """Every text of a report, the user's own words aside."""
-    if isinstance(item, str):
-        yield item.replace("\u00a0", " ")
-    elif isinstance(item, dict):
-        own = item.get("kind") == "grid" and item["head"][0] == "Key of the case file"
-        for key, value in item.items():
-            if not own and key not in ("title", "subtitle", "about", "files", "footer"):
-                yield from said(value)
-    elif isinstance(item, list | tuple):
-        for value in item:
-            yield from said(value)
-
-
-def violations(texts: Iterable[str]) -> list[tuple[str, str]]:
-    return [(name, text) for text in texts for name, rule in VIOLATIONS.items() if rule.search(text)]
 
 
 def without_names(texts: Iterable[str], case: rodwell.Case) -> list[str]:
@@ -92,6 +59,35 @@ def test_every_number_of_an_example_meets_its_tolerance_and_is_written_well(
         assert "B/L" not in front  # the reader's units
         assert not re.search(r"−\d[\d.\u202f]* [kmµ]?(?:N|lbf)\b", front)  # compression has its word, not a sign
         assert not re.search(r"(?:N|lbf|Pa|psi)\s*±", front)  # numerical errors stand in the tables
+
+
+COMMANDS = (
+    "endless",
+    "endless --beta 3",
+    "path --weight 15 --alpha 90 --until -124.7 --unload-to -123.5 --at -124.65,-200 --seeds 1",
+    "packer tubing-packer.toml --out {out}",
+    "audit drill-string.toml --out {out}",
+    "screen well-survey.csv --case well-string.toml --out {out}",
+    "map --quantity critical --weight '5..20 in 2' --alpha '30..90 in 2' --workers 1 --out {out}.zarr",
+    "critical --weight 16.5 --alpha 60",
+    "liftoff --weight 16.5 --alpha 90",
+    "modes --weight 16.5",
+    "sensitivity --weight 16.5 --alpha 90",
+)
+
+
+@pytest.mark.parametrize("line", COMMANDS, ids=lambda line: line.split()[0])
+def test_what_a_command_prints_and_its_report_are_written_well(
+    line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`drag` is read in tests/studies/test_drag_input.py, where its example is computed."""
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.chdir(EXAMPLES)
+    ran = CliRunner().invoke(cli, shlex.split(line.format(out=tmp_path / "out")))
+    assert ran.exit_code == 0, ran.output
+    texts = [text for text in ran.output.splitlines() if str(tmp_path) not in text]
+    page = tmp_path / "out" / "report.html"
+    assert violations([*texts, *(of_page(page) if page.exists() else [])]) == []
 
 
 def test_a_study_is_written_well() -> None:

@@ -56,6 +56,24 @@ def heavy_weight() -> None:
     assert problem.sections
 
 
+def surveyed_well() -> None:
+    """At rest the pipe bends with the hole: by the angle between the directions of two stations, by hand."""
+    found = run("surveyed_well")
+    stations = np.loadtxt(GALLERY.parent / "well-survey.csv", delimiter=",", skiprows=2)
+    upper, lower = (stations[np.isclose(stations[:, 0], depth)][0] for depth in (1054.5, 1083.0))
+    directions = []
+    for _, inclination, azimuth in np.radians([upper, lower]):
+        directions.append(
+            [np.sin(inclination) * np.cos(azimuth), np.sin(inclination) * np.sin(azimuth), np.cos(inclination)]
+        )
+    bend = np.arccos(np.dot(*directions)) / 28.5
+    between = (found["depth"] > 1054.5) & (found["depth"] < 1075.0)
+    assert np.mean(found["bending"][between]) == pytest.approx(found["case"].scales.stiffness * bend, rel=0.05)
+    assert found["rod"].end.kind == "lift_off"
+    swing = [np.ptp(angles) for angles in found["angles"]]
+    assert np.all(np.diff(swing) > 0.0)
+
+
 def build_section() -> None:
     """E r κ/(1 + κΔ), and the stress of the lying pipe of its effective force, the mud being at rest, by hand."""
     found = run("build_section")
@@ -237,7 +255,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
         lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
-        build_section, bent_vessel,
+        build_section, bent_vessel, surveyed_well,
     )
 }  # fmt: skip
 

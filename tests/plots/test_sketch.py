@@ -57,3 +57,28 @@ def test_without_dimensions() -> None:
     said = texts(rodwell.Case.from_dict({"dimensionless": {"weight": 15, "alpha": 60}, "load": {"applied": -115}}))
     assert "115 B/L²\ncompression" in said
     assert "radii not given" in said
+
+
+@pytest.mark.parametrize("angle", ["30 deg", "90 deg"])
+def test_a_string_is_drawn_with_its_sections(angle: str) -> None:
+    """Lengths to scale along the hole, bores against the outer diameter; each section has its name."""
+    pipes = (("collar", "80 ft", "2 in"), ("pipe", "160 ft", "4 in"))
+    members = [
+        {"name": name, "length": length, "outer_diameter": "5 in", "inner_diameter": bore, "material": "steel"}
+        for name, length, bore in pipes
+    ]
+    hole = {"diameter": "8.5 in", "angle_from_vertical": angle}
+    case = rodwell.Case.from_dict({"string": members, "hole": hole, "units": "field"})
+    side, _ = plot_sketch(case).axes
+    dashed = [
+        np.array(line.get_data()).T for line in side.lines if line.get_linestyle() == "--" and line.get_lw() == 0.7
+    ]
+    lengths = [np.linalg.norm(edge[-1] - edge[0]) for edge in dashed]
+    assert lengths[2] / lengths[0] == pytest.approx(2.0)
+    bores = [np.linalg.norm(dashed[i + 1][0] - dashed[i][0]) for i in (0, 2)]
+    assert bores[1] / bores[0] == pytest.approx(2.0)
+    said = texts(case)
+    assert all(what in said for what in ("collar", "pipe", "mean weight\n", "hole 8.5 in, pipe 5 in"))
+    (weight,) = (a for a in side.texts if isinstance(a, Annotation) and a.arrowprops and a.arrowprops.get("lw") == 1.4)
+    (left, right), (low, high) = side.get_xlim(), side.get_ylim()
+    assert all(left < x < right and low < y < high for x, y in (weight.xy, weight.xyann))  # or it would not be drawn

@@ -49,4 +49,5 @@ def test_axis_gives_the_inclination_and_survives_a_change() -> None:
     assert not problem.symmetric
     assert Problem(15.0, build=0.3).symmetric
     assert not Problem(15.0, 80.0, build=0.3).symmetric
-    assert not Problem(15.0, build=0.3, walk=0.1).symmetric
+    assert Problem(15.0, build=0.3, walk=0.1).symmetric  # y(s) → y(1 − s): a level arc is alike from both ends
+    assert not Problem(15.0, 80.0, build=0.3, walk=0.1).symmetric

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import sys
 import threading
+from typing import Any
 
 import pytest
 
-from rodwell.report.folders.beside import done_beside
+from rodwell.report.folders.beside import beside
 
 
 def number_of_process(add: int) -> tuple[int, int]:
@@ -17,8 +19,8 @@ def number_of_process(add: int) -> tuple[int, int]:
 
 
 def test_result_comes_from_the_second_process() -> None:
-    with done_beside(number_of_process, 41) as result:
-        process, answer = result()
+    with beside(lambda: number_of_process) as start:
+        process, answer = start(41)()
     assert answer == 42
     forks = sys.platform == "linux" and (os.cpu_count() or 1) > 1 and threading.active_count() == 1
     assert (process != os.getpid()) == forks
@@ -29,8 +31,8 @@ def test_what_it_raises_is_raised_here(error: BaseException) -> None:
     def fails() -> None:
         raise error
 
-    with pytest.raises(type(error)), done_beside(fails) as result:
-        result()
+    with pytest.raises(type(error)), beside(lambda: fails) as start:
+        start()()
 
 
 def test_a_second_process_that_is_lost_is_made_up_for() -> None:
@@ -41,8 +43,31 @@ def test_a_second_process_that_is_lost_is_made_up_for() -> None:
             os.kill(os.getpid(), signal.SIGKILL)
         return "done here"
 
-    with done_beside(lost) as result:
-        assert result() == "done here"
+    with beside(lambda: lost) as start:
+        assert start()() == "done here"
+
+
+def test_more_than_a_pipe_holds_is_sent_before_it_is_ready() -> None:
+    go = threading.Event()  # never set in the copy
+    many = list(range(200_000))
+
+    def slowly() -> Any:
+        go.wait(0.2)
+        return sum
+
+    with beside(slowly) as start:
+        assert start(many)() == sum(many)
+
+
+def test_what_cannot_be_sent_is_worked_on_here() -> None:
+    with beside(lambda: lambda function: (os.getpid(), function(1))) as start:
+        assert start(lambda number: number + 1)() == (os.getpid(), 2)
+
+
+def test_nothing_is_left_where_no_work_comes() -> None:
+    with beside(lambda: number_of_process):
+        pass
+    assert multiprocessing.active_children() == []
 
 
 def test_with_threads_it_is_done_here() -> None:
@@ -50,8 +75,8 @@ def test_with_threads_it_is_done_here() -> None:
     thread = threading.Thread(target=wait.wait)
     thread.start()
     try:
-        with done_beside(number_of_process, 1) as result:
-            assert result() == (os.getpid(), 2)
+        with beside(lambda: number_of_process) as start:
+            assert start(1)() == (os.getpid(), 2)
     finally:
         wait.set()
         thread.join()

@@ -21,7 +21,7 @@ import rodwell
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.answers.words.advice import statuses
 from rodwell.cli.main import main
-from rodwell.plots.bifurcation import telling
+from rodwell.plots.ordinates import telling
 from rodwell.quantities.names import UNITS
 from rodwell.quantities.written import number_and_rest
 from rodwell.report.folders.case import write_results
@@ -232,7 +232,7 @@ def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monke
     assert not (tmp_path / "r").exists()
 
 
-def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) -> None:
+def test_front_stays_one_sheet_and_letter_paper_for_field_units() -> None:
     from rodwell.report.folders.pictures import draw
     from rodwell.report.pages.pdf import pdf
     from rodwell.report.reports.case import case_report
@@ -248,7 +248,8 @@ def test_front_stays_one_sheet_and_letter_paper_for_field_units(tmp_path: Path) 
         }
     )
     answer = rodwell.answer(case)
-    report, pictures = case_report(answer), draw(answer, tmp_path)
+    report = case_report(answer)
+    pictures = {name: next(reversed(formats.items())) for name, formats in draw(answer).items()}
     paragraphs = [block.text for part in report.sections for block in part.blocks if isinstance(block, Words)]
     assert all(text.endswith((".", ":")) for text in paragraphs)  # nothing is cut off
     more = replace(report, front=replace(report.front, steps=report.front.steps * 4))

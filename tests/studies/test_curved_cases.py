@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from rodwell import Case, InputError, Problem, packer
+from rodwell import Case, InputError, Problem, lying_rod, packer
 from rodwell.answers.comparison.beside import load_rows
 from rodwell.answers.comparison.exact_loads import critical
-from rodwell.answers.result.assessment import PULLED, STRAIGHT
+from rodwell.answers.result.assessment import LEFT, PULLED, STRAIGHT
 from rodwell.cli.main import cli
 from rodwell.formulas import FORMULAS
 from rodwell.studies.sweep.study import study
+from rodwell.studies.sweep.tables import sentences
 
 ROD = {"outer_diameter": "127 mm", "inner_diameter": "108.6 mm", "material": "steel", "length": "30 m"}
 HOLE = {"diameter": "216 mm", "angle_from_vertical": "90 deg", "build": "6 deg/30 m"}
@@ -89,6 +90,33 @@ def test_a_study_assesses_the_loads_that_act(tmp_path: Path) -> None:
         hung = problem.weight * scales.factor("force_per_length") * sag
         axial = (50e3 + hung + scales.stiffness * curvature**2) / area
         assert pushed.stress.value == pytest.approx(axial + bending, rel=1e-9)
+
+
+def test_a_study_takes_holes_that_leave_the_vertical_plane(tmp_path: Path) -> None:
+    """Each point as the answer of its case has it: no critical load, where the rod leaves the wall, and stress."""
+    file = tmp_path / "study.toml"
+    lines = [f'{name} = "{value}"' for name, value in ROD.items()]
+    file.write_text(
+        "\n".join(["[rod]", *lines, "[hole]", 'diameter = "216 mm"', 'angle_from_vertical = "70 deg"',
+                   'build = "3 deg/30 m"', 'walk = "2..4 deg/30 m in 2"', "[load]", 'applied = ["-50 kN", "-9 MN"]',
+                   "[analysis]", "rtol = 1e-6"]), encoding="utf-8",
+    )  # fmt: skip
+    found = study(file)
+    for point in found.points:
+        assert point.case is not None
+        assert point.critical is None
+        assert point.reasons is not None
+        assert "moves around the hole with every change of the load" in point.reasons["critical"]
+        rod = lying_rod(point.case.problem, rtol=1e-6)
+        assert rod.end is not None
+        assert point.lift_off is not None
+        assert point.lift_off.value == pytest.approx(rod.end.force, rel=1e-6)
+        lies, gone = point.loads
+        assert (lies.what, gone.what) == (STRAIGHT, LEFT)
+        assert lies.stress is not None
+        assert "buckling" not in lies.spare
+        assert lies.spare["lift-off"].value == pytest.approx(lies.load.force - rod.end.force, rel=1e-6)
+    assert not any("could not be computed" in line for line in sentences(found))
 
 
 def test_tubing_in_a_packer_is_refused() -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 from drag_wells import PIPE, well_a_survey
+from written import of_page, violations
 
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
@@ -95,6 +96,7 @@ def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
     example = Path(__file__).parents[2] / "examples" / "wells" / "horizontal.toml"
     ran = CliRunner().invoke(cli, ["drag", str(example), "--out", str(tmp_path / "out"), "--json"])
     assert ran.exit_code == 0, ran.output
+    assert violations(of_page(tmp_path / "out" / "report.html")) == []
     data = json.loads(ran.stdout)
     loads = {one["name"]: one["hook_load"]["value"] for one in data["operations"]}
     assert loads["run-in"] == pytest.approx(222668.1804, rel=1e-9)
@@ -108,6 +110,7 @@ def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
     shown = CliRunner().invoke(cli, ["drag", str(short), "--out", str(tmp_path / "o2"), "--units", "field"])
     assert shown.exit_code == 0
     assert "lbf" in shown.output
+    assert violations(text for text in shown.output.splitlines() if str(tmp_path) not in text) == []
 
 
 def test_friction_from_measurements_on_the_command_line(tmp_path: Path) -> None:

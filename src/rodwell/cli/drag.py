@@ -17,13 +17,10 @@ from rodwell.cli.options import (
     units_option,
 )
 from rodwell.errors import InputError
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain
 
 FAR = 10.0
 """Multiples of the yield strength that are told as beyond it."""
-
-BALANCED = 1e-8
-"""Part of all work by which that of the ends may differ from that of gravity and friction."""
 
 if TYPE_CHECKING:
     from rodwell.studies.drag.calibration import Calibration
@@ -103,6 +100,7 @@ def drag(
         if fitted is not None:
             _print_friction(fitted)
         print_written(folder, "report.html")
+    from rodwell.studies.drag.drag import BALANCED  # noqa: PLC0415
     from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
 
     check_missed(unbalanced(found), BALANCED)
@@ -112,8 +110,8 @@ def _print_friction(found: Calibration) -> None:
     """Friction factors that were found."""
     for name, value in zip(found.names, found.friction, strict=True):
         known = value.error == value.error and value.error < float("inf")
-        error = f" ± {value.error:.2g} (standard error)" if known else ": nothing is measured that depends on it"
-        click.echo(f"friction factor of {name}: {value.value:.4g}{error}")
+        error = f" ± {plain(value.error, 2)} (standard error)" if known else ": nothing is measured that depends on it"
+        click.echo(f"friction factor of {name}: {plain(value.value)}{error}")
 
 
 def _print(found: Drag) -> None:
@@ -150,7 +148,7 @@ def _table(found: Drag) -> object:
         table.add_column(escape(head), justify="left" if i == 0 else "right")
 
     def cell(value: Value | None, unit: float) -> str:
-        return "locks up" if value is None else minus(f"{value.value / unit:.5g}")
+        return "locks up" if value is None else plain(value.value / unit, 5)
 
     for one in found.operations:
         used = [v for v in one.strength.used if v == v]  # noqa: PLR0124
@@ -159,8 +157,8 @@ def _table(found: Drag) -> object:
             escape(one.operation.name), cell(one.ends.hook_load, n),
             *(cell(one.compared[name].hook_load, n) if name in one.compared else "" for name in
               ("straight", "correlation")),
-            cell(one.ends.torque, nm), f"{buckled:.4g} {by['depth'][1]}" if buckled else "no",
-            ("–" if not used else "beyond" if max(used) >= FAR else f"{100.0 * max(used):.3g} %"),
+            cell(one.ends.torque, nm), f"{plain(buckled)} {by['depth'][1]}" if buckled else "no",
+            ("–" if not used else "beyond" if max(used) >= FAR else f"{plain(100.0 * max(used), 3)} %"),
             style="bold red" if level_of_one(one) == FAILS else None,
         )  # fmt: skip
     return table

@@ -9,6 +9,7 @@ import click
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import print_listing, wrapped
 from rodwell.cli.options import check_missed, json_option, print_json
+from rodwell.quantities.text import amount, error_digit, number_text, plain
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -40,14 +41,14 @@ LOADS = {
     "straight_helix_equal_energy": "helix and straight rod cost the same",
     "helix_largest": "largest load of a helix of this slope",
 }
-HEAD = "Endless rod kept on the wall; β = P/√(Bq/D), compression P positive; lengths in ℓ = (BD/q)^¼"
+HEAD = "Endless rod kept on the wall; β = P/√(Bq/D), compression P positive; lengths in ℓ = ∜(BD/q)"
 
 
 @click.command(short_help="The rod far from its ends: sinusoidal and helical states, one curve for all.")
 @click.option(
     "--beta", type=float, help="Load β = P/√(Bq/D), compression positive.  [default: the loads of all states]"
 )
-@click.option("--slope", type=float, default=0.0, show_default=True, help="ε = (qD³/B)^¼; 0 for small slopes.")
+@click.option("--slope", type=float, default=0.0, show_default=True, help="ε = ∜(qD³/B); 0 for small slopes.")
 @keep_options("contact forces over β")
 @json_option
 def endless(beta: float | None, slope: float, as_json: bool, **given: Any) -> None:
@@ -95,7 +96,7 @@ def _print(result: Endless) -> None:
     from rich.console import Console  # noqa: PLC0415
 
     console = Console(highlight=False)
-    slope = "small slopes" if result.slope == 0.0 else f"slope ε = {result.slope:g}"
+    slope = "small slopes" if result.slope == 0.0 else f"slope ε = {plain(result.slope)}"
     wrapped(f"{HEAD}; {slope}.")
     click.echo()
     if result.beta is None:
@@ -128,15 +129,15 @@ def _print_history(history: tuple[Stage, ...]) -> None:
 
 
 def _stage_text(stage: Stage) -> str:
-    first = "" if stage.first is None else f" from {stage.first.value:.7g}"
-    last = "" if stage.last is None else f" to {stage.last.value:.7g}"
+    first = "" if stage.first is None else f" from {amount(stage.first, 7)}"
+    last = "" if stage.last is None else f" to {amount(stage.last, 7)}"
     ends = {"lift_off": ", where it lifts off", "ceases": ", where such states end"}.get(stage.ends_with, "")
     text = f"{stage.state}{first}{last}{ends}"
     if stage.jump is not None:
         n1, n2 = stage.jump.contact_mean
         text += (
-            f" → {stage.jump.to}: mean contact force {n1.value:.5g} q → {n2.value:.5g} q, "
-            f"{stage.jump.energy_lost.value:.5g} qD per length less energy"
+            f" → {stage.jump.to}: mean contact force {amount(n1, 5)} q → {amount(n2, 5)} q, "
+            f"{amount(stage.jump.energy_lost, 5)} qD per length less energy"
         )
     return text
 
@@ -148,7 +149,7 @@ def _print_states(result: Endless, console: Console) -> None:
             wrapped(f"No {kind} state: {result.reasons[kind]}.")
             click.echo()
             continue
-        click.echo(f"{kind} state at β = {state.beta:.10g}")
+        click.echo(f"{kind} state at β = {plain(state.beta, 10)}")
         rows = [(f"  {name.replace('_', ' ')}", *_cells(getattr(state, name)), unit) for name, unit in UNITS.items()]
         print_listing(console, ("  number", ">value", ">± error", "unit"), rows)
         told = state.stability
@@ -160,6 +161,4 @@ def _print_states(result: Endless, console: Console) -> None:
 
 
 def _cells(number: Value) -> tuple[str, str]:
-    from rodwell.quantities.text import minus  # noqa: PLC0415
-
-    return minus(f"{number.value:.10g}"), "exact" if number.error == 0.0 else f"{number.error:.0e}"
+    return number_text(number), "exact" if number.error == 0.0 else error_digit(number.error)

@@ -9,6 +9,7 @@ import click
 
 from rodwell.cli.options import OutPath, check_missed, force_at, progress_bar, units_option
 from rodwell.errors import printable
+from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
@@ -113,4 +114,4 @@ def _state(case: Case, force: float | None, mode: int, mirror: bool, at: str) ->
 def _text(state: Solution, case: Case) -> str:
     physical = "" if case.scales is None else f" ({case.scales.text(state.force, 'force', 6)})"
     index = "stable" if state.stable else f"stability index {state.stability_index}"
-    return f"End force at s = 1: {state.force:.10g} B/L²{physical}, tension positive; {index}".replace(" -", " −")
+    return f"End force at s = 1: {plain(state.force, 10)} B/L²{physical}, tension positive; {index}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from collections.abc import Iterator, Mapping
+from importlib import import_module
 from typing import Any
 
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
@@ -13,32 +15,39 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 import click
 
 from rodwell._version import __version__
-from rodwell.cli.audit import audit
-from rodwell.cli.catalogue import catalogue
-from rodwell.cli.check import verify
-from rodwell.cli.critical import critical
-from rodwell.cli.drag import drag
-from rodwell.cli.endless import endless
-from rodwell.cli.exact import certify, modes
-from rodwell.cli.explore import explore
-from rodwell.cli.export import export
-from rodwell.cli.init import init
-from rodwell.cli.keys import keys
-from rodwell.cli.mapping import map_command
-from rodwell.cli.maps import curve, diagram
-from rodwell.cli.packer import packer
-from rodwell.cli.paper import paper
-from rodwell.cli.path import path
-from rodwell.cli.quick import liftoff, sensitivity, twist
-from rodwell.cli.run import run
-from rodwell.cli.screen import screen
 from rodwell.cli.terminal import Terminated, ending_well, never_fail_to_encode
 from rodwell.errors import CacheWarning, InputError, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+MODULES = {
+    **{name: name for name in ("run", "screen", "drag", "packer", "audit", "critical", "path", "endless", "explore")},
+    **{name: name for name in ("export", "init", "keys", "catalogue", "paper")},
+    **dict.fromkeys(("certify", "modes"), "exact"),
+    **dict.fromkeys(("liftoff", "sensitivity", "twist"), "quick"),
+    **dict.fromkeys(("diagram", "curve"), "maps"),
+    **{"verify": "check", "map": "mapping"},
+}
+"""Module of :mod:`rodwell.cli` in which each command stands."""
+
+
+class Commands(Mapping[str, click.Command]):
+    """The commands by name: the module of one is imported when it is asked for, for one does not need the others."""
+
+    def __getitem__(self, name: str) -> click.Command:
+        module = import_module(f"rodwell.cli.{MODULES[name]}")
+        command: click.Command = getattr(module, "map_command" if name == "map" else name)
+        return command
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(MODULES)
+
+    def __len__(self) -> int:
+        return len(MODULES)
+
+
+@click.group(commands=Commands(), context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="rodwell")
 def cli() -> None:
     """Slender rods inside cylinders: buckling, lift-off, and what the wall must bear.
@@ -47,13 +56,6 @@ def cli() -> None:
     clamped unless said otherwise. Start with:  rodwell init, which writes a first case file; rodwell keys
     explains its keys.
     """
-
-
-for command in (
-    *(run, screen, drag, packer, audit, verify, certify, critical, modes, liftoff, sensitivity),
-    *(diagram, curve, map_command, path, twist, endless, explore, export, init, keys, catalogue, paper),
-):
-    cli.add_command(command)
 
 
 def main() -> None:

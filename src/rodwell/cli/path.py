@@ -21,10 +21,12 @@ from rodwell.cli.options import (
     rtol_option,
 )
 from rodwell.errors import InputError
+from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
     from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
+    from rodwell.quantities.value import Value
 
 UNIT = "B/L²"
 
@@ -131,7 +133,8 @@ def _print_states(result: LoadPath, force: float) -> None:
             _print_state(state)
     except RodwellError as error:
         click.echo("")
-        wrapped(f"{result.control} {force:g}: not reached. {error}")
+        why = error.reason if isinstance(error, InputError) else error
+        wrapped(f"{result.control} {plain(force, 6)}: not reached; {why}")
 
 
 def _print(result: LoadPath) -> None:
@@ -149,16 +152,16 @@ def _print(result: LoadPath) -> None:
             click.echo(f"{leg}:")
         where = _places(event.s)
         driven = result.driven(event)
-        at = "" if driven is None else f", {result.way.held} {driven.value:.9g} L"
-        click.echo(f"  {event.force.value:+.10g}  ± {event.force.error:.0e}  {event.meaning}{where}{at}")
+        at = "" if driven is None else f", {result.way.held} {amount(driven, 9)} L"
+        click.echo(f"  {with_error(event.force)}  {event.meaning}{where}{at}")
         if event.to is not None:
-            energy = f"energy {event.to.energy.value:+.9g} B/L relative to the straight rod"
-            energy += "" if driven is None else f", F = {event.to.force.value:+.10g}"
+            energy = f"energy {_signed(event.to.energy, 9)} B/L relative to the straight rod"
+            energy += "" if driven is None else f", F = {_signed(event.to.force, 10)}"
             click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
     symbol = "F" if result.way.by_force else result.way.held
     if result.reached:
-        click.echo(f"Followed to {symbol} = {result.until:g}" + (
-            "." if result.unload_to is None else f" and back to {result.unload_to:g}."
+        click.echo(f"Followed to {symbol} = {plain(result.until, 6)}" + (
+            "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
         ))  # fmt: skip
     else:
         wrapped(f"Not followed to the end: {result.ended_because}.")
@@ -168,7 +171,17 @@ def _print(result: LoadPath) -> None:
 
 
 def _places(s: tuple[float, ...]) -> str:
-    return "" if not s else ", s/L = " + ", ".join(f"{place:.5g}" for place in s)
+    return "" if not s else ", s/L = " + ", ".join(plain(place, 5) for place in s)
+
+
+def _place(s: Value) -> str:
+    """A place s/L in six decimals, as in the column of a table, or as many as are known."""
+    return plain(round(s.value, 6), 6).ljust(8)
+
+
+def _signed(number: Value, digits: int) -> str:
+    """A number with its sign, in the digits that its error allows."""
+    return ("+" if number.value > 0.0 else "") + amount(number, digits)
 
 
 def _print_state(shown: PathState) -> None:
@@ -176,19 +189,17 @@ def _print_state(shown: PathState) -> None:
     index = shown.stability_index
     held = "" if shown.control.by_force else f" where the {shown.control.held} is held"
     stable = f"stable{held}" if index == 0 else f"unstable{held}, index {index}"
-    click.echo(f"\nF = {state.force:+.10g}, {shown.leg}: {state.kind}, {stable}")
-    click.echo(
-        f"  energy {state.energy.value:+.9g} ± {state.energy.error:.0e} B/L, shortening {state.shortening.value:.9g} L"
-    )
+    click.echo(f"\nF = {signed(state.force, 10)}, {shown.leg}: {state.kind}, {stable}")
+    click.echo(f"  energy {with_error(state.energy, 9)} B/L, shortening {amount(state.shortening, 9)} L")
     for gap in state.gaps:
-        size = f"{gap.largest.value:.6g} Δ at s/L = {gap.at:.5g}"
-        click.echo(f"  gap      {gap.start.value:.6f} to {gap.end.value:.6f}   {size}")
+        size = f"{amount(gap.largest, 6)} Δ at s/L = {plain(gap.at, 5)}"
+        click.echo(f"  gap      {_place(gap.start)} to {_place(gap.end)}   {size}")
     for contact in state.contacts:
-        force = f"{contact.force.value:.6g} {UNIT}"
-        click.echo(f"  contact  {contact.start.value:.6f} to {contact.end.value:.6f}   {force} spread along it")
+        force = f"{amount(contact.force, 6)} {UNIT}"
+        click.echo(f"  contact  {_place(contact.start)} to {_place(contact.end)}   {force} spread along it")
     for point in state.point_forces:
         what = "at a point of contact" if point.kind == "point" else "at the end of a stretch in contact"
-        click.echo(f"  force    {point.s.value:.6f}              {point.force.value:.6g} {UNIT} {what}")
+        click.echo(f"  force    {_place(point.s)}              {amount(point.force, 6)} {UNIT} {what}")
     check = state.certificate
-    passed = "passed" if check.passed else "NOT passed"
-    click.echo(f"  all contact forces {state.contact_total.value:.7g} {UNIT}; certificate {passed}, {check.worst:.0e}")
+    passed = f"{'passed' if check.passed else 'NOT passed'}, {error_digit(check.worst)}"
+    click.echo(f"  all contact forces {amount(state.contact_total, 7)} {UNIT}; certificate {passed}")

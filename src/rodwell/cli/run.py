@@ -77,18 +77,22 @@ def run(
     read = Case.read(text).in_units(units)
     check_writable(folder)
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
+    from rodwell.report.folders.beside import beside, drawing  # noqa: PLC0415
 
-    with progress_bar(not quiet and not as_json, "critical loads") as tell:
-        result = answer(read, tell)
-    if not quiet and not as_json:
-        _verdict(result)
-    from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
-    from rodwell.answers.result.missed import missed  # noqa: PLC0415
-    from rodwell.report.folders.case import write_results  # noqa: PLC0415
+    with beside(drawing) as start:
+        with progress_bar(not quiet and not as_json, "critical loads") as tell:
+            result = answer(read, tell)
+        if not quiet and not as_json:
+            _verdict(result)
+        drawn = start(result)
+        if not quiet and not as_json and not result.converged:
+            _not_converged(read.rtol)
+        from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
+        from rodwell.answers.result.missed import missed  # noqa: PLC0415
+        from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
-    follows = read.off_wall if path is None else path
-    # without a bar: its thread would keep figures in this process
-    write_results(result, folder, with_pdf=with_pdf, path=follows)
+        follows = read.off_wall if path is None else path
+        write_results(result, folder, with_pdf=with_pdf, path=follows, drawn=drawn)
     if as_json:
         print_json(answer_dict(result, path=follows), indent=2)
     elif not quiet:
@@ -107,14 +111,20 @@ def _verdict(answer: Answer) -> None:
     from rich.panel import Panel  # noqa: PLC0415
 
     from rodwell.answers.words.meaning import sentences  # noqa: PLC0415
-    from rodwell.quantities.text import plain  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(answer)
     body = f"[bold]{escape(text[0])}[/bold]\n\n" + "\n".join(f"• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(answer.case.title), title_align="left", border_style="blue"))
-    if not answer.converged:
-        console.print(f"[bold red]Not every number meets the tolerance {plain(answer.case.rtol)}.[/bold red]")
+
+
+def _not_converged(rtol: float) -> None:
+    from rich.console import Console  # noqa: PLC0415
+
+    from rodwell.quantities.text import plain  # noqa: PLC0415
+
+    text = f"[bold red]Not every number meets the tolerance {plain(rtol)}.[/bold red]"
+    Console(highlight=False).print(text)
 
 
 def _beyond(answer: Answer) -> None:

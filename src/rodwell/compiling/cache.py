@@ -32,6 +32,7 @@ from typing import Any
 import llvmlite
 import numba
 from numba.core.caching import FunctionCache
+from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from rodwell._version import __version__
@@ -79,6 +80,15 @@ class KernelCache(FunctionCache):
         super().__init__(function)
         files: Any = _Files(Path(self.cache_path), self._impl.filename_base, function.__module__)
         self._cache_file = files
+
+    def load_overload(self, signature: Any, target: Any) -> Any:
+        """Load machine code from the disk; None where there is none.
+
+        Numba first reads in all that compiling needs, at each kernel, which takes longer than the machine code. That
+        runs with the runtime alone; where something must be compiled after all, the compiler reads what it needs.
+        """
+        rtsys.initialize(target)
+        return self._load_overload(signature, target)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
         """Put machine code on disk; where that fails it stays in memory."""

@@ -23,7 +23,10 @@ from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
 from rodwell.strength.local import LocalLimits
 
-COLOURS = {"at buckling": BUCKLES, "at lift-off": LIFTS_OFF}
+COLOURS = {
+    "at rest": GREY, "at buckling": BUCKLES, "at lift-off": LIFTS_OFF, "where it leaves the wall": LIFTS_OFF,
+    "where it loses its stability": BUCKLES, "at the last load followed": INK,
+}  # fmt: skip
 PARTS = (MODES[2], MODES[3], MODES[4], GREY)
 """Parts of the stress: colours that mean no state."""
 

@@ -15,6 +15,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.symmetry import ODD, Reflection
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.plots.ordinates import ORDINATES, lies, telling
 from rodwell.plots.smooth import BETWEEN, smooth
 from rodwell.plots.style import (
     GREY,
@@ -43,42 +44,6 @@ MARKERS = {
     "touch_down": ("o", "contact complete again"),
     "equal_energy": ("P", "energy of the straight rod"),
 }
-
-
-ORDINATES = {
-    Measured.OMEGA2_1: ("omega2_at_1", "end curvature ω₂(1)"),
-    Measured.OMEGA2_0: ("omega2_at_0", "end curvature ω₂(0)"),
-    Measured.ENERGY: ("energy", "energy E, relative to the straight rod"),
-    Measured.SHORTENING: ("end_shortening", "approach of the ends 1 − z(1)"),
-    Measured.ANGLE_MID: ("angle_at_middle", "angle at mid-length ξ₂(½)"),
-    Measured.TORQUE_0: ("support_torque", "support torque T₂(0)"),
-    Measured.P_MAX: ("largest_pressure", "largest contact pressure max p"),
-}
-"""What can be drawn against the end compression: name in the nomenclature and label."""
-
-HOLDS_SLOPE = ("clamped", "guided")
-"""Ends that hold the slope y', and so bend the rod: at others ω₂ vanishes."""
-
-
-STRAIGHT_END = 1e-6
-"""Part of the curvature at the other end below which an end counts as straight."""
-
-
-def telling(branches: Sequence[Branch], scales: Scales | None = None) -> Measured:
-    """Ordinate that tells branches apart: ω₂ at an end that bends the rod, s = 1 if it can be; energy for a coil.
-
-    A long string under its weight buckles at its lower end only: ω₂(1) is then zero to all digits. A case with
-    dimensions shows by how much the ends approach each other, which can be measured.
-    """
-    problem = branches[0].problem
-    if problem.turns:
-        return Measured.ENERGY
-    if scales is not None:
-        return Measured.SHORTENING
-    last, first = (max(abs(b.numbers(at)).max() for b in branches) for at in (Measured.OMEGA2_1, Measured.OMEGA2_0))
-    if problem.ends[1] in HOLDS_SLOPE and last >= STRAIGHT_END * first:
-        return Measured.OMEGA2_1
-    return Measured.OMEGA2_0 if problem.ends[0] in HOLDS_SLOPE else Measured.SHORTENING
 
 
 def plot_bifurcation(
@@ -166,7 +131,8 @@ def _panel(ax: Any, look: _Look, *, named: bool) -> None:
 def _legend(ax: Any, look: _Look) -> None:
     for kind, (marker, text) in MARKERS.items():
         if kind in look.kinds:
-            ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=text)
+            label = text.replace("secondary ", "") if any(lies(branch) for branch in look.branches) else text
+            ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=label)
     ax.plot([], [], color=INK, lw=2.2, label="stable")
     ax.plot([], [], color=INK, lw=1.0, ls=UNSTABLE, label="unstable")
     ax.plot([], [], color=INK, lw=1.4, alpha=PALE, label="off the wall somewhere")
@@ -263,7 +229,7 @@ MOST_NAMES = 10
 
 def _labels(ax: Any, look: _Look) -> None:
     """Name the branches at their ends, pushed apart where they would overlap, each with a line to its end."""
-    named = [(i, b) for i, b in enumerate(look.branches) if "mirror" not in b.name]
+    named = [(i, b) for i, b in enumerate(look.branches) if "mirror" not in b.name and not _pulled(b)]
     named = sorted(named, key=lambda item: item[1].origin.parent is not None)[:MOST_NAMES]
     ends = sorted(
         ((_upper(float(b.numbers(look.ordinate)[-1]) * look.fy, look.ordinate), float(look.x(b.force[-1])), i, b)
@@ -284,6 +250,11 @@ def _labels(ax: Any, look: _Look) -> None:
         last = place
 
 
+def _pulled(branch: Branch) -> bool:
+    """Whether a branch goes on from the beginning of another one towards tension: it has no name of its own."""
+    return branch.mode is None and not branch.origin.switched and bool(branch.force[-1] > branch.force[0])
+
+
 def _upper(y: float, ordinate: Measured) -> float:
     """The ordinate of a branch or of its image, whichever is higher."""
     return abs(y) if ordinate in ODD else y
@@ -293,6 +264,8 @@ def _style(branch: Branch, number: int) -> dict[str, Any]:
     """Colour, and mark where colours repeat: of a mode, or of what branches off."""
     if branch.mode is not None:
         return marked(branch.mode.number - 1)
+    if lies(branch):
+        return marked(0)
     return {"color": SECONDARY, "marker": ("x", "+", "1", "2")[number % 4], "markevery": 0.13, "ms": 5.0}
 
 

@@ -10,7 +10,8 @@ import numpy as np
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.functionals import Number, value_of
 from rodwell.analysis.discrete.measures import MEASURES, measured
-from rodwell.plots.bifurcation import MARKERS, telling
+from rodwell.plots.bifurcation import MARKERS
+from rodwell.plots.ordinates import telling
 from rodwell.plots.style import INK, MODES, new_axes
 from rodwell.problem.varying import Parameter, ParameterPath, words_for
 from rodwell.quantities.names import QUANTITIES, UNITS

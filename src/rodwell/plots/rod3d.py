@@ -14,7 +14,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.space.geometry import Geometry
-from rodwell.analysis.space.scene import NO_PULL, WALL, InSpace, drawn, limits, load_of, palette, scene
+from rodwell.analysis.space.scene import NO_PULL, WALL, InSpace, drawn, enlarged, limits, load_of, palette, scene
 from rodwell.analysis.space.surfaces import straight_contact, wall_places, wall_rings
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
@@ -143,11 +143,6 @@ def _colour_bar(ax: Any, rod: Geometry, scales: Scales | None) -> None:
     bar.formatter.set_powerlimits((-3, 4))
     name = "contact pressure p" if scales is None else "push on the wall"
     bar.set_label(f"{name}  [{unit}]")
-
-
-def enlarged(rod: Geometry) -> str:
-    """By how much the picture is enlarged across the axis, to stand in it."""
-    return "true scale" if rod.radial_scale == 1.0 else f"× {plain(rod.radial_scale, 3)} across the axis"
 
 
 def _caption(solution: InSpace, rod: Geometry, scales: Scales | None) -> str:

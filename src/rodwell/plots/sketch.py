@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import matplotlib as mpl
@@ -10,13 +11,18 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Polygon
 
+from rodwell.answers.words.wording import bend_text
 from rodwell.case.case import Case
+from rodwell.case.sections import PhysicalString
 from rodwell.plots.style import ACTS, BORE, BUCKLES, GREY, INK, RC, ROD
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.text import plain
 
 LONG, WIDE = 10.0, 1.5
 """Length and width of the hole as it is drawn, where both cannot be to scale."""
+
+LETTER = (0.22, 0.4)
+"""Width and height that a letter of a section's name takes up."""
 
 UNKNOWN_RADIUS = 0.3
 """Radius of the rod against the clearance where none is known."""
@@ -101,6 +107,8 @@ def _side(ax: Any, case: Case) -> None:
     body = [view.line(0.0, LONG, view.middle + edge) for edge in (-view.rod, view.rod)]
     rod = np.concatenate([body[0], body[1][::-1]])
     ax.add_patch(Polygon(rod, closed=True, fc=ROD, ec=INK, lw=1.0))
+    if case.string is not None:
+        _sections(ax, view, case.string)
     for end, place in enumerate((0.0, LONG)):
         _end(ax, view, place, case.problem.ends[end])
         where = ("bottom, " if end == 0 else "top, ") if case.problem.alpha < 90.0 else ""
@@ -112,8 +120,27 @@ def _side(ax: Any, case: Case) -> None:
     _weight(ax, view, case)
     reach = [view(place, across) for place in (-2.3, LONG + 2.3) for across in (-view.hole - 1.1, view.hole + 0.6)]
     reach += [view(0.5 * LONG, across) for across in (-view.hole - 1.1, view.hole + 1.6)]
+    reach += [*_weight_arrow(view, case)] if case.problem.weight > 0.0 else []  # arrows from outside are not drawn
     for low_edge, high_edge, limit in ((*_range(reach, 0), ax.set_xlim), (*_range(reach, 1), ax.set_ylim)):
         limit(low_edge - 0.6, high_edge + 0.6)
+
+
+def _sections(ax: Any, view: _View, string: PhysicalString) -> None:
+    """Sections of a string: lengths and, against the outer diameter, bores to scale; names where there is room."""
+    for member, (start, end) in zip(string.members, string.ends, strict=True):
+        first, last = start * LONG, end * LONG
+        bore = view.rod * member.rod.inner_diameter / (member.rod.outer_diameter or math.inf)
+        for edge in (view.middle - bore, view.middle + bore) if bore > 0.0 else ():
+            ax.plot(*view.line(first, last, edge).T, color=INK, lw=0.7, ls=(0, (4, 2)))
+        if start > 0.0:
+            joint = np.array([view(first, view.middle - view.rod), view(first, view.middle + view.rod)])
+            ax.plot(*joint.T, color=INK, lw=1.0)
+        if 2.0 * view.rod >= LETTER[1] and last - first >= LETTER[0] * len(member.name):
+            place = 0.5 * (first + last)
+            across, up = view(place + 0.01, view.middle) - view(place - 0.01, view.middle)
+            turned = (math.degrees(math.atan2(up, across)) + 89.0) % 180.0 - 89.0  # to be read from below or the right
+            ax.text(*view(place, view.middle), member.name, rotation=turned, rotation_mode="anchor", ha="center",
+                    va="center", fontsize=7.5, bbox={"fc": ROD, "ec": "none", "pad": 0.6})  # fmt: skip
 
 
 def _range(points: list[FloatArray], axis: int) -> tuple[float, float]:
@@ -129,11 +156,18 @@ def _weight(ax: Any, view: _View, case: Case) -> None:
     text = f"γ = {plain(case.problem.weight)}"
     if case.scales is not None:
         text = f"{case.scales.text(case.problem.weight, 'force_per_length')}{buoyed}"
-    at = view(0.55 * LONG, -view.hole - (1.15 if case.problem.alpha == 90.0 else 0.9))
-    tail, head = (at - np.array([0.0, 0.9]), at)[:: 1 if case.problem.floats else -1]
+    tail, head = _weight_arrow(view, case)
     ax.annotate("", head, tail, arrowprops={"arrowstyle": "-|>", "color": GREY, "lw": 1.4})
     name = "lift" if case.problem.floats else "weight"
-    ax.text(at[0] - 0.25, at[1] - 0.45, f"{name}\n{text}", ha="right", va="center", fontsize=8.5)
+    text = f"{name if case.string is None else f'mean {name}'}\n{text}"
+    ax.text(tail[0] - 0.25, 0.5 * (tail[1] + head[1]), text, ha="right", va="center", fontsize=8.5)
+
+
+def _weight_arrow(view: _View, case: Case) -> tuple[FloatArray, FloatArray]:
+    """Ends of the arrow of the weight, or of the lift where the rod floats: below the hole."""
+    upper = view(0.55 * LONG, -view.hole - (1.15 if case.problem.alpha == 90.0 else 0.9))
+    lower = upper - np.array([0.0, 0.9])
+    return (lower, upper) if case.problem.floats else (upper, lower)
 
 
 def _end(ax: Any, view: _View, place: float, held: str) -> None:
@@ -176,17 +210,6 @@ def _length(ax: Any, view: _View, case: Case) -> None:
         ratio = 1.0 / (2.0 * _radii(case)[0] * case.problem.clearance)
         text += f"\n({plain(ratio, 2)} widths of the hole:\nnot to scale)"
     _say(ax, view, 0.5 * LONG, text, at + (0.4 if view.axis is None else 0.8), "high")
-
-
-def bend_text(case: Case) -> str:
-    """How the hole of a case is bent, in a few words."""
-    hole = case.problem.hole
-    assert hole is not None
-    one = not hole.axis
-    turns = f"turns by {plain(np.degrees(hole.turning), 3)}°"
-    if case.scales is None:
-        return f"{turns}, {'' if one else 'least '}radius {plain(1.0 / hole.sharpest, 3)} L"
-    return f"{turns}, {'' if one else 'least '}radius {case.scales.text(1.0 / hole.sharpest, 'length')}"
 
 
 def _inclination(ax: Any, view: _View, case: Case) -> None:
@@ -259,7 +282,8 @@ def _across(ax: Any, case: Case) -> None:
     if known and scales is not None and scales.radius is not None:
         inch = 2.0 * scales.radius
         wide = 2.0 * hole * case.problem.clearance * scales.length
-        name = f"hole {scales.system.text(wide, 'length')}, rod {scales.system.text(inch, 'length')}"
+        rod_name = "rod" if case.string is None else case.string.longest.name
+        name = f"hole {scales.system.text(wide, 'length')}, {rod_name} {scales.system.text(inch, 'length')}"
     ax.set_title(
         f"{name}\n{'cross-section, to scale' if known else 'cross-section; radii not given'}", fontsize=8.5, y=-0.13
     )

@@ -242,11 +242,12 @@ class Problem:
         """Whether the problem is the same seen from either end: equal ends, no axial weight, sections alike.
 
         A weightless rod without an end that holds y has y(0) fixed instead, which makes the ends unequal. So does
-        weight where the end s = 1 has not come round to the side of the other.
+        weight where the end s = 1 has not come round to the side of the other. An arc is such a hole, level or
+        without weight; where it leaves the vertical plane, only y(s) → y(1 − s) leaves it as it is.
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
         if self.hole is not None:
-            return not self.axis and self.walk == self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
+            return not self.axis and self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
         if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose or not self.same_sides:
             return False
         return not self.sections or self.rod.symmetric
@@ -274,6 +275,8 @@ class Problem:
     @cached_property
     def hung_weight(self) -> float:
         """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one, γ times its rise in a curved hole."""
+        if self.hole is not None and self.axial_weight == 0.0 and not self.axis:
+            return 0.0  # a level arc is alike from both ends
         if self.hole is not None:
             return self.weight * rise_of_lying_rod(self.hole, -self.clearance if self.on_top else self.clearance)
         return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight

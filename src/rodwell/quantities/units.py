@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from rodwell.quantities.known import FOOT, GALLON, INCH, LBF, POUND, in_si
 from rodwell.quantities.text import certain, plain, prefix_for, readable, supported
 from rodwell.quantities.value import Value
 from rodwell.quantities.written import (
@@ -95,21 +96,36 @@ def to_si(text: object, kind: str) -> float:
     number, unit_text = _split(text, examples)
     if sign > 0 > number:
         raise ValueError("is negative, which is compression: write it without the sign, or without the word")
-    import pint  # noqa: PLC0415
-
     try:
-        quantity = _registry().Quantity(number, plain_unit(unit_text, kind) or "dimensionless")
+        written = plain_unit(unit_text, kind)
+    except AmbiguousUnitError as error:
+        raise ValueError(f"{error}; for example {examples}") from None
+    value = in_si(number, written, unit)
+    if value is None:
+        value = _by_registry(number, written, unit_text, kind)
+    if not math.isfinite(value):
+        raise ValueError("must be finite")
+    if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+        raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
+    return sign * abs(value) if sign else value
+
+
+def _by_registry(number: float, written: str, unit_text: str, kind: str) -> float:
+    """The SI value of a number of a unit that only the registry knows; or what is wrong with its text."""
+    import pint  # noqa: PLC0415 - slow to import
+
+    unit, examples = KINDS[kind]
+    try:
+        quantity = _registry().Quantity(number, written or "dimensionless")
     except pint.UndefinedUnitError:
         meant = _meant(unit_text, unit, kind)
         raise ValueError(f"unknown unit {unit_text!r}{meant}; write for example {examples}") from None
-    except AmbiguousUnitError as error:
-        raise ValueError(f"{error}; for example {examples}") from None
     except Exception:  # pint raises many kinds for text that is no unit
         raise ValueError(f"is not a number with a unit; write for example {examples}") from None
     if kind == "angle" and quantity.dimensionless and quantity.unitless:
         raise ValueError(f"needs a unit: write for example {examples}")
     try:
-        value = float(quantity.to(unit).magnitude)
+        return float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         what = f"has the dimension {quantity.dimensionality}" if not quantity.dimensionless else "has no unit"
         hint = _hint(quantity, kind) or _meant(unit_text, unit, kind)
@@ -118,11 +134,6 @@ def to_si(text: object, kind: str) -> float:
         ) from None
     except Exception:
         raise ValueError(f"is not a single number with a unit; write for example {examples}") from None
-    if not math.isfinite(value):
-        raise ValueError("must be finite")
-    if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
-        raise ValueError(f"is beyond sense: {value:g} {unit}; check the unit")
-    return sign * abs(value) if sign else value
 
 
 def _article(noun: str) -> str:
@@ -181,11 +192,6 @@ def _hint(quantity: Any, kind: str) -> str:
         return f" (a gradient of pressure: a density of {density:.4g} kg/m^3 makes it)"
     return ""
 
-
-LBF, FOOT, INCH, GALLON = 4.4482216152605, 0.3048, 0.0254, 231.0 * 0.0254**3
-"""Units of the field in SI, exact by definition: pound-force, foot, inch, US gallon."""
-
-POUND = 0.45359237
 
 _PREFIXED = ("N", "N/m", "N·m", "J", "Pa", "m")
 

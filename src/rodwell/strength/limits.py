@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.special import CRITICAL, LIFT_OFF, SpecialPoint
+from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
@@ -123,7 +124,10 @@ def limits(case: Case, branch: Branch, buckling: Value, left: Peak | None = None
         last = Limit(LIFTS_OFF, buckling, left.s, buckled=False)
         return tuple(sorted([last, *(one for one in gives if one is not None)], key=_force_of, reverse=True))
     end = branch.end_of_the_way
-    out = [limit for use in uses(case) if (limit := _limit(use, branch, end, buckling.value)) is not None]
+    found = (
+        _before_buckling(use, branch.problem, buckling.value) or _on_branch(use, branch, end) for use in uses(case)
+    )
+    out = [limit for limit in found if limit is not None]
     if end is not None:
         buckled = end.kind != CRITICAL
         kind = LIFTS_OFF if end.kind == LIFT_OFF or branch.lift_off_at_buckling else UNSTABLE
@@ -132,16 +136,54 @@ def limits(case: Case, branch: Branch, buckling: Value, left: Peak | None = None
     return tuple(sorted(out, key=_force_of, reverse=True))
 
 
+def limits_as_it_lies(case: Case, lying: LyingRod) -> tuple[Limit, ...]:
+    """Every limit of a rod in a hole that leaves the vertical plane, the least compressive first.
+
+    The way ends where the rod, as it lies, leaves the wall or loses its stability; where it buckles there, as that of
+    :func:`limits`.
+    """
+    end, out = lying.end, list[Limit]()
+    last = None if lying.buckled is None else lying.buckled.end_of_the_way
+    for use in uses(case):
+        found = _as_it_lies(use, lying)
+        if found is None and lying.buckled is not None:
+            found = _on_branch(use, lying.buckled, last)
+        out += [] if found is None else [found]
+    for point in (last,) if lying.buckled is not None else (end,):
+        if point is not None:
+            kind, buckled = (
+                LIFTS_OFF if point.kind == LIFT_OFF else UNSTABLE,
+                lying.buckled is not None and point.after > 0,
+            )
+            out.append(Limit(kind, point.load, point.s[0] if point.s else None, buckled))
+    return tuple(sorted(out, key=_force_of, reverse=True))
+
+
+def _as_it_lies(use: Use, lying: LyingRod) -> Limit | None:
+    """Where a strength is used up by the rod as it lies; None if it is not before the end of its way.
+
+    Where it is used up at rest already, tension may relieve it; if not, it is at any load followed.
+    """
+    part, place = use.of(LoadedRod("", lying.problem, lying.rest.force, solution=lying.rest))
+    if part < 1.0:
+        found = _on_branch(use, lying.pressed, lying.end)
+    else:
+        relieved = (
+            i for i, state in enumerate(lying.pulled)
+            if use.of(LoadedRod("", lying.problem, state.force, solution=state))[0] < 1.0
+        )  # fmt: skip
+        first = next(relieved, None)
+        found = Limit(use.kind, None, s=place) if first is None else _located(use, lying.pulled, first - 1)
+    return None if found is None else replace(found, buckled=False)
+
+
 def _force_of(limit: Limit) -> float:
     return np.inf if limit.force is None else limit.force
 
 
-def _limit(use: Use, branch: Branch, end: SpecialPoint | None, critical: float) -> Limit | None:
-    """Where a strength is used up: on the straight rod, or on the branch up to its end; None if it is not."""
+def _on_branch(use: Use, branch: Branch, end: SpecialPoint | None) -> Limit | None:
+    """Where a strength is used up on the branch up to its end; None if it is not."""
     problem = branch.problem
-    before = _before_buckling(use, problem, critical)
-    if before is not None:
-        return before
     if end is not None and end.kind == CRITICAL:
         return None
     last = len(branch) - 1 if end is None else end.after

@@ -52,7 +52,9 @@ class LoadedRod:
     force, error
         End force F at s = 1 in B/L², tension positive, and how well it is known (0: it was given).
     solution
-        The buckled state; None for the straight rod, in a curved hole the one that lies along it.
+        The buckled state; None for the straight rod, in a hole curved in the vertical plane the one that lies along it.
+    lies
+        The state is that of a rod that lies along a hole out of the vertical plane, and has not buckled.
     """
 
     name: str
@@ -60,6 +62,7 @@ class LoadedRod:
     force: float
     error: float = 0.0
     solution: Solution | None = field(default=None, repr=False)
+    lies: bool = False
 
     @property
     def load(self) -> Value:
@@ -69,7 +72,7 @@ class LoadedRod:
     @property
     def straight(self) -> bool:
         """Whether the rod has not buckled: it is straight, or as the hole bends it."""
-        return self.solution is None
+        return self.solution is None or self.lies
 
     @property
     def at_bottom(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,8 +16,10 @@ from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.value import Peak, Value
 from rodwell.strength.loaded import Fields, LoadedRod
-from rodwell.strength.off_wall import RodOffWall
 from rodwell.strength.stress import PLACES, Loading, Section, Stresses, section_of, stresses
+
+if TYPE_CHECKING:
+    from rodwell.strength.off_wall import RodOffWall
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

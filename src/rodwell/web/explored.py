@@ -16,10 +16,11 @@ from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.path.events import Leg, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.analysis.straight.lying import refuse_spatial
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.bifurcation import ORDINATES, telling
+from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount
@@ -283,9 +284,12 @@ def explore(
 
     Raises
     ------
+    InputError
+        For a hole that leaves the vertical plane, where the rod has no critical loads.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started.
     """
+    refuse_spatial(case.problem)
     computed = compute(case, tell)
     branches = list(computed.branches)
     if computed.other_arm is not None:

@@ -18,6 +18,7 @@ from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import unknown_name
 from rodwell.faces import Shown, drawn, face
 from rodwell.numerics.continuation.closing import CLOSED
+from rodwell.numerics.continuation.events import INDEX
 from rodwell.quantities.arrays import FloatArray
 
 if TYPE_CHECKING:
@@ -62,7 +63,9 @@ class Branch(BranchRecord, Shown):
     @property
     def ending(self) -> str:
         """Why the branch ended, in words."""
-        words = {END: "the end of the search was reached", LIFT_OFF: "the rod lifts off"}
+        words = {
+            END: "the end of the search was reached", LIFT_OFF: "the rod lifts off", INDEX: "its stability changes",
+        }  # fmt: skip
         return words.get(self.ended_because, self.ended_because)
 
     def numbers(self, which: Number) -> FloatArray:

@@ -168,8 +168,8 @@ def _from_straight(
     simple = len(first.together) == 1
     leaves = Leaving(falling=first.number - 1, rising=first.number) if simple else Leaving()
     result = traced(
-        problem, start, limit, stepping, at_lift_off=until is None, leaves=leaves, progress=how.progress,
-        halt=how.watched.halt(problem, "force"),
+        problem, start, limit, stepping, ends_at=(LIFT_OFF,) if until is None else (), leaves=leaves,
+        progress=how.progress, halt=how.watched.halt(problem, "force"),
     )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(

@@ -70,10 +70,13 @@ def _wavenumber(problem: Problem, state: State) -> float:
 def kept_parity(problem: Problem, parity: int, *parameters: Parameter) -> int:
     """Parity of a state that all of its branch has: a reflection that the problem has, for any value of parameters.
 
-    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only.
+    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only, in a hole that leaves the
+    vertical plane the upper one.
     """
     along = throughout(problem, *parameters)
     if not all(one.symmetric for one in along):
+        return 0
+    if parity < 0 and any(one.hole is not None and not one.hole.planar for one in along):
         return 0
     return 0 if parity > 0 and any(one.twist != 0.0 for one in along) else parity
 
@@ -114,11 +117,17 @@ def at_state(
 
     A ``fold`` is no regular state at a given value: it is solved for where it lies in the direction of its tangent, and
     left in that sense, since both ways lead to the same side.
+
+    A rod that lies at rest in a curved hole asks for few elements, and on these the branch of what it becomes under
+    load may seem to end: there the mesh is at least that of the range of forces.
     """
     old = start.point
+    space = old.coarse.space
+    if problem.hole is not None and parameter == "force":
+        space = max(space, first_space(problem, min(here, until), max(here, until)), key=lambda one: one.elements)
     equilibria = family(
         problem,
-        old.coarse.space,
+        space,
         parity=kept_parity(problem, old.fine.symmetry, parameter),
         wavenumber=_wavenumber(problem, old.fine),
         scale=abs(until - here),
@@ -129,10 +138,13 @@ def at_state(
     states = []
     for level, known in ((meshes.coarse, old.coarse), (meshes.fine, old.fine)):
         exact = level.with_exact_tangent()
-        outcome, state, _ = exact.at(known.c, here)
+        c, tangent = known.c, known.tangent
+        if space is not old.coarse.space:
+            c, tangent = (_carried(level, known.space, spline) for spline in (c, tangent))
+        outcome, state, _ = exact.at(c, here)
         if state is None:
-            row, _, _, _ = exact.covector(known.tangent, 0.0)
-            outcome, state, _ = exact.correct(known.c, here, row, 0.0, float(row @ known.c))
+            row, _, _, _ = exact.covector(tangent, 0.0)
+            outcome, state, _ = exact.correct(c, here, row, 0.0, float(row @ c))
         if state is None:
             raise NotConvergedError(f"the state to start from could not be solved again: {level.advice(outcome)}")
         states.append(state if fold or (until - here) * state.tangent_lam > 0.0 else state.reversed())
@@ -161,6 +173,12 @@ def check_side(fold: SpecialPoint, until: float) -> None:
 
 BESIDE = 1e-2
 """How far from a fold its branch is looked at, in the metric of the family."""
+
+
+def _carried(equilibria: Family, space: SplineSpace, spline: FloatArray) -> FloatArray:
+    """Coefficients on the mesh of a family of a spline (n,) on another one."""
+    on = equilibria.space
+    return on.project(space.evaluate(spline, on.points, 1)[0], equilibria.ends)
 
 
 def at_branch_point(point: SpecialPoint, mirror: bool, rtol: float) -> Start:

@@ -56,11 +56,13 @@ def reflections(problem: Problem) -> tuple[Reflection, ...]:
     """Reflections under which the problem stays the same, the identity first.
 
     The twisting moment forbids all but y(s) → −y(1 − s); axial weight or unequal ends forbid to turn the rod round;
-    a coil forbids to change one sign alone.
+    a coil forbids to change one sign alone, and a hole that leaves the vertical plane to change any.
     """
     turnable = problem.symmetric
     plain = problem.twist == 0.0 and problem.turns == 0
     found = [IDENTITY]
+    if problem.hole is not None and not problem.hole.planar:
+        return (IDENTITY, TURNED) if plain and turnable else (IDENTITY,)
     if plain:
         found.append(MIRROR)
     if plain and turnable:

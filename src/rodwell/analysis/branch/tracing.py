@@ -42,15 +42,18 @@ def traced(
     until: float,
     stepping: Stepping,
     *,
-    at_lift_off: bool = False,
+    ends_at: tuple[str, ...] = (),
     parameter: Parameter = "force",
     leaves: Leaving | None = None,
     progress: Progress | None,
     halt: Halt | None = None,
 ) -> Trace:
-    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one, or is told."""
+    """Trace a branch to ``until``, put its end exactly there, and stop where it rejoins a symmetric one, or is told.
+
+    ``ends_at``: events at which it ends before, LIFT_OFF or INDEX (a change of the stability index).
+    """
     meshes, point = start
-    stops = {END, OUT_OF_RANGE, LEFT, *([LIFT_OFF] if at_lift_off else [])}
+    stops = {END, OUT_OF_RANGE, LEFT, *ends_at}
     events = [_ACROSS, Event.at(END, until)]
     if not problem.untouched or problem.turns != 0:
         events.append(_CONTACT)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from rodwell.analysis.discrete.curved import along_rod
@@ -199,14 +201,19 @@ def given_of(rod: Rod) -> Given:
     columns = np.stack(
         [rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1
     )
-    return lambda places: np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
+    return partial(_columns_at, columns, rod)
+
+
+def _columns_at(columns: FloatArray, rod: Rod, places: FloatArray) -> FloatArray:
+    return np.ascontiguousarray(columns[rod.stiffness.piece_of(places)])
 
 
 def reflections(problem: Problem, parameter: Parameter = END_FORCE) -> tuple[tuple[int, bool], ...]:
     """Reflections (sign, turned), y(s) → ± y(s) or ± y(1 − s), that the problem has for any value of a parameter.
 
     The twisting moment forbids all but y(s) → −y(1 − s); axial weight or unequal ends forbid to turn the rod round;
-    a coil forbids to change one sign alone. The identity is left out.
+    a coil forbids to change one sign alone, and a hole that leaves the vertical plane to change any. The identity is
+    left out.
     """
     others = [_reflections(one) for one in throughout(problem, parameter)]
     return tuple(one for one in _reflections(problem) if all(one in other for other in others))
@@ -216,7 +223,7 @@ def _reflections(problem: Problem) -> tuple[tuple[int, bool], ...]:
     turnable = problem.symmetric
     plain = problem.twist == 0.0 and problem.turns == 0
     if problem.hole is not None and not problem.hole.planar:
-        return ()
+        return ((1, True),) if plain and turnable else ()
     found = [MIRROR] if plain else []
     found += [(1, True)] if plain and turnable else []
     return (*found, (-1, True)) if turnable else tuple(found)

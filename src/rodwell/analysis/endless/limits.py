@@ -7,8 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import lru_cache
 
-from scipy.optimize import brentq
-
 from rodwell.analysis.endless.following import BUCKLING, FIRST, follow_to, helix_bears, helix_start, start
 from rodwell.analysis.endless.state import least_contact, mean_energy
 from rodwell.analysis.endless.waves import HELICAL, SINUSOIDAL, Wave, wave, wave_at_frequency
@@ -123,6 +121,8 @@ def _count(wave: Wave, fine: bool) -> int:
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
+
     return float(brentq(function, low, high, xtol=1e-14, rtol=LOCATED))
 
 

@@ -8,7 +8,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.numerics.stretches.carry import Sampler
@@ -77,6 +76,7 @@ def step_gap_sizes(ratio: float) -> tuple[float, float]:
     curvature is that over b stiff for t < a, and [b]κ(m + 1) over b soft beyond; that it and its slope close leaves one
     equation for a, and Λ. For a small step a = ½ + 1/√12 and Λ = √3.
     """
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
 
     def both(a: float) -> tuple[float, float]:
         rest = (1.0 - a) ** 2

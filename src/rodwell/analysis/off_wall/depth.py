@@ -6,7 +6,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rodwell.numerics.stretches.carry import fields_at
 from rodwell.numerics.stretches.chain import Shape
@@ -36,6 +35,8 @@ def depth(shape: Shape, s: FloatArray) -> FloatArray:
 
 def contact_pieces(shape: Shape) -> list[Piece]:
     """Contact and gaps in turn, from s = 0."""
+    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
+
     s = np.concatenate([np.linspace(a, b, PER_ELEMENT, endpoint=False) for a, b in pairwise(shape.places)] + [[1.0]])
     on = depth(shape, s[1:-1]) > 0.0  # ends are held right at the wall
     inner = s[1:-1]

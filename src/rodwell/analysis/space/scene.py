@@ -17,6 +17,7 @@ from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
+from rodwell.quantities.text import plain
 
 STOPS = ((-1.0, "#08306b"), (-0.5, "#2f7fbf"), (0.0, "#d3e3f0"), (1.0, "#b3261e"))
 """Colours of the contact pressure: pressed most, half as much, not at all, and where the wall would have to pull."""
@@ -46,6 +47,11 @@ class Part:
     mesh: Mesh
     colour: FloatArray
     opacity: float = 1.0
+
+
+def enlarged(rod: Geometry) -> str:
+    """By how much a picture is enlarged across the axis, to stand in it."""
+    return "true scale" if rod.radial_scale == 1.0 else f"× {plain(rod.radial_scale, 3)} across the axis"
 
 
 def drawn(

@@ -36,7 +36,7 @@ def refuse_spatial(problem: Problem) -> None:
             name,
             f"{len(problem.axis)} points" if problem.axis else problem.walk,
             "bends the hole sideways, where the rod lies on no straight generator and has no critical load: it moves "
-            "with every change of the end force; ask for the state at a force (rodwell.equilibrium) and follow that",
+            "with every change of the end force; ask how it lies, and where that ends (rodwell.lying_rod)",
         )
     if hole is not None and problem.twist != 0.0 and problem.ends != ("clamped", "clamped"):
         raise InputError(

@@ -6,6 +6,7 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.beyond import beyond_dict
@@ -183,17 +184,20 @@ def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
 
 def _critical_loads(answer: Answer) -> dict[str, Any]:
     """Loads with the wall's help, as met, and without; those of a rod kept on the wall where these are others."""
-    kept, met, alone = answer.critical, answer.first_met, answer.without_wall
+    kept, alone = answer.critical, answer.without_wall
     loads = {"critical_loads": [float(f) for f in kept.forces], "critical_errors": [float(e) for e in kept.errors]}
     out: dict[str, Any] = loads
     if answer.untouched:
         kept_on_wall = {"loads": loads["critical_loads"], "error": loads["critical_errors"]}
+        met = answer.first_met
         out = {"critical_loads": [met.force], "critical_errors": [met.error], "kept_on_wall": kept_on_wall}
     return out | {"without_wall": None if alone is None else {"loads": [alone.force], "error": [alone.error]}}
 
 
 def _lying(answer: Answer) -> dict[str, Any]:
     """Between which end forces the rod lies on the wall of a curved hole by itself, and what is not told there."""
+    if answer.lying is not None:
+        return _lying_in_space(answer, answer.lying)
     low, high = lies_between(answer.case.problem)
     ends = {"lowest_force": low, "highest_force": high}
     return {
@@ -205,6 +209,28 @@ def _lying(answer: Answer) -> dict[str, Any]:
         "leaves_before_buckling": answer.left_before is not None,
         "left_out": left_out(answer),
     }
+
+
+def _lying_in_space(answer: Answer, lying: LyingRod) -> dict[str, Any]:
+    """The same of a hole out of the vertical plane: how far the rod was followed as it lies, and what ends that."""
+    ends = {
+        "lowest_force": (lying.lowest, lying.end, lying.pressed),
+        "highest_force": (lying.highest, lying.end_in_tension, lying.pulled),
+    }
+    return {
+        "side": None,
+        "rest_force": lying.rest.force,
+        **{
+            name: {
+                "value": load.value, "error": load.error, "s": None if end is None or not end.s else end.s[0],
+                "ends_by": None if end is None else end.kind, "followed_because": branch.ending,
+            }
+            for name, (load, end, branch) in ends.items()
+        },
+        "buckles": lying.buckled is not None,
+        "leaves_before_buckling": answer.left_before is not None,
+        "left_out": left_out(answer),
+    }  # fmt: skip
 
 
 def _other_arm(answer: Answer) -> dict[str, Any] | None:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.branch.exploring import Progress
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.assessment_numbers import assessment_numbers
-from rodwell.answers.result.beyond import Beyond, beyond
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.result.key_number import KeyNumber, force_scale
 from rodwell.answers.result.key_numbers import (
@@ -24,11 +23,13 @@ from rodwell.answers.result.key_numbers import (
     stress_number,
     without_wall,
 )
+from rodwell.answers.result.lying import lying_numbers
 from rodwell.case.case import Case
 from rodwell.faces import Shown, drawn, plain
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.functionals import Number
+    from rodwell.answers.result.beyond import Beyond
     from rodwell.faces import Axes
 
 
@@ -57,21 +58,27 @@ class Answer(Computed, Shown):
     @cached_property
     def beyond(self) -> Beyond:
         """What happens beyond lift-off, and as the load is taken off again: computed when first asked for, seconds."""
+        from rodwell.answers.result.beyond import beyond  # noqa: PLC0415 - what is on the wall does not wait for it
+
         return beyond(self)
 
     @cached_property
     def key_numbers(self) -> dict[str, KeyNumber]:
         """The key numbers by name."""
         out = [critical_number(mode, kept=self.untouched) for mode in self.critical]
-        met = first_met(self.first_met) if self.untouched else out[0]
-        out += [met] if self.untouched else []
+        if self.lying is not None:
+            out += lying_numbers(self.lying)
+        out += [first_met(self.first_met)] if self.untouched else []
+        met = out[-1:] if self.untouched else out[:1]
         out += [] if self.without_wall is None else [without_wall(self.without_wall)]
-        out += real_force(met, self.case) + ([] if self.untouched else critical_length(self.case.problem))
+        out += [real for key in met for real in real_force(key, self.case)]
+        out += [] if self.untouched else critical_length(self.case.problem)
         load = self.lift_off_load
         if load is not None:
             note, places, label = "", self.lift_off_places, "Lift-off load, end force at s = 1"
             if self.left_before is not None:
                 note = "before it buckles: compression presses it away from this side of the hole"
+                note = note if self.lying is None else "of the rod as it lies, which does not buckle before"
             elif self.off_at_once:
                 note, places = "coincides with buckling: no lateral weight presses the rod to the wall", ()
             out.append(KeyNumber("lift_off_load", label, load, "force", force_scale(load.value), note, places))
@@ -80,11 +87,12 @@ class Answer(Computed, Shown):
         if other is not None:
             label = "Lift-off load of the other arm, end force at s = 1"
             out.append(KeyNumber("lift_off_load_other_arm", label, other.load, "force", force_scale(other.force), ARMS))
-        if self.at_lift_off is not None:
-            out += [*state_numbers(self.at_lift_off), *rotations(self.at_lift_off)]
+        state = self.shown if self.lying is not None else self.at_lift_off
+        if state is not None:
+            out += [*state_numbers(state), *rotations(state)]
         out += assessment_numbers(self.assessment)
         if self.case.problem.hole is not None:
-            lying = self.assessment.at_buckling
+            lying = self.assessment.at_rest or self.assessment.at_buckling
             out += in_curved_hole(lying, self.lift_off_at_own_places, self.left_in_tension)
         elif self.at_lift_off is not None and self.case.cylinder is not None and self.case.scales is not None:
             out.append(stress_number(self.at_lift_off, self.case.cylinder, self.case.scales))
@@ -121,4 +129,4 @@ def answer(case: Case, progress: Progress | None = None) -> Answer:
         If the critical loads cannot be computed, or the first branch cannot be started.
     """
     computed = compute(case, progress)
-    return Answer(computed.case, computed.critical, computed.branches, computed.until, computed.other_arm)
+    return Answer(**{field.name: getattr(computed, field.name) for field in fields(computed)})

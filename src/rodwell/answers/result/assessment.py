@@ -14,7 +14,7 @@ from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 from rodwell.strength.cylinder import Stress, cylinder_stress
-from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits
+from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, Limit, limits, limits_as_it_lies
 from rodwell.strength.loaded import Fields, LoadedRod
 from rodwell.strength.local import Exceeded, LocalLimits, exceeded, local_limits
 from rodwell.strength.section import RodSection, RodStress, StringSections, rod_section
@@ -124,9 +124,25 @@ class Assessment:
 
     @cached_property
     def at_buckling(self) -> LoadedRod:
-        """The straight rod at its first critical load; in a curved hole where it leaves the wall, if that is before."""
-        name = "at buckling" if self.computed.left_before is None else "where it leaves the wall"
-        return LoadedRod(name, self.case.problem, self.buckling.value, self.buckling.error)
+        """The straight rod at its first critical load; in a curved hole where it leaves the wall, if that is before.
+
+        In a hole that leaves the vertical plane where the rod, as it lies, loses its stability, or was followed to.
+        """
+        computed, problem = self.computed, self.case.problem
+        name = "at buckling" if computed.left_before is None else "where it leaves the wall"
+        if computed.lying is None:
+            return LoadedRod(name, problem, self.buckling.value, self.buckling.error)
+        if computed.left_before is None and computed.lying.buckled is None:
+            name = "at the last load followed" if computed.lying.end is None else "where it loses its stability"
+        return LoadedRod(name, problem, self.buckling.value, self.buckling.error, computed.lying.last, lies=True)
+
+    @cached_property
+    def at_rest(self) -> LoadedRod | None:
+        """The rod at rest in a hole that leaves the vertical plane, from which its states are followed; else None."""
+        lying = self.computed.lying
+        if lying is None:
+            return None
+        return LoadedRod("at rest", self.case.problem, lying.rest.force, solution=lying.rest, lies=True)
 
     @cached_property
     def at_lift_off(self) -> LoadedRod | None:
@@ -143,15 +159,15 @@ class Assessment:
 
     @cached_property
     def states(self) -> tuple[LoadedRod, ...]:
-        """The states that are known: straight at buckling, at lift-off, at the applied loads."""
-        out = [self.at_buckling, self.at_lift_off, *(at.state for at in self.applied)]
+        """The states that are known: as it lies at rest, straight at buckling, at lift-off, at the applied loads."""
+        out = [self.at_rest, self.at_buckling, self.at_lift_off, *(at.state for at in self.applied)]
         return tuple(state for state in out if state is not None)
 
     @cached_property
     def validity(self) -> Validity:
         """How far the loads shown are from what the theory assumes: strain, slenderness, slope, shortening."""
         without = [(self._name(at.load), at.load.force) for at in self.applied if at.state is None]
-        return validity(self.case, self.states, without, self.computed.critical[0].wavenumber)
+        return validity(self.case, self.states, without, self.computed.wavenumber)
 
     def _name(self, load: AppliedLoad) -> str:
         name = "at the applied load"
@@ -162,8 +178,27 @@ class Assessment:
         if self.computed.pulled_off(load.force):
             return AtLoad(load, PULLED)
         if load.force >= self.buckling.value:
-            return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+            lying = self.computed.lying
+            return (
+                AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
+                if lying is None
+                else self._lies(load, name)
+            )
         return self._buckled(load, name)
+
+    def _lies(self, load: AppliedLoad, name: str) -> AtLoad:
+        """The rod as it lies in a hole that leaves the vertical plane, at a load that it bears, if it is known to."""
+        lying = self.computed.lying
+        assert lying is not None
+        if load.force > lying.highest.value:
+            lost = lying.end_in_tension is not None
+            why = "" if lost else why_out_of_reach(lying.pulled, self.case.scales)
+            return AtLoad(load, OTHER_SHAPE if lost else UNKNOWN, None, why, reached=lost)
+        try:
+            state = lying.at(load.force)
+        except NotConvergedError:
+            return AtLoad(load, UNKNOWN, None, UNSOLVED, reached=False)
+        return AtLoad(load, STRAIGHT, LoadedRod(name, self.case.problem, load.force, solution=state, lies=True))
 
     def _buckled(self, load: AppliedLoad, name: str) -> AtLoad:
         """The rod at a load that the straight one does not bear."""
@@ -216,7 +251,11 @@ class Assessment:
     @cached_property
     def window(self) -> Window:
         """From buckling to lift-off, and what gives on the way."""
-        gives = limits(self.case, self.branch, self.buckling, left=self.computed.left_before)
+        lying = self.computed.lying
+        if lying is None:
+            gives = limits(self.case, self.branch, self.buckling, left=self.computed.left_before)
+        else:
+            gives = limits_as_it_lies(self.case, lying)
         bottom = self.case.problem.hung_weight - self.buckling.value
         return Window(self.buckling, self.computed.lift_off_load, gives, bottom)
 
@@ -236,12 +275,13 @@ class Assessment:
         """Formulas of practice that apply, and the best known ones, beside the exact loads of this answer.
 
         None of a string of sections: they are those of a uniform rod; nor of a rod whose weight acts towards s = 1, for
-        they count from the end that weight loads.
+        they count from the end that weight loads; nor of one that does not buckle.
         """
-        if self.case.problem.sections or self.case.problem.hung_weight < 0.0:
+        problem, lying = self.case.problem, self.computed.lying
+        if problem.sections or problem.hung_weight < 0.0 or (lying is not None and lying.buckled is None):
             return ()
         weight = self.case.problem.hung_weight
-        first = self.buckling if self.computed.left_before is None else self.computed.critical[0].load
+        first = self.buckling if not self.computed.left_before else self.computed.critical[0].load
         loads = [ExactLoad("critical", "first critical load", first.value, first.error, weight)]
         lift = self.computed.lift_off
         if lift is not None and not self.computed.off_at_once:

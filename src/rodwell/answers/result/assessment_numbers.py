@@ -34,6 +34,10 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
     if a.case.problem.hole is not None:
         note = "F less the weight over the height of the rod in its hole"
     loads = [] if a.computed.left_before else [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
+    if a.computed.lying is not None:  # the load at which it buckles; else there is none, or it stands as a limit
+        loads = (
+            [("buckling_load", "Load at which the rod buckles", a.window.buckling)] if a.computed.lying.buckled else []
+        )
     if a.window.lift_off is not None:
         loads.append(("lift_off_load", "Lift-off load", a.window.lift_off))
     out = []
@@ -48,7 +52,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
     """Width of the window, and the limits on the way."""
     out, window = [], a.window
     width, end = window.width, window.end
-    if width is not None and end is not None and not a.computed.off_at_once:
+    if width is not None and end is not None and not a.computed.no_window:
         parts = [] if window.share is None else [f"{percent(window.share, 4)} of the compression at s = 0 at buckling"]
         parts.append(f"ends by {end.name}")
         if a.limiting is not None:
@@ -60,7 +64,7 @@ def _window(a: Assessment) -> list[KeyNumber]:
             continue
         label = f"{limit.name[:1].upper()}{limit.name[1:]}, end force at s = 1"
         scale = force_scale(limit.load.value) + a.case.problem.heaviest
-        out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _when(limit), _places(limit)))
+        out.append(KeyNumber(f"limit_{limit.kind}", label, limit.load, "force", scale, _when(a, limit), _places(limit)))
     return out
 
 
@@ -68,7 +72,9 @@ def _places(limit: Limit) -> tuple[float, ...]:
     return () if limit.s is None else (limit.s,)
 
 
-def _when(limit: Limit) -> str:
+def _when(a: Assessment, limit: Limit) -> str:
+    if a.computed.lying is not None and not limit.buckled:
+        return "on the rod as it lies"
     return "on the buckled rod" if limit.buckled else "on the straight rod, before it buckles"
 
 

@@ -15,6 +15,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.discrete import first_run
+from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
 from rodwell.analysis.state.own_places import lift_off_with_own_places
@@ -22,11 +23,11 @@ from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loa
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
 from rodwell.answers.result.arms import to_lift_off
+from rodwell.answers.result.lying import check_lying, left_before, lift_off_of, lying_along
 from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
-from rodwell.errors import InputError, NotConvergedError
-from rodwell.problem.problem import Problem
+from rodwell.errors import NotConvergedError
 from rodwell.quantities.value import Peak, Value
 
 
@@ -48,6 +49,9 @@ class Computed:
     other_arm
         The other arm of mode 1, to lift-off, where twist makes the two differ: the first branch is the arm that leaves
         the wall or loses its stability at less compression. None where it is the image of the first.
+    lying
+        How the rod lies in a hole that leaves the vertical plane, where there are no critical loads; ``branches`` are
+        those of it, the first that of the buckled rod where it buckles. None in other holes.
     """
 
     case: Case
@@ -55,6 +59,7 @@ class Computed:
     branches: tuple[Branch, ...]
     until: float
     other_arm: Branch | None = None
+    lying: LyingRod | None = None
 
     @property
     def untouched(self) -> bool:
@@ -82,6 +87,8 @@ class Computed:
     @cached_property
     def left_before(self) -> Peak | None:
         """Where the rod leaves the wall of a curved hole by itself before it buckles: end force and place; or None."""
+        if self.lying is not None:
+            return lift_off_of(self.lying.end)
         return left_before(self.case.problem, self.critical)
 
     @cached_property
@@ -90,6 +97,8 @@ class Computed:
 
         In tension mostly; where the curvature varies, the rod's own stiffness may take it off without any.
         """
+        if self.lying is not None:
+            return lift_off_of(self.lying.end_in_tension)
         return None if self.case.problem.hole is None else lies_between(self.case.problem)[1]
 
     def pulled_off(self, force: float) -> bool:
@@ -102,11 +111,19 @@ class Computed:
         return self.left_before is not None or self.first.lift_off_at_buckling
 
     @property
+    def no_window(self) -> bool:
+        """Whether no way leads from buckling to lift-off: it is off at once, or does not buckle into another shape."""
+        return self.off_at_once or (self.lying is not None and self.lying.buckled is None)
+
+    @property
     def buckling(self) -> Value:
         """The first load that the straight rod meets: end force F at s = 1 in B/L², tension positive.
 
-        It buckles, or before that leaves the wall of a curved hole.
+        It buckles, or before that leaves the wall of a curved hole. In one that leaves the vertical plane it may also
+        lose its stability otherwise, or nothing of this as far as it was followed: then that is the load.
         """
+        if self.lying is not None:
+            return self.lying.lowest
         if self.left_before is not None:
             return Value(self.left_before.value, self.left_before.error)
         return Value(self.first_met.force, self.first_met.error)
@@ -122,7 +139,7 @@ class Computed:
     def lift_off_places(self) -> tuple[float, ...]:
         """Where it lifts off, s/L; none where that is as soon as it buckles."""
         if self.left_before is not None:
-            return (self.left_before.s,)
+            return (self.left_before.s,) if self.lying is None or self.lying.end is None else self.lying.end.s
         return () if self.lift_off is None else tuple(self.lift_off.s)
 
     @cached_property
@@ -131,10 +148,12 @@ class Computed:
 
         Branches take the hole where the undeformed rod is: the difference is what that costs.
         """
-        if self.case.problem.hole is None or self.at_lift_off is None:
+        lies_only = self.lying is not None and self.left_before is not None
+        state = self.shown if lies_only else self.at_lift_off
+        if self.case.problem.hole is None or state is None:
             return None
         try:
-            return lift_off_with_own_places(self.case.problem, self.at_lift_off.meshes, self.at_lift_off.point)
+            return lift_off_with_own_places(self.case.problem, state.meshes, state.point)
         except NotConvergedError:
             return None
 
@@ -146,7 +165,8 @@ class Computed:
     @property
     def lift_off(self) -> SpecialPoint | None:
         """Lift-off of the first mode; None where the rod has left the wall of a curved hole before it buckles."""
-        return None if self.left_before is not None else self.first.lift_off
+        lies_only = self.lying is not None and self.lying.buckled is None
+        return None if self.left_before is not None or lies_only else self.first.lift_off
 
     @cached_property
     def at_lift_off(self) -> Solution | None:
@@ -156,8 +176,21 @@ class Computed:
         return self.lift_off.solution
 
     @property
+    def wavenumber(self) -> float:
+        """√(∫y''²/∫y'²) of the first mode in 1/L; of a rod without one, of the state shown, at least a half wave."""
+        if len(self.critical) > 0:
+            return self.critical[0].wavenumber
+        state = self.shown.point.fine
+        return max(float(np.nan_to_num(state.space.wavenumber(state.c))), np.pi)
+
+    @property
     def shown(self) -> Solution:
-        """The state that pictures show: the first mode at lift-off, or else at the end of its branch."""
+        """The state that pictures show: the first mode at lift-off, or else at the end of its branch.
+
+        In a hole that leaves the vertical plane, of a rod that does not buckle, the last as it lies.
+        """
+        if self.lying is not None and self.lying.buckled is None:
+            return self.lying.last
         return self.at_lift_off or self.first[-1]
 
     @cached_property
@@ -188,29 +221,6 @@ class Computed:
         return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
 
 
-def _check_lying(case: Case) -> None:
-    """Raise where the wall would have to pull the rod at every end force: none lies on this side of the hole."""
-    low, high = (None, None) if case.problem.hole is None else lies_between(case.problem)
-    if low is None or high is None or low.value < high.value:
-        return
-    given = case.given.get("hole", {})
-    key = next((name for name in ("survey", "centerline", "build") if name in given), "build")
-    side = "high" if case.problem.on_top else "low"
-    raise InputError(
-        f"hole.{key}",
-        given.get(key),
-        f"bends the hole so that a rod lies on its {side} side at no end force: below {high.value:.6g} B/L² it leaves "
-        f"the wall at s/L = {low.s:.4g}, above at s/L = {high.s:.4g}; take a shorter piece of the hole, or give the "
-        "rod its weight",
-    )
-
-
-def left_before(problem: Problem, critical: CriticalLoads) -> Peak | None:
-    """The end force at which the rod leaves the wall of a curved hole before it buckles, with the place; or None."""
-    low = None if problem.hole is None else lies_between(problem)[0]
-    return None if low is None or low.value < critical[0].force else low
-
-
 def compute(case: Case, progress: Progress | None = None) -> Computed:
     """Compute a case: critical loads, the branch of each mode, lift-off of the first.
 
@@ -224,8 +234,7 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     Raises
     ------
     InputError
-        For a hole that leaves the vertical plane, where the rod has no critical load, and one in which it lies on this
-        side at no end force.
+        For a curved hole in which the rod lies on this side at no end force.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started. One that ends before
         ``load.until`` or a load that acts is no error: :mod:`rodwell.answers.result.reach` says so.
@@ -233,8 +242,11 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     tell = progress or (lambda _what, _done: None)
     problem = case.problem
     first_run.begin(case.problem)
+    if problem.hole is not None and not problem.hole.planar:
+        lying = lying_along(case, tell)
+        return Computed(case, CriticalLoads(()), lying.branches, lying.until, lying=lying)
     tell("critical loads", 0.0)
-    _check_lying(case)
+    check_lying(case)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
     first, other, until = _first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))

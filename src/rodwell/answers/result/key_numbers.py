@@ -81,6 +81,8 @@ def in_curved_hole(lying: LoadedRod, own: Value | None, tension: Peak | None) ->
     """
     bending = lying.largest(lambda f: np.hypot(f["rod_M2"], f["rod_M3"]))
     label = "Largest bending moment in the rod as it lies, from the hole's curvature alone"
+    if lying.solution is not None:
+        label = "Largest bending moment in the rod as it lies at rest, by the curvature of the hole"
     out = [KeyNumber("hole_bending", label, bending, "moment", bending.value, s=(bending.s,))]
     if own is not None:
         label = "Lift-off load with every cross-section at its own place along the hole, end force at s = 1"

@@ -40,8 +40,14 @@ def out_of_reach(branch: Branch, force: float) -> bool:
 
 def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
     """How far the branch goes, in the reader's units, and why it ends."""
+    said = Forces(scales, branch.problem.hung_weight)
+    if branch.mode is None and branch.force[-1] > branch.force[0]:
+        far = said.load(Value(branch.reach[1]))
+        return f"the rod as it lies was followed no farther than to {far} ({_ending(branch)})"
     lowest, number = Value(branch.reach[0]), 1 if branch.mode is None else branch.mode.number
-    far = Forces(scales, branch.problem.hung_weight).load(lowest)
+    far = said.load(lowest)
+    if branch.mode is None and not branch.origin.switched:
+        return f"the rod as it lies was followed no farther than to {far} ({_ending(branch)})"
     return (
         f"the branch of mode {number} goes no farther than {far} and ends there or on its way back ({_ending(branch)})"
     )
@@ -49,7 +55,7 @@ def why_out_of_reach(branch: Branch, scales: Scales | None) -> str:
 
 def _ending(branch: Branch) -> str:
     """Why a branch ends, in words."""
-    return "its state there could not be followed" if branch.ended_because == END else branch.ended_because
+    return "its state there could not be followed" if branch.ended_because == END else branch.ending
 
 
 def no_lift_off(scales: Scales | None, branch: Branch) -> str:

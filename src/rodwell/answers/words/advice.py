@@ -10,6 +10,7 @@ from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.result.reach import passes
+from rodwell.answers.words.in_space import what_ends
 from rodwell.answers.words.meaning import SMALL_LOAD
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.applied import AppliedLoad
@@ -66,6 +67,11 @@ def _buckling(computed: Computed) -> Status:
     where = forces_of(computed.case).load(limit)
     if load is None or load >= limit.value or computed.left_before is not None:
         return _not_buckled(computed, load)
+    lying = computed.lying
+    if lying is not None and lying.buckled is None:
+        known = lying.end is None
+        reason = f"beyond {'the last load followed' if known else 'the load at which it loses its stability'}, {where}"
+        return Status("Buckling", BAD, "not known" if known else "takes another shape", reason)
     reason = f"beyond the load at which it buckles, {where}"
     if computed.untouched:
         return Status("Buckling", BAD, "buckled, off the wall", f"{reason}: nothing presses it to the wall")
@@ -83,6 +89,10 @@ def _not_buckled(computed: Computed, load: float | None) -> Status:
     if load is None:
         reason = f"{_unbuckled(computed.case)} as long as it keeps {said.below(limit)}"
         return Status("Buckling", OPEN, "no load given", reason)
+    if computed.lying is not None and load > computed.lying.highest.value and not computed.pulled_off(load):
+        known, where = computed.lying.end_in_tension is not None, said.load(computed.lying.highest)
+        word, what = ("takes another shape", "the load at which it loses its stability") if known else ("not known", "")
+        return Status("Buckling", BAD, word, f"beyond {what or 'the last load followed'}, {where}")
     if load < limit.value or computed.pulled_off(load):
         return Status(
             "Buckling", BAD, "off the wall", f"{_off(computed, load)}: the curve presses it away from the wall"
@@ -91,6 +101,11 @@ def _not_buckled(computed: Computed, load: float | None) -> Status:
     word, does, next_up = _unbuckled(computed.case), "buckles", "buckling"
     if computed.left_before is not None:
         does, next_up = "leaves the wall", "leaving the wall"
+    elif computed.lying is not None:
+        if computed.lying.end is None:
+            return Status("Buckling", GOOD, word, f"stable down to {said.load(limit)}, and not followed farther")
+        next_up = what_ends(computed.lying)
+        does = "buckles" if computed.lying.buckled is not None else "loses its stability"
     word += "" if level == GOOD else f", close to {next_up}"
     return Status("Buckling", level, word, f"{margin} the load at which it {does}, {said.load(limit)}")
 
@@ -130,13 +145,23 @@ def _contact(computed: Computed) -> Status:
     if computed.pulled_off(load) or (limit is not None and load <= limit.value):
         reason = _off(computed, load) if computed.pulled_off(load) else f"lift-off is at {where}"
         return Status(subject, BAD, "leaves the wall", reason)
-    if limit is None and not passes(computed.first, min(load, computed.first.force[0])):
+    if limit is None and not _followed_to(computed, load):
         return Status(subject, BAD, "not known", "no lift-off was found, but the branch could not be followed so far")
     if limit is None:
         return Status(subject, GOOD, "on the wall", "no lift-off down to the load asked for")
     level, margin = _margin(computed.case, load, limit)
     word = "on the wall" if level == GOOD else "on the wall, close to lift-off"
     return Status(subject, level, word, f"{margin} the lift-off load, {where}")
+
+
+def _followed_to(computed: Computed, load: float) -> bool:
+    """Whether the states of the rod are known at a load; a straight one is in tension."""
+    lying = computed.lying
+    if lying is not None and lying.lowest.value <= load <= lying.highest.value:
+        return True
+    if lying is not None and (lying.buckled is None or load > lying.highest.value):
+        return False
+    return passes(computed.first, min(load, computed.first.force[0]))
 
 
 def _margin(case: Case, force: float, limit: Value) -> tuple[str, str]:
@@ -203,9 +228,9 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
             "Give inputs that are not known well with their uncertainty "
             f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'
         )
-    if case.scales is not None and not case.problem.sections:
+    if case.scales is not None and not case.problem.sections and answer.lying is None:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
-    else:
+    elif answer.lying is None:
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")
     return tuple(out)
 

@@ -20,11 +20,12 @@ def _bending(answer: Answer) -> str:
     """How much the hole alone bends the rod: moment and stress, which all stresses told contain."""
     case, a = answer.case, answer.assessment
     bending = answer.key_numbers["hole_bending"]
-    text = f"The hole alone bends the rod by up to {size_text(case.scales, bending.number, 'moment', 'B/L')}"
+    what = "The hole alone" if answer.lying is None else "At rest the hole"
+    text = f"{what} bends the rod by up to {size_text(case.scales, bending.number, 'moment', 'B/L')}"
     text += f", at {place_text(case, Value(bending.s[0]))}" if case.problem.axis else ""
     if a.section is None or case.scales is None:
         return f"{text}."
-    peak = a.at_buckling.largest(a.bending_stress)
+    peak = (a.at_rest or a.at_buckling).largest(a.bending_stress)
     part = f", {quantity(case.scales.system, peak, 'stress', 3)} of bending stress"
     strength = case.yield_strength
     if strength is not None:
@@ -34,10 +35,13 @@ def _bending(answer: Answer) -> str:
 
 def _places(answer: Answer) -> str:
     """By how much branches are off, which take the hole where the undeformed rod is."""
-    if answer.at_lift_off is None or answer.lift_off is None:
+    lift = answer.lift_off_load
+    if lift is None or (answer.lying is None and answer.at_lift_off is None):
         return ""
-    own, lift = answer.lift_off_at_own_places, answer.lift_off.load
+    own = answer.lift_off_at_own_places
     text = "Buckled states take the hole where the rod is before it buckles"
+    if answer.lying is not None:
+        text = "States take the hole where the rod would be on the low side, undeformed"
     if own is None:
         return f"{text}; what that changes of the lift-off load could not be computed."
     change = Value(abs(own.value - lift.value), own.error + lift.error)

@@ -16,6 +16,7 @@ from rodwell.answers.result.key_number import KeyNumber
 from rodwell.answers.words.curved import in_curved_hole
 from rodwell.answers.words.first_met import other_arm, without_wall
 from rodwell.answers.words.floating import floating
+from rodwell.answers.words.in_space import how_it_lies
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import steps_note
@@ -68,19 +69,23 @@ def assumptions(case: Case) -> tuple[str, ...]:
 
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
-    a = answer.assessment
+    a, tells_buckling = answer.assessment, answer.left_before is None and answer.lying is None
     out = [
         verdict(a),
         *floating(answer.case),
         *load_sentences(a),
         *unreached(a),
         without_wall(answer),
-        "" if answer.left_before else _mode(answer.critical, answer.case, kept=answer.untouched),
+        how_it_lies(a, answer.lying) if answer.lying is not None else "",
+        _mode(answer.critical, answer.case, kept=answer.untouched) if tells_buckling else "",
         _asked(answer),
         _lift_off(answer),
         "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case),
     ]
-    out += ["" if answer.left_before else _stability(answer), *window_sentences(a)]
+    out += [
+        _stability(answer) if tells_buckling or (answer.lying and answer.lying.buckled) else "",
+        *window_sentences(a),
+    ]
     out.append(_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "")
     out += in_curved_hole(answer) if answer.case.problem.hole is not None else [_inputs(answer)]
     out.append(a.validity.sentence)
@@ -134,6 +139,8 @@ def _asked(computed: Computed) -> str:
     until, said = computed.case.until, forces_of(computed.case)
     if until is None or until < computed.buckling.value:
         return ""
+    if computed.lying is not None and until > computed.lying.highest.value:
+        return ""
     return (
         f"At the end force asked for, {said.load(Value(until), other=True)}, the "
         f"{'straight rod is stable' if computed.case.problem.hole is None else 'rod lies along the hole'}; the "
@@ -143,7 +150,7 @@ def _asked(computed: Computed) -> str:
 
 def _lift_off(computed: Computed) -> str:
     lift, first, said = computed.lift_off, computed.first, forces_of(computed.case)
-    if computed.left_before is not None:
+    if computed.left_before is not None or (computed.no_window and computed.lying is not None):
         return ""
     if lift is None and not first.reached_end:
         lowest, highest = (said.load(Value(force)) for force in first.reach)
@@ -167,7 +174,7 @@ def _lift_off(computed: Computed) -> str:
 
 def _stability(computed: Computed) -> str:
     """Where the buckled shape is stable, from the special points up to lift-off in the order of travel."""
-    branch = computed.first
+    branch, shape = computed.first, f"The buckled shape{' of mode 1' if computed.lying is None else ''}"
     points = list(branch.special_points)
     to_lift_off = computed.at_lift_off is not None
     if to_lift_off:
@@ -177,14 +184,11 @@ def _stability(computed: Computed) -> str:
         what += ", if kept on the wall"
     lost = next((p for p in points if p.index_after > 0), None)
     if lost is None:
-        return f"The buckled shape of mode 1 is stable {what} (under dead loads)."
+        return f"{shape} is stable {what} (under dead loads)."
     if lost.kind == CRITICAL:
-        return "The buckled shape of mode 1 is unstable from the start (under dead loads): the rod takes another shape."
+        return f"{shape} is unstable from the start (under dead loads): the rod takes another shape."
     where = forces_of(computed.case).load(lost.load)
-    return (
-        f"The buckled shape of mode 1 is stable only until it is under {where} (dead loads): there the rod takes "
-        "another shape."
-    )
+    return f"{shape} is stable only until it is under {where} (dead loads): there the rod takes another shape."
 
 
 def _inputs(computed: Computed) -> str:

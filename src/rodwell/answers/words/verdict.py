@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.in_space import lies_from, lies_until, what_ends
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -39,11 +40,11 @@ def window_sentences(a: Assessment) -> list[str]:
         if limit.kind in (LIFTS_OFF, UNSTABLE):
             continue
         if limit.load is None:
-            out.append(f"{limit.name[:1].upper()}{limit.name[1:]} is reached at any end force.")
+            at = "any end force" if a.computed.lying is None else "every end force that was followed"
+            out.append(f"{limit.name[:1].upper()}{limit.name[1:]} is reached at {at}.")
             continue
-        when = (
-            "after buckling, before lift-off" if limit.buckled else "before buckling: the elastic loads come too late"
-        )
+        before = "before buckling" if a.computed.lying is None else "as the rod lies"
+        when = "after buckling, before lift-off" if limit.buckled else f"{before}: the elastic loads come too late"
         where = forces_of(a.case).load(limit.load, other=True)
         out.append(f"{limit.name[:1].upper()}{limit.name[1:]} at {where}, {when}.")
     return [*out, *_stresses(a), local_sentence(a)]
@@ -77,6 +78,8 @@ def _range(a: Assessment) -> str:
 
 def _range_in_curved_hole(a: Assessment) -> str:
     """Up to which load the rod lies along its hole."""
+    if a.computed.lying is not None:
+        return lies_until(a, a.computed.lying)
     load, said, left = a.window.buckling, forces_of(a.case), a.computed.left_before
     what = "on the wall, stable" if left is None else "on the wall"
     held = said.compression(load)
@@ -98,6 +101,8 @@ def _side(a: Assessment, s: float) -> str:
 
 def in_tension(a: Assessment) -> str:
     """Where tension, or too little compression, takes the rod off its side of a curved hole; or nothing."""
+    if a.computed.lying is not None:
+        return lies_from(a, a.computed.lying)
     off, said = a.computed.left_in_tension, forces_of(a.case)
     if off is None:
         return ""
@@ -113,8 +118,8 @@ def in_tension(a: Assessment) -> str:
 def _window(a: Assessment) -> str:
     """The way from buckling to lift-off as the end of a sentence."""
     window, scales = a.window, a.case.scales
-    if a.computed.left_before is not None:
-        return ""
+    if a.computed.no_window and not a.branch.lift_off_at_buckling:
+        return "" if a.computed.lying is None else _yields(a, "")
     if a.branch.lift_off_at_buckling:
         return "; it leaves the wall as soon as it buckles"
     end, width = window.end, window.width
@@ -130,11 +135,16 @@ def _window(a: Assessment) -> str:
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
         text += f", {_stress(a, a.at_lift_off)}"
     yields = next((limit for limit in window.limits if limit.kind == YIELDS), None)
-    if yields is not None:
-        before = "buckles" if not yields.buckled else "lifts off"
-        where = "at any load" if yields.load is None else f"already at {forces_of(a.case).load(yields.load)}"
-        text += f"; but it yields {where}, before it {before}"
-    return text
+    return text if yields is None else text + _yields(a, f", before it {'lifts off' if yields.buckled else 'buckles'}")
+
+
+def _yields(a: Assessment, before: str) -> str:
+    """That the rod yields on the way, as the end of a sentence; nothing where it does not."""
+    yields = next((limit for limit in a.window.limits if limit.kind == YIELDS), None)
+    if yields is None:
+        return ""
+    where = "at any load" if yields.load is None else f"already at {forces_of(a.case).load(yields.load)}"
+    return f"; but it yields {where}{before}"
 
 
 def _stress(a: Assessment, state: LoadedRod) -> str:
@@ -174,8 +184,13 @@ def _at(a: Assessment, at: AtLoad) -> str:
     start = f"At {load_text(a.case, at.load)}"
     if at.what == STRAIGHT:
         state = "is straight and stable" if a.case.problem.hole is None else "lies along the hole"
+        lying = a.computed.lying
         next_up = "buckling" if a.computed.left_before is None else "leaving the wall"
-        text = f"{start} the rod {state}, {_apart(a.case, at, a.window.buckling, next_up)}"
+        if lying is not None and lying.end is None:
+            text = f"{start} the rod {state} on the wall, stable"
+        else:
+            next_up = next_up if lying is None else what_ends(lying)
+            text = f"{start} the rod {state}, {_apart(a.case, at, a.window.buckling, next_up)}"
     elif at.what == BUCKLED:
         far, last = "", a.window.end
         if last is not None and last.load is not None:
@@ -183,19 +198,32 @@ def _at(a: Assessment, at: AtLoad) -> str:
             far = f", {_apart(a.case, at, last.load, what)}"
         text = f"{start} the rod is buckled but stays on the wall and stable{far}"
     elif at.what == OTHER_SHAPE:
-        lost = a.window.stable_until
-        where = "" if lost is None or lost.load is None else f", which ends at {forces_of(a.case).load(lost.load)}"
-        text = f"{start} the rod is buckled beyond the stable part of mode 1{where}"
-        return f"{text}: it takes another shape, not given here"
-    elif at.what == LEFT:
-        return f"{start} {_left(a, at)}"
-    elif at.what == PULLED:
-        assert a.computed.left_in_tension is not None
-        return f"{start} the rod has left {_side(a, a.computed.left_in_tension.s)}"
+        return f"{start} {_other_shape(a, at)}: it takes another shape, not given here"
+    elif at.what in (LEFT, PULLED):
+        return f"{start} {_left(a, at) if at.what == LEFT else _pulled(a)}"
     else:
         return f"{start} the state of the rod is not known: {at.why}"
     assert at.state is not None
     return f"{text}{', ' if a.stress(at.state) else ''}{_stress(a, at.state)}"
+
+
+def _other_shape(a: Assessment, at: AtLoad) -> str:
+    """A rod that has lost the stability of the shape that was followed."""
+    lying, lost = a.computed.lying, a.window.stable_until
+    if lying is not None and (lying.buckled is None or at.load.force > lying.highest.value):
+        ends = lying.lowest if at.load.force < lying.lowest.value else lying.highest
+        return f"the rod no longer lies as it did, which is stable to {forces_of(a.case).load(ends)} only"
+    where = "" if lost is None or lost.load is None else f", which ends at {forces_of(a.case).load(lost.load)}"
+    part = "mode 1" if lying is None else "the shape into which it buckles"
+    return f"the rod is buckled beyond the stable part of {part}{where}"
+
+
+def _pulled(a: Assessment) -> str:
+    """A rod that tension, or too little compression, has taken off the wall of a curved hole."""
+    if a.computed.lying is not None:
+        return f"the rod has left the wall: {lies_from(a, a.computed.lying, first=False)[:-1]}"
+    assert a.computed.left_in_tension is not None
+    return f"the rod has left {_side(a, a.computed.left_in_tension.s)}"
 
 
 def _left(a: Assessment, at: AtLoad) -> str:
@@ -230,7 +258,7 @@ def _stresses(a: Assessment) -> list[str]:
     if scales is None or a.section is None:
         return []
     parts = []
-    for state in (a.at_buckling, a.at_lift_off):
+    for state in (a.at_rest, a.at_buckling, a.at_lift_off):
         largest = None if state is None else a.stress(state)
         if state is None or largest is None:
             continue

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import amount
+from rodwell.quantities.text import amount, plain
 from rodwell.quantities.units import System
 from rodwell.quantities.value import Value
 
@@ -26,6 +26,17 @@ def size_text(scales: Scales | None, number: Value, dimension: str = "force", un
     if scales is None:
         return f"{amount(number)} {unit}"
     return scales.amount(number, dimension)
+
+
+def bend_text(case: Case) -> str:
+    """How the hole of a case is bent, in a few words."""
+    hole = case.problem.hole
+    assert hole is not None
+    one = not hole.axis
+    turns = f"turns by {plain(math.degrees(hole.turning), 3)}°"
+    if case.scales is None:
+        return f"{turns}, {'' if one else 'least '}radius {plain(1.0 / hole.sharpest, 3)} L"
+    return f"{turns}, {'' if one else 'least '}radius {case.scales.text(1.0 / hole.sharpest, 'length')}"
 
 
 def forces_of(case: Case) -> Forces:

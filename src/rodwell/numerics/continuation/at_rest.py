@@ -38,6 +38,8 @@ def passes_rest(meshes: TwoMeshes, before: MeshedState, after: MeshedState) -> L
 def _rests_between(family: Family, before: State, after: State) -> bool:
     """Whether two states lie on opposite sides of rest, and it is an equilibrium."""
     lengths = [family.distance(c, 0.0) for c in (before.c, after.c, before.c + after.c)]
+    if min(lengths[:2]) == 0.0:  # a rod that is turned as a whole, and not deflected
+        return False
     cosine = (lengths[2] ** 2 - lengths[0] ** 2 - lengths[1] ** 2) / (2.0 * lengths[0] * lengths[1])
     if cosine > OPPOSITE:
         return False

@@ -11,11 +11,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from rodwell.numerics.splines import banded
 from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
@@ -40,6 +39,14 @@ MOST_SHRUNK, MOST_MOVED = 0.6, 0.5
 """Of a step no more is taken than shortens an element by this part, or moves a node by this much."""
 
 MOST_STEPS = 14
+
+
+@cache
+def _lapack() -> Any:
+    """LAPACK, when a state off the wall is solved for: results on the wall do not wait for it."""
+    from scipy.linalg import lapack  # noqa: PLC0415 - slow to import
+
+    return lapack
 
 
 class Outcome(Enum):
@@ -167,7 +174,7 @@ def _general(band: FloatArray) -> tuple[FloatArray, Any]:
     for k in range(WIDTH):
         general[2 * reach + k, : size - k] = band[: size - k, k]
         general[2 * reach - k, k:] = band[: size - k, k]
-    lu, pivots, _ = dgbtrf(general, reach, reach, overwrite_ab=True)
+    lu, pivots, _ = _lapack().dgbtrf(general, reach, reach, overwrite_ab=True)
     return lu, pivots
 
 
@@ -202,7 +209,7 @@ class Bordered:
 def _banded_answer(factors: tuple[FloatArray, Any], columns: FloatArray) -> FloatArray:
     """Solve with the factors of the band: columns (n, 4, …) at once."""
     flat = columns.reshape(4 * columns.shape[0], -1)
-    return np.asarray(dgbtrs(factors[0], WIDTH - 1, WIDTH - 1, flat, factors[1])[0].reshape(columns.shape))
+    return np.asarray(_lapack().dgbtrs(factors[0], WIDTH - 1, WIDTH - 1, flat, factors[1])[0].reshape(columns.shape))
 
 
 def bordered(out: Assembled, row: Row) -> Bordered:
@@ -286,7 +293,7 @@ def softest(state: Solved, rounds: int = 4) -> FloatArray:
     rng = np.random.default_rng(0)
     vector = rng.standard_normal(state.band.shape[0]) * np.where(state.shape.chain.held, 0.0, 1.0).ravel()
     for _ in range(rounds):
-        vector, _ = dgbtrs(lu, WIDTH - 1, WIDTH - 1, vector, pivots)
+        vector, _ = _lapack().dgbtrs(lu, WIDTH - 1, WIDTH - 1, vector, pivots)
         vector /= np.linalg.norm(vector)
     return np.asarray(vector)
 
@@ -294,5 +301,5 @@ def softest(state: Solved, rounds: int = 4) -> FloatArray:
 def stiffness_along(state: Solved, direction: FloatArray) -> float:
     """1/(dᵀA⁻¹d) of the stability Hessian A: a smooth function that vanishes where A is singular along about d."""
     lu, pivots = _general(state.band)
-    solved, _ = dgbtrs(lu, WIDTH - 1, WIDTH - 1, direction, pivots)
+    solved, _ = _lapack().dgbtrs(lu, WIDTH - 1, WIDTH - 1, direction, pivots)
     return 1.0 / float(direction @ solved)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
-from rodwell.quantities.units import INCH
+from rodwell.quantities.known import INCH
 from rodwell.studies.packer.lengths import KINDS
 from rodwell.studies.packer.packer import PackerAnswer
 

@@ -1,61 +1,97 @@
-"""Pictures drawn by a second process while this one writes data: half the wait where there are two processors."""
+"""Pictures drawn by a second process while this one computes and writes data: half the wait with two processors."""
 
 from __future__ import annotations
 
 import os
+import pickle
+import signal
 import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import IO, Any
+
+Work = Callable[..., Any]
+Start = Callable[..., Callable[[], Any]]
+"""Starts the work with its arguments, and returns what waits for its result."""
 
 
 @contextmanager
-def done_beside(work: Callable[..., Any], *arguments: Any) -> Iterator[Callable[[], Any]]:
-    """Do ``work`` in a second process meanwhile; what is given back waits for its result.
+def beside(ready: Callable[[], Work]) -> Iterator[Start]:
+    """Start a second process for work whose arguments are known later; it calls ``ready``, which returns the work.
 
-    The second process is a copy of this one (a fork), so nothing is sent to it, and it starts in milliseconds. Where
-    that cannot be (another system than Linux, one processor, threads, which a copy would not have) the work is done
-    here when its result is asked for. What it raises is raised here. If the second process is lost, the work is done
-    here too.
+    So it can import what the work needs while the arguments are computed here. It is a copy of this process (a fork),
+    and starts in milliseconds. Where that cannot be (another system than Linux, one processor, threads, which a copy
+    would not have, arguments that cannot be sent) the work is done here when its result is asked for. What it raises
+    is raised here. If the second process is lost, the work is done here too.
     """
     if sys.platform != "linux" or (os.cpu_count() or 1) < 2 or threading.active_count() > 1:
-        yield lambda: work(*arguments)
+        yield lambda *arguments: lambda: ready()(*arguments)
         return
     for stream in (sys.stdout, sys.stderr):
         stream.flush()  # the copy would write again what still waits
     context = get_context("fork")
-    here, there = context.Pipe(duplex=False)
-    process = context.Process(target=_send, args=(there, work, *arguments), daemon=True)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # of forks in a process with threads of compiled libraries
-        process.start()
-    there.close()
-    try:
-        yield lambda: _received(here, work, arguments)
-    finally:
-        process.terminate()
-        process.join()
-        here.close()
+    # arguments go by a file in memory: a pipe would keep this process until the other one is ready to read
+    with os.fdopen(os.memfd_create("arguments"), "w+b") as file:
+        here, there = context.Pipe()
+        process = context.Process(target=_serve, args=(ready, here, there, file), daemon=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of forks with threads of compiled libraries
+            process.start()
+        there.close()
+
+        def start(*arguments: Any) -> Callable[[], Any]:
+            try:
+                sent = pickle.dumps(arguments, pickle.HIGHEST_PROTOCOL)
+            except (pickle.PicklingError, AttributeError, TypeError):  # a function of somebody's own in it
+                return lambda: ready()(*arguments)
+            file.write(sent)
+            file.flush()
+            with suppress(OSError):  # it is lost, as will be seen
+                here.send(True)
+            return lambda: _received(here, ready, arguments)
+
+        try:
+            yield start
+        finally:
+            process.terminate()
+            process.join()
+            here.close()
 
 
-def _send(pipe: Connection, work: Callable[..., Any], *arguments: Any) -> None:
-    """Do the work, and send its result or what it raised."""
+def drawing() -> Work:
+    """Ready to draw the pictures of a case: what that needs is imported."""
+    from rodwell.report.folders.pictures import draw  # noqa: PLC0415 - slow to import, Matplotlib above all
+
+    return draw
+
+
+def _serve(ready: Callable[[], Work], here: Connection, there: Connection, file: IO[bytes]) -> None:
+    """In the second process: get ready, wait for the arguments, do the work, send its result or what it raised."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
+    here.close()  # so that the end of the first process can be told
     try:
-        out = (True, work(*arguments))
+        work = ready()
+        there.recv()
+        file.seek(0)
+        out = (True, work(*pickle.load(file)))
+    except EOFError:  # nothing to do
+        return
     except BaseException as error:
         out = (False, error)
-    pipe.send(out)
+    with suppress(OSError):  # the first process has ended
+        there.send(out)
 
 
-def _received(pipe: Connection, work: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+def _received(pipe: Connection, ready: Callable[[], Work], arguments: tuple[Any, ...]) -> Any:
     try:
         well, out = pipe.recv()
     except EOFError:  # it was ended from outside
-        return work(*arguments)
+        return ready()(*arguments)
     if not well:
         raise out
     return out

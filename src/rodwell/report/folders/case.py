@@ -2,37 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
-
-import matplotlib as mpl
+from typing import Any
 
 from rodwell.answers.data.along import along_table, along_tables
-from rodwell.answers.data.beyond import beyond_table
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
-from rodwell.plots.paths.beyond import plot_beyond
-from rodwell.plots.style import RC
-from rodwell.report.folders.beside import done_beside
-from rodwell.report.folders.figures import save_figure
-from rodwell.report.folders.pictures import draw
-from rodwell.report.pages.path import PAGE, write_path_page
+from rodwell.report.folders.beside import beside, drawing
 from rodwell.report.pages.pdf import PDF, check_pdf, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
-from rodwell.report.reports.beyond import PICTURE
 from rodwell.report.reports.case import case_report
+from rodwell.report.reports.front import LOGO
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
+Picture = tuple[str, bytes]
+"""Type ("svg" or "png") and content of a picture, as a report takes it."""
 
-def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False, path: bool = False) -> tuple[str, ...]:
+
+def write_results(
+    answer: Answer,
+    out: str | Path,
+    *,
+    with_pdf: bool = False,
+    path: bool = False,
+    drawn: Callable[[], Any] | None = None,
+) -> tuple[str, ...]:
     """Write report, figures, tables, data and case to the folder ``out``: all files, or none.
 
     ``with_pdf`` adds the report as PDF; ``path`` what happens beyond lift-off, which is followed while figures of what
-    is on the wall are drawn. Returns the names of the files.
+    is on the wall are drawn. ``drawn`` waits for the pictures, where they are drawn already
+    (:mod:`rodwell.report.folders.beside`). Returns the names of the files.
 
     Raises
     ------
@@ -42,8 +48,9 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False, pa
     if with_pdf:
         check_pdf()
     with whole_folder(Path(out)) as folder:
-        with done_beside(draw, answer, folder) as drawn:
-            followed = _write_path(answer, folder) if path else {}
+        with ExitStack() as stack:
+            drawn = drawn or stack.enter_context(beside(drawing))(answer)
+            followed = _beyond(answer, folder) if path else {}
             write_json(answer_dict(answer, path=path), folder / "answer.json")
             tables, states = answer_tables(answer), along_tables(answer.assessment)
             write_csv(tables[0], folder / "key-figures.csv")
@@ -52,7 +59,9 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False, pa
             (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
             write_answer(answer, folder / "branches.nc")
             rod = view(answer.shown, answer.case.scales)
-            pictures = drawn() | followed
+            pictures = _kept(drawn(), folder) | followed
+        if answer.case.about.logo is not None:
+            pictures[LOGO] = answer.case.about.logo
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
         write_viewer(folder / "rod-3d.html", rod, answer.case.title, still=still)
         names = [*(file.name for file in folder.iterdir()), *([PDF] if with_pdf else [])]
@@ -61,12 +70,17 @@ def write_results(answer: Answer, out: str | Path, *, with_pdf: bool = False, pa
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 
-def _write_path(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
-    """Follow the rod beyond lift-off, write figure and table of it; return the picture for the report."""
-    if answer.beyond.path is None:
-        return {}
-    with mpl.rc_context(RC):
-        save_figure(plot_beyond(answer.case, answer.beyond), folder / PICTURE)
-    write_path_page(folder / PAGE, answer.beyond.path, answer.case, answer.case.title)
-    write_csv(beyond_table(answer.case, answer.beyond), folder / "load-path.csv")
-    return {PICTURE: ("svg", (folder / f"{PICTURE}.svg").read_bytes())}
+def _kept(drawn: dict[str, dict[str, bytes]], folder: Path) -> dict[str, Picture]:
+    """Write the pictures as they were drawn, and return those that a report takes: SVG where there is one."""
+    for name, formats in drawn.items():
+        for suffix, content in formats.items():
+            (folder / f"{name}.{suffix}").write_bytes(content)
+    kinds = {name: "svg" if "svg" in formats else "png" for name, formats in drawn.items()}
+    return {name: (kind, drawn[name][kind]) for name, kind in kinds.items()}
+
+
+def _beyond(answer: Answer, folder: Path) -> dict[str, Picture]:
+    """Follow the rod beyond lift-off, and write what happens there."""
+    from rodwell.report.folders.beyond import write_beyond  # noqa: PLC0415 - imports Matplotlib
+
+    return write_beyond(answer, folder)

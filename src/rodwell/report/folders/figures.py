@@ -21,16 +21,22 @@ PNG: Any = {"pil_kwargs": {"compress_level": 2}}
 
 
 def save_figure(figure: Any, path: Path) -> None:
-    """Write a figure as PNG and SVG, ``path`` without suffix; the layout found for the first serves both."""
-    as_png(figure, path)
+    """Write a figure as PNG and SVG, ``path`` without suffix."""
+    for suffix, content in png_and_svg(figure).items():
+        path.with_suffix(f".{suffix}").write_bytes(content)
+
+
+def png_and_svg(figure: Any) -> dict[str, bytes]:
+    """A figure in both formats, by suffix; the layout found for the first serves both."""
+    png = as_png(figure)
     svg: Any = FigureCanvasSVG(figure)
     text = io.StringIO()
     svg.print_svg(text, metadata={"Date": None})
-    path.with_suffix(".svg").write_text(with_dark_style(text.getvalue()), encoding="utf-8")
+    return {"png": png, "svg": with_dark_style(text.getvalue()).encode()}
 
 
-def as_png(figure: Any, path: Path) -> bytes:
-    """Write a figure as PNG, ``path`` without suffix, and return the file.
+def as_png(figure: Any) -> bytes:
+    """A figure as PNG.
 
     Layout is done once and the canvases draw once each: ``savefig`` draws every figure once more for nothing.
     """
@@ -40,9 +46,9 @@ def as_png(figure: Any, path: Path) -> bytes:
     if figure.get_layout_engine() is not None:
         figure.get_layout_engine().execute(figure)
         figure.set_layout_engine("none")
-    file = path.with_suffix(".png")
-    canvas.print_png(file, **PNG)
-    return file.read_bytes()
+    out = io.BytesIO()
+    canvas.print_png(out, **PNG)
+    return out.getvalue()
 
 
 def check_format(file: Path, field: str) -> str:

@@ -21,34 +21,35 @@ from rodwell.plots.sections import name_sections, plot_string
 from rodwell.plots.sketch import plot_sketch
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
-from rodwell.report.folders.figures import as_png, save_figure
+from rodwell.report.folders.figures import as_png, png_and_svg
 from rodwell.report.reports.front import LOGO
 
+Drawn = dict[str, dict[str, bytes]]
+"""What each picture is in each format, by name and suffix."""
 
-def draw(answer: Answer, folder: Path) -> dict[str, tuple[str, bytes]]:
-    """Write each picture to ``folder`` as PNG and SVG, the 3-D picture as PNG; return those that a report takes."""
+
+def draw(answer: Answer) -> Drawn:
+    """Draw all pictures: PNG and SVG, the 3-D picture as PNG."""
     scales = answer.case.scales
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
             "sketch": plot_sketch(answer.case),
             "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
-            "modes": plot_modes(answer.critical, scales),
             "wall-loads": plot_wall_loads(answer.first, scales),
             "rod-3d": plot_rod(answer.shown, scales),
             "along-rod": _along(answer.assessment),
         }
+        if answer.critical:
+            axes["modes"] = plot_modes(answer.critical, scales)
         if answer.case.problem.hole is None:
             axes["cylinder"] = plot_cylinder_moments(answer.shown, scales)
         if answer.case.string is not None:
             axes["string"] = plot_string(answer.case)
-        out = {}
-        for name, ax in axes.items():
-            if name == "rod-3d":
-                out[name] = ("png", as_png(ax.figure, folder / name))
-            else:
-                save_figure(getattr(ax, "figure", ax), folder / name)
-                out[name] = ("svg", (folder / f"{name}.svg").read_bytes())
-    return out if answer.case.about.logo is None else out | {LOGO: answer.case.about.logo}
+        figures = {name: getattr(ax, "figure", ax) for name, ax in axes.items()}
+        return {
+            name: {"png": as_png(figure)} if name == "rod-3d" else png_and_svg(figure)
+            for name, figure in figures.items()
+        }
 
 
 def _along(a: Assessment) -> Any:

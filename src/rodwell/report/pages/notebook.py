@@ -16,7 +16,7 @@ from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
 from rodwell.answers.words.meaning import sentences
 from rodwell.case.case import Case
-from rodwell.plots.bifurcation import ORDINATES
+from rodwell.plots.ordinates import ORDINATES
 from rodwell.problem.problem import Problem, ends_text
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.text import minus
@@ -147,7 +147,7 @@ def _(result: Endless) -> Card:
         title = f"{kind} state" if state.in_contact else f"{kind} state, on paper only: the wall would pull"
         grids.append(Grid((title, "value", "± error"), cells, (1, 2)))
     title = "Endless rod" if result.beta is None else f"Endless rod at β = {_plain(result.beta)}"
-    note = "β = P/√(Bq/D), compression P positive; forces per length in q, lengths in ℓ = (BD/q)^¼."
+    note = "β = P/√(Bq/D), compression P positive; forces per length in q, lengths in ℓ = ∜(BD/q)."
     return Card(title, (f"kept on the wall, {slope}",), tuple(grids), note)
 
 

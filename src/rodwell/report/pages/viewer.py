@@ -17,10 +17,9 @@ import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.space.geometry import Geometry, geometry
-from rodwell.analysis.space.scene import STOPS, InSpace, Part, drawn, limits, load_of, scene
+from rodwell.analysis.space.scene import STOPS, InSpace, Part, drawn, enlarged, limits, load_of, scene
 from rodwell.analysis.space.surfaces import straight_contact, wall_rings
 from rodwell.analysis.state.equilibrium import Equilibrium
-from rodwell.plots.rod3d import enlarged
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray

@@ -9,10 +9,11 @@ from rodwell._version import __version__
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.words.first_met import KEPT
+from rodwell.answers.words.in_space import what_ends
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.bifurcation import ORDINATES, telling
+from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.quantities.text import plain
 from rodwell.report.reports.beyond import beyond_section
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
@@ -68,17 +69,26 @@ def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False
 
 
 def _in_space(answer: Answer) -> ReportSection:
-    at = " at lift-off" if answer.at_lift_off else ""
+    at = shown_text(answer)
     return ReportSection(
         "The rod in its cylinder",
         (
             Picture(
                 "rod-3d",
                 "The rod in its cylinder, coloured by how hard it is pressed to the wall",
-                f"The rod in its cylinder{at}, first mode.",
+                f"The rod in its cylinder{at}.",
             ),
         ),
     )
+
+
+def shown_text(computed: Computed) -> str:
+    """In which state pictures show the rod."""
+    if computed.lying is None or computed.lying.buckled is not None:
+        mode = "first mode" if computed.lying is None else "buckled"
+        return f" at lift-off, {mode}" if computed.at_lift_off else f", {mode}"
+    end = computed.lying.end
+    return " at the last load followed" if end is None else f" where its way ends: {what_ends(computed.lying)}"
 
 
 def key_numbers(answer: Answer) -> ReportSection:
@@ -113,27 +123,30 @@ def _grid(head: tuple[str, ...], lines: list[dict[str, str]]) -> Grid:
 
 
 def _pictures(computed: Computed) -> ReportSection:
-    at = " at lift-off" if computed.at_lift_off else ""
+    at, lies = shown_text(computed), computed.lying is not None and computed.lying.buckled is None
     kept = f" {KEPT}" if computed.untouched else ""
     wall, straight = computed.shown.wall.meaning, computed.case.problem.hole is None
     ordinate = ORDINATES[telling(computed.branches, computed.case.scales)][1]
     dimensions = computed.case.scales is not None
+    first = "First mode" if computed.lying is None else "The rod as it lies" if lies else "The buckled rod"
+    title = "How the rod lies" if lies else "Bifurcation diagram"
+    enlarged = " Beside it the part from buckling to lift-off, enlarged." if computed.lying is None else ""
     pushed = "push on the wall per length" if dimensions else "contact pressure p; the wall pushes with −p per length"
     return ReportSection(
-        "From buckling to lift-off",
+        "From buckling to lift-off" if not lies else "How the rod lies as the load grows",
         (
             Picture(
                 "bifurcation",
                 "Bifurcation diagram",
-                f"Bifurcation diagram: {ordinate} against the compression{forces_of(computed.case).at_end}. Thick: "
+                f"{title}: {ordinate} against the compression{forces_of(computed.case).at_end}. Thick: "
                 "stable under dead loads for a rod kept on the wall. Dashed: unstable. Pale: beyond lift-off, where "
-                f"the wall would have to pull. Beside it the part from buckling to lift-off, enlarged.{kept}",
+                f"the wall would have to pull.{enlarged}{kept}",
             ),
             Picture(
                 "wall-loads",
                 f"Push on the wall, and {'twisting moment in the cylinder' if straight else 'angle around the hole'}, "
                 "along the rod",
-                f"First mode at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: "
+                f"{first} at several loads. Above: {pushed}; the rod lifts off where it reaches 0. Below: "
                 + (BELOW if straight else BELOW_IN_CURVED_HOLE),
             ),
             *(
@@ -141,7 +154,7 @@ def _pictures(computed: Computed) -> ReportSection:
                     Picture(
                         "cylinder",
                         "Moments in the cylinder along its length",
-                        f"What the cylinder carries{at}, first mode: twisting moment T₂ and bending moments μ and "
+                        f"What the cylinder carries{at}: twisting moment T₂ and bending moments μ and "
                         "λ cos η (59), for a cylinder whose bedding takes up the rod's weight place by place. "
                         f"{wall[:1].upper()}{wall[1:]}.",
                     )
@@ -149,11 +162,17 @@ def _pictures(computed: Computed) -> ReportSection:
                 if straight
                 else []
             ),
-            Picture(
-                "modes",
-                "Buckling modes",
-                f"Buckling modes of the {'straight rod' if straight else 'rod as it lies'}, each scaled to a largest "
-                "deflection of 1.",
+            *(
+                [
+                    Picture(
+                        "modes",
+                        "Buckling modes",
+                        f"Buckling modes of the {'straight rod' if straight else 'rod as it lies'}, each scaled to a "
+                        "largest deflection of 1.",
+                    )
+                ]
+                if computed.critical
+                else []
             ),
         ),
     )
@@ -174,7 +193,12 @@ def _special_points(computed: Computed) -> ReportSection:
     kept = [Words(KEPT, "warning")] if computed.untouched else []
     names = ["mode", "kind", "load", "error", "index", "place"]
     said = forces_of(computed.case)
-    head = ("Mode", "What", "F at s = 1, B/L²" if said.scales is None else f"Compression{said.at_end}", "±\u00a0error")
+    head = (
+        "Mode" if computed.lying is None else "Branch",
+        "What",
+        "F at s = 1, B/L²" if said.scales is None else f"Compression{said.at_end}",
+        "±\u00a0error",
+    )
     note = (
         "Stability index: number of independent ways in which the state is unstable under dead loads, for a rod "
         "kept on the wall; 0 is stable. With end shortening or end rotation controlled instead of the loads, the "

@@ -8,7 +8,7 @@ import math
 from rodwell._version import __version__
 from rodwell.answers.words.advice import BAD, CAUTION, GOOD, OPEN, Status
 from rodwell.quantities.table import Cell
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import plain
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.front import LOGO
@@ -110,13 +110,16 @@ def _strength(found: Drag) -> Status:
         return Status("Stress", BAD, "beyond yield", f"in {', '.join(bad)}")
     most = max(float(v) for one in known for v in one.strength.used if math.isfinite(v))
     return Status(
-        "Stress", GOOD, "below yield", f"the largest von Mises stress is {100.0 * most:.3g} % of the yield strength"
+        "Stress",
+        GOOD,
+        "below yield",
+        f"the largest von Mises stress is {plain(100.0 * most, 3)} % of the yield strength",
     )
 
 
 def _numbers(found: Drag) -> Status:
     if not unbalanced(found):
-        return Status("Numbers", GOOD, "balanced", "the work of the ends is that of gravity and friction to 1e-8")
+        return Status("Numbers", GOOD, "balanced", "the work of the ends is that of gravity and friction to 10⁻⁸")
     return Status("Numbers", BAD, "not balanced", "; ".join(unbalanced(found)))
 
 
@@ -156,7 +159,7 @@ def _text(cell: Cell, title: str) -> str:
         return "–"
     if title.startswith("±") and isinstance(cell, float):
         return short(cell) if cell else "0"
-    return minus(f"{cell:.5g}") if isinstance(cell, float) else str(cell)
+    return plain(cell, 5) if isinstance(cell, float) else str(cell)
 
 
 def _operation(found: Drag, one: OperationResult, number: int) -> ReportSection:
@@ -191,8 +194,8 @@ def _intervals(found: Drag, one: OperationResult) -> list[Block]:
         compression, contact = -one.run.forces[inside], one.run.contacts[inside]
         bend = one.strength.bending[inside]
         rows.append((
-            NAMES[state], f"{high / m:.6g}", f"{low / m:.6g}", f"{compression.max() / n:.4g}",
-            f"{contact.max() / q:.4g}", f"{bend.max() / units(found.well)['stress'][0]:.4g}",
+            NAMES[state], plain(high / m, 6), plain(low / m, 6), plain(compression.max() / n),
+            plain(contact.max() / q), plain(bend.max() / units(found.well)['stress'][0]),
         ))  # fmt: skip
     head = ("state", f"from [{unit}]", f"to [{unit}]", f"largest compression [{force_unit}]",
             f"largest contact force [{per}]", f"largest bending stress [{units(found.well)['stress'][1]}]")  # fmt: skip
@@ -214,13 +217,13 @@ def _road_map() -> ReportSection:
 def _calibration(found: Calibration) -> ReportSection:
     """Friction factors found, and how well they meet the measurements."""
     rows = tuple(
-        (name, f"{value.value:.4g}", "not told" if not math.isfinite(value.error) else f"{value.error:.2g}")
+        (name, plain(value.value), "not told" if not math.isfinite(value.error) else plain(value.error, 2))
         for name, value in zip(found.names, found.friction, strict=True)
     )
     hook, torque = found.spread
-    spread = f"Hook loads scatter by {hook / 1e3:.3g} kN"
+    spread = f"Hook loads scatter by {plain(hook / 1e3, 3)} kN"
     if any(math.isfinite(one.torque) for one in found.measured):
-        spread += f", torques by {torque / 1e3:.3g} kN m"
+        spread += f", torques by {plain(torque / 1e3, 3)} kN·m"
     return ReportSection("Friction from measurements", (
         Grid(("section", "friction factor", "± standard error"), rows, numeric=(1, 2)),
         Picture("calibration", "Measured and computed hook loads against the depth of the bit",
@@ -235,14 +238,14 @@ def _inputs(found: Drag) -> ReportSection:
     well = found.well
     (m, unit), (q, per) = (units(well)[k] for k in ("depth", "per_length"))
     string = tuple(
-        (part.name, "to surface" if math.isinf(part.rod.length) else f"{part.rod.length / m:.6g}",
-         well.system.text(part.rod.outer_diameter or 0.0, "length"), f"{part.weight / q:.5g}",
+        (part.name, "to surface" if math.isinf(part.rod.length) else plain(part.rod.length / m, 6),
+         well.system.text(part.rod.outer_diameter or 0.0, "length"), plain(part.weight / q, 5),
          well.system.text(part.rod.stiffness, "stiffness"))
         for part in well.string
     )  # fmt: skip
     hole = tuple(
-        (part.name, f"{part.start / m:.6g}", f"{min(part.end, well.end) / m:.6g}",
-         well.system.text(part.diameter, "length"), f"{part.friction:g}")
+        (part.name, plain(part.start / m, 6), plain(min(part.end, well.end) / m, 6),
+         well.system.text(part.diameter, "length"), plain(part.friction))
         for part in well.hole
     )  # fmt: skip
     return ReportSection("String and hole", (

@@ -76,7 +76,7 @@ def _computed(study: DragStudy) -> Status:
     missed = sum(bool(point.missed) for point in study.points)
     if missed:
         return Status("Points", BAD, "not balanced", f"at {missed} of {len(study.points)} points")
-    return Status("Points", GOOD, "complete", f"every one of {len(study.points)} points, work balanced to 1e-8")
+    return Status("Points", GOOD, "complete", f"every one of {len(study.points)} points, work balanced to 10⁻⁸")
 
 
 def _possible(study: DragStudy) -> Status:

@@ -8,12 +8,12 @@ from rodwell.answers.result.assessment import BUCKLED, STRAIGHT, Assessment, AtL
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.advice import next_steps, statuses
 from rodwell.answers.words.beyond import story
+from rodwell.answers.words.in_space import what_ends
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.verdict import load_text, share_shown
-from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.answers.words.wording import bend_text, forces_of, quantity, size_text
 from rodwell.case.case import Case
-from rodwell.plots.sketch import bend_text
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
@@ -88,9 +88,11 @@ def _numbers(answer: Answer) -> tuple[Number, ...]:
     a, said = answer.assessment, forces_of(answer.case)
     spreads = {load.name: (load, spread) for load, spread in shown_sensitivities(answer)}
     first = "Buckles at" if answer.left_before is None else "Leaves the wall at"
+    if answer.lying is not None and answer.no_window and answer.left_before is None:
+        first = "Lies on the wall, as far as followed, to" if answer.lying.end is None else "Loses its stability at"
     out = [_load(first, answer, a.window.buckling, spreads.get("critical load of mode 1"))]
     end = a.window.end
-    if end is not None and end.load is not None and not answer.off_at_once:
+    if end is not None and end.load is not None and not answer.no_window:
         leaves = "Leaves the wall between steps at" if answer.case.problem.rod.stepped else "Leaves the wall at"
         label = leaves if end.kind == LIFTS_OFF else "Loses its stability at"
         out.append(_load(label, answer, end.load, spreads.get("lift-off load") if end.kind == LIFTS_OFF else None))
@@ -130,19 +132,23 @@ def _most(a: Assessment) -> AtLoad | None:
 def _limits(a: Assessment) -> str:
     """What limits, and by how much."""
     window, said, at = a.window, forces_of(a.case), _most(a)
-    names = {STRAIGHT: "buckling" if a.computed.left_before is None else "leaving the wall", BUCKLED: "lift-off"}
-    first = a.limiting
+    what = "buckling" if a.computed.left_before is None else "leaving the wall"
+    lying, first = a.computed.lying, a.limiting
+    if lying is not None:
+        what = what_ends(lying)
+    names = {STRAIGHT: what, BUCKLED: "lift-off"}
     if at is None or at.what not in names:
         width, end = window.width, window.end
         if first is not None and first.load is not None:
             return f"What limits first: {first.name}, at {said.load(first.load, other=True)}."
-        if width is None or end is None or not end.buckled or a.computed.off_at_once:
-            what = "buckling" if a.computed.left_before is None else "leaving the wall"
+        if width is None or end is None or not end.buckled or a.computed.no_window:
             return f"What limits: {what}." if at is None else ""
         share = share_shown(a)
         part = "" if share is None else f", {percent(share)} of the load at buckling"
         return f"What limits: {end.name}, {size_text(a.case.scales, width)} beyond buckling{part}."
-    limit = window.buckling if at.what == STRAIGHT else None if window.end is None else window.end.load
+    limit = None if window.end is None else window.end.load
+    if at.what == STRAIGHT and (lying is None or lying.end is not None):
+        limit = window.buckling
     name = names[at.what] if at.what == STRAIGHT or window.end is None else window.end.name
     if first is not None and first.load is not None and (limit is None or first.load.value > limit.value):
         limit, name = first.load, first.name

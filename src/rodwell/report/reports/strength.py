@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
+from rodwell.answers.words.in_space import no_window
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_text, local_sentence, share_shown
 from rodwell.answers.words.wording import forces_of, place_text, quantity
@@ -61,7 +62,8 @@ def _at_loads(a: Assessment) -> tuple[ReportSection, ...]:
         numeric=tuple(i for i in range(len(shown_columns)) if i not in (0, 2)),
     )
     note = (
-        f"{'Effective forces. ' if a.case.with_fluids else ''}The approach of the ends is that by buckling. Where the "
+        f"{'Effective forces. ' if a.case.with_fluids else ''}The approach of the ends is that "
+        f"{'by buckling' if a.computed.lying is None else 'against the undeformed rod on the low side'}. Where the "
         "rod has left the wall, or mode 1 has lost its stability, no numbers are given."
     )
     missed = [Words(sentence, "warning") for sentence in unreached(a)]
@@ -177,7 +179,7 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
     return row | {
         "contact": _sized(a, state.contact, "force_per_length"),
         "total": _sized(a, state.total_contact, "force"),
-        "shortening": _sized(a, state.shortening, "length") if not state.straight else "0",
+        "shortening": _sized(a, state.shortening, "length") if state.solution else "0",
         "stress": "" if stress is None else quantity(_system(a), stress, "stress"),
         "safety": "" if stress is None or stress.safety is None else amount(stress.safety, 3),
         "used": f"{plain(100.0 * max(used), 3)} %" if used else "",
@@ -186,7 +188,9 @@ def _applied(a: Assessment, at: AtLoad) -> dict[str, str]:
 
 def _window_text(a: Assessment) -> str:
     """The window in words."""
-    window = a.window
+    window, lying = a.window, a.computed.lying
+    if lying is not None and lying.buckled is None:
+        return f"There is none: {no_window(lying)}"
     if a.computed.left_before is not None:
         return "There is none: the curve of the hole takes the rod off this side of the wall before it buckles."
     if a.branch.lift_off_at_buckling:
@@ -210,6 +214,12 @@ def _limits(a: Assessment) -> Grid:
     said, first = forces_of(a.case), Limit("buckling", a.window.buckling)
     straight, left = a.case.problem.hole is None, a.computed.left_before is not None
     buckles = f"Buckling: first critical load of the {'straight rod' if straight else 'rod as it lies'}"
+    lying = a.computed.lying
+    if lying is not None:
+        left = lying.buckled is None and lying.end is not None
+        buckles = (
+            "The last load followed: the rod lies there" if lying.end is None else "Buckling of the rod as it lies"
+        )
     two = said.scales is None or said.weight != 0.0
     rows = []
     for limit in sorted(
@@ -220,7 +230,7 @@ def _limits(a: Assessment) -> Grid:
             continue
         note = "" if limit.s is None else place_text(a.case, Value(limit.s))
         if limit is not first and limit.kind != LIFTS_OFF and not limit.buckled:
-            note += "; before the rod buckles, which it then does not do elastically"
+            note += "; before the rod buckles, which it then does not do elastically" if lying is None else ""
         rows.append(
             (
                 buckles if limit is first else _upper(limit.name),

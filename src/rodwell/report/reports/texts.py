@@ -189,15 +189,15 @@ def special(branches: Iterable[Branch], case: Case) -> list[dict[str, Any]]:
     """Special points of every branch: loads as the case's reader counts."""
     out, scales, said = [], case.scales, forces_of(case)
     for branch in branches:
-        assert branch.mode is not None
+        lower = "secondary " if branch.mode is not None else ""
         for point in branch.special_points:
             shown = said.compression(point.load)
             out.append(
                 {
-                    "mode": str(branch.mode.number),
+                    "mode": branch.name if branch.mode is None else str(branch.mode.number),
                     "kind": KINDS[point.kind]
                     if case.problem.hole is None
-                    else KINDS[point.kind].replace("straight rod", "lying rod"),
+                    else KINDS[point.kind].replace("straight rod", "lying rod").replace("secondary ", lower),
                     "load": f"{number(point.load)}" if scales is None else scales.beside_error(shown, "force"),
                     "error": ""
                     if point.kind == "end"

@@ -21,7 +21,7 @@ def units(well: Well) -> dict[str, tuple[float, str]]:
         names = {"depth": "length", "force": "force", "per_length": "force_per_length", "torque": "moment",
                  "stress": "stress"}  # fmt: skip
         return {key: system.unit(name) for key, name in names.items()}
-    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN m"),
+    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN·m"),
             "stress": (1e6, "MPa")}  # fmt: skip
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rodwell.quantities.text import amount, minus
+from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
@@ -59,10 +59,10 @@ def depth(well: Well, value: float, error: float = 0.0) -> str:
 
 def _in(well: Well, value: Value, dimension: str) -> str:
     if well.system.name == "si":
-        scale, text = (1e3, "kN" if dimension == "force" else "kN m")
+        scale, text = (1e3, "kN" if dimension == "force" else "kN·m")
     else:
         scale, text = well.system.unit(dimension)
-    return minus(f"{amount(value.times(1.0 / scale), 5)} {text}")
+    return f"{amount(value.times(1.0 / scale), 5)} {text}"
 
 
 def sentences(found: Drag) -> list[str]:
@@ -98,7 +98,7 @@ def failure(well: Well, one: OperationResult) -> str:
         lacking = force(well, one.margin.times(-1.0))
         return f"is not possible: {lacking} more push is needed at surface than there is"
     used = 100.0 * float(np.nanmax(one.strength.used))
-    return f"exceeds the yield strength: the largest von Mises stress is {used:.3g} % of it"
+    return f"exceeds the yield strength: the largest von Mises stress is {plain(used, 3)} % of it"
 
 
 def _capital(text: str) -> str:
@@ -159,7 +159,7 @@ def _reach(well: Well, one: OperationResult, name: str) -> list[str]:
         out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, the last depth "
                    "looked at." if one.possible else f"{name}: not possible at any depth looked at.")  # fmt: skip
     if one.transfer is not None and one.run.buckled:
-        part = f"{100.0 * one.transfer:.3g} %"
+        part = f"{plain(100.0 * one.transfer, 3)} %"
         low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
         out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
     return out
@@ -174,14 +174,14 @@ def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
         return [f"{name}: before it locks up the string yields, above {where}: forces beyond that are no real ones."]
     if yields(one):
         used = float(np.nanmax(one.strength.used))
-        out.append(f"{name}: the von Mises stress reaches {100.0 * used:.3g} % of the yield strength: beyond it "
+        out.append(f"{name}: the von Mises stress reaches {plain(100.0 * used, 3)} % of the yield strength: beyond it "
                    "nothing here holds.")  # fmt: skip
     if not np.any(np.isfinite(one.strength.used)):
         out.append(f"{name}: no yield strength is given, so stresses are not judged.")
     steepest = one.strength.helix_slope
     if steepest > STEEP:
-        out.append(f"{name}: the helix is as steep as {math.degrees(math.atan(steepest)):.3g}°; its contact force is "
-                   "that of small slopes.")  # fmt: skip
+        angle = plain(math.degrees(math.atan(steepest)), 3)
+        out.append(f"{name}: the helix is as steep as {angle}°; its contact force is that of small slopes.")
     return out
 
 
@@ -197,7 +197,7 @@ def unbalanced(found: Drag) -> list[str]:
     """Operations whose work does not balance, or whose forces have not settled, in words."""
     loose = [f"{one.operation.name}: force and bending have not settled" for one in found.operations if not one.settled]
     return loose + [
-        f"{one.operation.name}: work of {one.balance.value:.1e} of all is missing"
+        f"{one.operation.name}: work of {plain(one.balance.value, 2)} of all is missing"
         for one in found.operations
         if one.balance is not None and not one.balance.value <= BALANCED
     ]

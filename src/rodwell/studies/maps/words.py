@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rodwell.quantities.text import minus
+from rodwell.quantities.text import error_digit, number_text, plain
 from rodwell.studies.maps.cells import CONVERGED, OUTCOMES
 from rodwell.studies.maps.plain import counted_jumps, meaning, reasons
 from rodwell.studies.maps.result import Map
@@ -37,8 +37,10 @@ def sentences(result: Map) -> list[str]:
         only = name == OUTCOMES[CONVERGED] and count == result.question.size
         out.append(f"{'all' if only else count} {'cells' if count != 1 else 'cell'}: {meaning(name)}")
     for word, (value, at) in zip(("least", "largest"), result.extremes, strict=False):
-        where = ", ".join(f"{name} = {x:.6g}" if isinstance(x, float) else f"{name} = {x}" for name, x in at.items())
-        out.append(f"{word} {minus(f'{value.value:.8g}')} ± {value.error:.1e} at {minus(where)}")
+        where = ", ".join(
+            f"{name} = {plain(x, 6)}" if isinstance(x, float) else f"{name} = {x}" for name, x in at.items()
+        )
+        out.append(f"{word} {number_text(value)} ± {error_digit(value.error)} at {where}")
     found = {kind: n for kind, n in counted_jumps(result).items() if n and kind in JUMP_WORDS}
     if found:
         said = ", ".join(JUMP_WORDS[kind].format(n=n) for kind, n in found.items())

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from rodwell.quantities.known import INCH
 from rodwell.quantities.table import Table
 from rodwell.quantities.text import minus, plain, supported
-from rodwell.quantities.units import INCH, SI, System
+from rodwell.quantities.units import SI, System
 from rodwell.quantities.value import Value
 from rodwell.studies.packer.lengths import KINDS, total
 from rodwell.studies.packer.packer import PackerAnswer

@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.assessment import LEFT, PULLED, STRAIGHT, UNKNOWN, Assessment, AtLoad
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
-from rodwell.case.case import Case
 from rodwell.quantities.value import Value
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.section import RodStress, rod_section
@@ -56,18 +53,19 @@ class LoadResult:
     reached: bool = True
 
 
-def at_loads(case: Case, critical: CriticalLoads, branch: Branch) -> tuple[tuple[LoadResult, ...], Validity]:
+def assessed(computed: Computed) -> tuple[tuple[LoadResult, ...], Validity]:
     """Return what becomes of the rod at each load that acts, from its first critical load and its first branch.
 
     And how far the rod at buckling, at lift-off and at these loads is from what the theory assumes.
     """
-    assessment = Assessment(Computed(case, critical, (branch,), branch[-1].force))
+    assessment = Assessment(computed)
     return tuple(_at(assessment, at) for at in assessment.applied), assessment.validity
 
 
 def _at(a: Assessment, at: AtLoad) -> LoadResult:
     force, limits = at.load.force, a.window.limits
-    spare = {BUCKLES: _to_spare(force, a.buckling)}
+    lying = a.computed.lying
+    spare = {BUCKLES: _to_spare(force, a.buckling)} if lying is None or lying.buckled is not None else {}
     spare |= {limit.kind: _to_spare(force, limit.load) for limit in limits if limit.load is not None}
     exceeded = tuple(limit.kind for limit in limits if limit.load is None)
     state, why = at.state, at.why

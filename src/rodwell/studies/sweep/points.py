@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
@@ -14,7 +15,9 @@ from rodwell.analysis.straight.scale import load_scale
 from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
+from rodwell.answers.result.lying import lying_along
 from rodwell.answers.result.reach import followed_on, no_lift_off
+from rodwell.answers.words.in_space import no_window
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.scales import Scales
@@ -23,7 +26,7 @@ from rodwell.quantities.value import Value
 from rodwell.strength.limits import uses
 from rodwell.strength.loaded import LoadedRod
 from rodwell.strength.validity import Validity
-from rodwell.studies.sweep.loads import LoadResult, at_loads, without_branch
+from rodwell.studies.sweep.loads import LoadResult, assessed, without_branch
 
 
 @dataclass(frozen=True)
@@ -127,16 +130,24 @@ class SharedResults:
         What went wrong.
     other
         The other arm of a twisted rod, where the two differ.
+    lying
+        How the rod lies in a hole that leaves the vertical plane, where there is no critical load.
     """
 
     critical: CriticalLoads | None
     branch: Branch | None = None
     why: str = ""
     other: Branch | None = None
+    lying: LyingRod | None = None
 
 
 def computed(case: Case) -> SharedResults:
     """Critical load and first branch of a case; what goes wrong is told in ``why``."""
+    if case.problem.hole is not None and not case.problem.hole.planar:
+        try:
+            return SharedResults(None, lying=lying_along(case))
+        except (InputError, NotConvergedError) as error:
+            return SharedResults(None, why=str(error))
     try:
         critical = critical_loads(case.problem, 1, rtol=case.rtol)
     except NotConvergedError as error:
@@ -151,6 +162,8 @@ def computed(case: Case) -> SharedResults:
 def followed_to_loads(shared: SharedResults, case: Case) -> SharedResults:
     """The same with the branch followed on to the loads that act, where it was not to end before."""
     branch, loads = shared.branch, [load.force for load in case.applied]
+    if shared.lying is not None and any(not shared.lying.settles(load) for load in loads):
+        return computed(case)
     if branch is None or branch.lift_off is not None or not loads:
         return shared
     return replace(shared, branch=followed_on(branch, min(loads)))
@@ -159,6 +172,8 @@ def followed_to_loads(shared: SharedResults, case: Case) -> SharedResults:
 def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedResults) -> StudyPoint:
     """Results of one case, whose critical load and branch are those of ``shared``; reasons for what is missing."""
     out = StudyPoint(number, at, case)
+    if shared.lying is not None:
+        return _as_it_lies(out, case, shared.lying)
     if shared.critical is None:
         return replace(out, reasons={"critical": shared.why, "lift_off": "no critical load", "contact": "no lift-off"})
     computed = Computed(case, shared.critical, (), 0.0)
@@ -180,8 +195,11 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
         if shared.branch is None:
             raise NotConvergedError(shared.why)
         lift_off, places, contact = _at_lift_off(case, shared.branch, first, reasons)
-        used = {} if contact is None else _used(case, shared.branch)
-        loads, valid = at_loads(case, shared.critical, shared.branch)
+        lift = shared.branch.lift_off
+        used = {}
+        if contact is not None and lift is not None:
+            used = _used(case, LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution))
+        loads, valid = assessed(Computed(case, shared.critical, (shared.branch,), shared.branch[-1].force))
         out = replace(out, lift_off=lift_off, places=places, contact=contact, used=used, loads=loads, validity=valid)
     except (InputError, NotConvergedError) as error:
         reasons = {"lift_off": str(error), "contact": "no lift-off"}
@@ -193,11 +211,32 @@ def computed_point(number: int, at: tuple[int, ...], case: Case, shared: SharedR
     return replace(out, reasons=reasons or None)
 
 
-def _used(case: Case, branch: Branch) -> dict[str, Value]:
+def _as_it_lies(out: StudyPoint, case: Case, lying: LyingRod) -> StudyPoint:
+    """Results of a rod in a hole that leaves the vertical plane: critical load only where it buckles."""
+    computed = Computed(case, CriticalLoads(()), lying.branches, lying.until, lying=lying)
+    loads, valid = assessed(computed)
+    reasons: dict[str, str] = {}
+    if lying.buckled is None:
+        reasons["critical"] = no_window(lying)
+    lift, state = computed.lift_off_load, computed.at_lift_off
+    if lift is None:
+        reasons |= {"lift_off": no_lift_off(case.scales, computed.first), "contact": "no lift-off"}
+    elif state is None:
+        state = lying.last
+    amiss = "; ".join(dict.fromkeys(load.why for load in loads if load.why))
+    if amiss:
+        reasons["applied"] = amiss
+    if lift is not None and state is not None:
+        there = LoadedRod("at lift-off", case.problem, lift.value, lift.error, state)
+        out = replace(out, contact=state.largest("contact_pressure"), used=_used(case, there))
+    return replace(
+        out, critical=lying.lowest if lying.buckled is not None else None, half_waves=computed.wavenumber / math.pi,
+        lift_off=lift, places=computed.lift_off_places, loads=loads, validity=valid, reasons=reasons or None,
+    )  # fmt: skip
+
+
+def _used(case: Case, state: LoadedRod) -> dict[str, Value]:
     """Parts of the strengths used at lift-off, with errors from the two meshes."""
-    assert branch.lift_off is not None
-    lift = branch.lift_off
-    state = LoadedRod("at lift-off", case.problem, lift.force, lift.error, lift.solution)
     out = {}
     for use in uses(case):
         out[use.kind] = compared(*(use.size(mesh, ZOOMS)[0] for mesh in state.along))

@@ -190,7 +190,7 @@ def sentences(study: Study) -> list[str]:
         where = study.rod_inputs(study.points[most])
         out.append(f"Most of the {STRENGTHS[kind]} used at lift-off: {share}{f', for {where}' if where else ''}.")
     out += load_columns.load_sentences(study)
-    lacking = [point for point in study.points if point.critical is None]
+    lacking = [point for point in study.points if point.critical is None and point.lift_off is None and not point.loads]
     if lacking:
         out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
     partly = [p for p in study.points if p.critical is not None and p.lift_off is None]

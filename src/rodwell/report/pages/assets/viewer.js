@@ -271,6 +271,7 @@ function mesh(part) {
   const material = new THREE.MeshStandardMaterial({
     metalness: 0, roughness: 0.55, transparent: clear, opacity: part.opacity, depthWrite: !clear,
     side: clear ? THREE.DoubleSide : THREE.FrontSide, vertexColors: typeof part.colours === "string",
+    forceSinglePass: true, // three.js draws what is clear twice, from behind and in front: for a thin wall that is one
   });
   if (material.vertexColors) {
     geometry.setAttribute("color", new THREE.BufferAttribute(colours(part), 3));

@@ -92,9 +92,9 @@ def short_rows(study: DragStudy) -> list[tuple[tuple[str, ...], bool]]:
             out.append(((*inputs, "not computed", *["–"] * 6), True))
         for one in point.operations:
             pairs = ((one.hook_load, n), (one.torque, nm), (one.margin, n), (one.lock_up, m))
-            numbers = tuple("–" if v is None else f"{v.value / unit:.5g}" for v, unit in pairs)
+            numbers = tuple("–" if v is None else plain(v.value / unit, 5) for v, unit in pairs)
             length = sum(one.buckled.values()) / m
-            cells = (*inputs, one.operation.name, *numbers, f"{length:.4g}" if length else "no", one.level)
+            cells = (*inputs, one.operation.name, *numbers, plain(length) if length else "no", one.level)
             out.append((cells, one.level == FAILS))
     return out
 

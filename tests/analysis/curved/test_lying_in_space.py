@@ -1,0 +1,166 @@
+"""The rod along a hole that leaves the vertical plane: limits, symmetries, and an elastic curve in space beside it.
+
+The second method knows no formula of the rod on the wall: the centre line is put into space on the wall of the arc, its
+curvature and height are differentiated and integrated by Chebyshev polynomials, and the energy is made least by a
+quasi-Newton method over the coefficients of a polynomial.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import chebyshev
+from scipy.optimize import minimize
+
+from rodwell import InputError, Problem, critical_loads, follow
+from rodwell.analysis.branch.special import BRANCH_POINT, LIFT_OFF
+from rodwell.analysis.branch.symmetry import reflections
+from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
+from rodwell.quantities.arrays import FloatArray
+
+CLEARANCE = 0.01
+TILTED = Problem(15.0, 80.0, build=0.2, walk=0.3)
+
+
+@pytest.fixture(scope="module")
+def tilted() -> LyingRod:
+    return lying_rod(TILTED)
+
+
+def test_it_lies_on_the_wall_and_stable_down_to_where_it_leaves_it(tilted: LyingRod) -> None:
+    assert tilted.end is not None
+    assert tilted.end.kind == LIFT_OFF
+    assert tilted.buckled is None
+    assert tilted.end_in_tension is not None
+    for force in np.linspace(tilted.lowest.value, tilted.highest.value, 7)[1:-1]:
+        state = tilted.at(float(force))
+        assert state.stability_index == 0
+        assert state.number("largest_pressure").value < 0.0
+        assert state.certificate.passed  # forces and moments balance in space
+    assert all(state.converged for state in tilted.pressed)
+    assert tilted.last.number("largest_pressure").value == pytest.approx(0.0, abs=1e-6 * tilted.last.wall.contact.value)
+    with pytest.raises(InputError, match="there the rod lies on the wall, stable"):
+        tilted.at(tilted.lowest.value - 1.0)
+
+
+def energy_in_space(coefficients: FloatArray, problem: Problem, force: float, degree: int = 64) -> float:
+    """Bending, height and work of a rod with y = s²(1 − s)² Σ aₖ Tₖ on the wall of a constant arc."""
+    x = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+    shape = chebyshev.chebmul(chebyshev.poly2cheb([0.0625, 0.0, -0.125, 0.0, 0.0625]), coefficients)
+    y, slope = chebyshev.chebval(x, shape), 2.0 * chebyshev.chebval(x, chebyshev.chebder(shape))
+    theta, kappa = y / CLEARANCE, np.array([problem.build, -problem.walk])
+    inwards = kappa[0] * np.cos(theta) - kappa[1] * np.sin(theta)
+    step = chebyshev.chebfit(x, np.sqrt(1.0 - slope**2) / (1.0 + CLEARANCE * inwards), degree)
+    ahead = chebyshev.chebint(step, lbnd=-1.0, scl=0.5)
+    start = 0.5 - 0.5 / (1.0 + CLEARANCE * problem.build)
+    place = start + chebyshev.chebval(x, ahead) - 0.5
+    size, alpha = float(np.hypot(*kappa)), math.radians(problem.alpha)
+    bend = np.array([kappa[0] / size, kappa[1] / size, 0.0])  # along N1, N2, T of the middle
+    sine, cosine = np.sin(size * place)[:, None], np.cos(size * place)[:, None]
+    axial = np.array([0.0, 0.0, 1.0])
+    axis = (sine * axial + (1.0 - cosine) * bend) / size
+    tilt = (cosine - 1.0) * bend - sine * axial  # what turning T by κS about T × k does to k/κ
+    n1, n2 = (np.eye(3)[i] + bend[i] * tilt for i in (0, 1))
+    centre = axis - CLEARANCE * (np.cos(theta)[:, None] * n1 - np.sin(theta)[:, None] * n2)
+    curve = chebyshev.chebfit(x, centre, degree)
+    second = 4.0 * chebyshev.chebval(x, chebyshev.chebder(curve, 2))
+    height = np.sin(alpha) * centre[:, 0] + np.cos(alpha) * centre[:, 2]
+    density = chebyshev.chebfit(x, 0.5 * np.sum(second**2, axis=0) + problem.weight * height, degree)
+    stored = 0.5 * float(np.diff(chebyshev.chebval(np.array([-1.0, 1.0]), chebyshev.chebint(density)))[0])
+    return stored - force * (1.0 + CLEARANCE * problem.build) * float(chebyshev.chebval(1.0, ahead))
+
+
+def test_the_angle_is_that_of_least_energy_in_space(tilted: LyingRod) -> None:
+    force = -120.0
+    state = tilted.at(force).own_places
+    found = minimize(
+        lambda a: 1e4 * energy_in_space(CLEARANCE * a, TILTED, force), np.zeros(11), method="BFGS",
+        options={"gtol": 1e-7},
+    )  # fmt: skip
+    s = np.linspace(0.05, 0.95, 19)
+    x = 2.0 * s - 1.0
+    y = chebyshev.chebval(
+        x, chebyshev.chebmul(chebyshev.poly2cheb([0.0625, 0.0, -0.125, 0.0, 0.0625]), CLEARANCE * found.x)
+    )
+    angle = state.fields(s)["xi2"]
+    assert np.max(np.abs(angle)) > 0.5
+    assert y / CLEARANCE == pytest.approx(angle, abs=2e-4)
+    rest = energy_in_space(np.zeros(1), TILTED, force)
+    assert 1e-4 * found.fun - rest == pytest.approx(state.number("energy").value, rel=1e-5)
+
+
+def test_walk_to_the_other_side_mirrors_the_story(tilted: LyingRod) -> None:
+    other = lying_rod(TILTED.but(walk=-0.3))
+    assert other.lowest.value == pytest.approx(tilted.lowest.value, rel=1e-8)
+    assert other.highest.value == pytest.approx(tilted.highest.value, rel=1e-7)
+    s = np.linspace(0.0, 1.0, 9)
+    assert other.at(-150.0).fields(s)["xi2"] == pytest.approx(-tilted.at(-150.0).fields(s)["xi2"], abs=1e-9)
+
+
+@pytest.mark.parametrize("walk", [1e-6, -1e-6])
+def test_a_level_hole_that_hardly_turns_buckles_as_one_that_does_not(walk: float) -> None:
+    """Theory of curved holes, κ = 0.2, w = 15: −177.320540182; in tension F = w cos(κᵣ/2)/κᵣ + κᵣ², first at an end."""
+    found = lying_rod(Problem(15.0, build=0.2, walk=walk))
+    assert found.end is not None
+    assert found.end.kind == BRANCH_POINT
+    assert found.lowest.value == pytest.approx(-177.320540182, abs=2e-9)
+    curvature = 0.2 / (1.0 + 0.2 * CLEARANCE)
+    assert found.highest.value == pytest.approx(15.0 * math.cos(0.5 * curvature) / curvature + curvature**2, rel=1e-6)
+    assert found.buckled is not None
+    planar = follow(Problem(15.0, build=0.2), 1)
+    assert planar.lift_off is not None
+    assert found.buckled.lift_off is not None
+    assert found.buckled.lift_off.force == pytest.approx(planar.lift_off.force, rel=1e-6)
+    assert found.rest.point.fine.symmetry == 1
+
+
+def test_without_weight_only_the_plane_of_the_bend_counts() -> None:
+    """Ends that slide: the rod turns into the plane of the arc, and buckles there at the load of an arc upright.
+
+    The end force is that of the rod on the low side, whose tangent goes (1 + Δk₁) as far as the axis (theory of curved
+    holes); on the outside of the bend it would go (1 + Δκ) as far.
+    """
+    kappa = math.hypot(0.2, 0.2)
+    found = lying_rod(Problem(0.0, 60.0, build=0.2, walk=0.2, ends="guided-guided"))  # type: ignore[arg-type]
+    angle = found.rest.fields(np.linspace(0.0, 1.0, 5))["xi2"]
+    assert angle == pytest.approx(math.pi / 4.0, abs=1e-9)
+    planar = critical_loads(Problem(0.0, 90.0, build=kappa, ends="guided-guided"), 1)[0].force  # type: ignore[arg-type]
+    share = (1.0 + CLEARANCE * kappa) / (1.0 + CLEARANCE * 0.2)
+    assert found.lowest.value == pytest.approx(planar * share, rel=1e-8)
+
+
+def test_symmetries_of_the_hole() -> None:
+    holes = ((90.0, 0.1), (80.0, 0.1), (90.0, 0.0))
+    level, tilted, planar = (Problem(15.0, alpha, build=0.2, walk=walk) for alpha, walk in holes)
+    assert [r.name for r in reflections(level)] == ["y(s)", "y(1−s)"]
+    assert [r.name for r in reflections(tilted)] == ["y(s)"]
+    assert len(reflections(planar)) == 4
+    assert level.hung_weight == 0.0
+
+
+def test_loads_to_be_reached_and_what_is_refused() -> None:
+    heavy = Problem(200.0, 60.0, walk=0.1)
+    found = lying_rod(heavy, [1000.0])
+    assert found.highest.value >= 1000.0
+    assert found.end_in_tension is None
+    with pytest.raises(InputError, match="a straight generator"):
+        lying_rod(Problem(15.0, build=0.2))
+    with pytest.raises(InputError, match="finite"):
+        lying_rod(TILTED, [math.nan])
+
+
+def test_a_rod_that_touches_down_beyond_rest_lies_there() -> None:
+    """Stiff and light in a drop that turns: at rest the wall would have to pull it near the ends, under tension not."""
+    found = lying_rod(Problem(0.1, 60.0, build=-0.4, walk=0.3))
+    assert found.rest.number("largest_pressure").value < 0.0
+    assert found.lowest.value <= found.rest.force <= found.highest.value
+
+
+def test_a_rod_that_lies_nowhere_is_told_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same rod, looked at no farther than a little way around rest."""
+    monkeypatch.setattr("rodwell.analysis.loads.lying_rod.REACH", 1e-4)
+    with pytest.raises(InputError, match="lies on the wall at no end force from") as caught:
+        lying_rod(Problem(0.1, 60.0, build=-0.4, walk=0.3))
+    assert "the wall would have to pull it at s/L = " in caught.value.reason
