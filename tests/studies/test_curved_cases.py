@@ -97,8 +97,8 @@ def test_a_study_takes_holes_that_leave_the_vertical_plane(tmp_path: Path) -> No
     file = tmp_path / "study.toml"
     lines = [f'{name} = "{value}"' for name, value in ROD.items()]
     file.write_text(
-        "\n".join(["[rod]", *lines, "[hole]", 'diameter = "216 mm"', 'angle_from_vertical = "70 deg"',
-                   'build = "3 deg/30 m"', 'walk = "2..4 deg/30 m in 2"', "[load]", 'applied = ["-50 kN", "-9 MN"]',
+        "\n".join(["[rod]", *lines, "[hole]", 'diameter = "216 mm"', 'angle_from_vertical = "90 deg"',
+                   'walk = "6..8 deg/30 m in 2"', "[load]", 'applied = ["-20 kN", "-3 MN"]',
                    "[analysis]", "rtol = 1e-6"]), encoding="utf-8",
     )  # fmt: skip
     found = study(file)
