@@ -80,7 +80,6 @@ NO_KEYS = [
     ("hole.section", "leave [[hole.section]] out and give hole.diameter"),
     ("hole.dogleg", 'build = "3 deg/30 m"'),
     ("hole.turn_rate", "walk sideways"),
-    ("hole.wall_stiffness", "the wall is rigid"),
     ("hole.friction", OUT_OF_SCOPE),
     ("pressure.internal", "write inside"),
     ("pressure.surface", "both at s = 1"),

@@ -18,7 +18,7 @@ from rodwell.case.checks.explain import SECTIONS, explain
 from rodwell.case.checks.plausible import implausible
 from rodwell.case.checks.said import gauge_facts, in_users_words
 from rodwell.case.checks.signs import check_loads
-from rodwell.case.dimensionless import check_sections, dimensionless
+from rodwell.case.dimensionless import check_sections, dimensionless, stiffness_of_wall
 from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
@@ -86,6 +86,9 @@ class Case(Shown):
         For whom the report is, by whom, and its logo.
     off_wall
         Whether ``rodwell run`` follows the rod beyond lift-off.
+    wall_stiffness
+        Stiffness of the wall in B/L⁴, push per length and depth; infinite: rigid. It counts in load paths only: all
+        else takes the wall as rigid.
     string
         The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
         and the whole length. None of a uniform rod.
@@ -111,6 +114,7 @@ class Case(Shown):
     about: About = NOBODY
     string: PhysicalString | None = None
     off_wall: bool = True
+    wall_stiffness: float = math.inf
 
     @property
     def yield_strength(self) -> float | None:
@@ -251,10 +255,12 @@ def _assemble(
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
-                    supports=parsed.supports, gravity=found.gravity, string=found.string, **common)  # fmt: skip
+                    supports=parsed.supports, gravity=found.gravity, string=found.string,
+                    wall_stiffness=found.wall_stiffness, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
-        case = Case(problem=problem, scales=None, until=until, applied=applied, **common)
+        case = Case(problem=problem, scales=None, until=until, applied=applied,
+                    wall_stiffness=stiffness_of_wall(parsed.dimensionless), **common)  # fmt: skip
     if case.until is not None and not math.isfinite(case.until):
         raise InputError("load.until", load.until, "must be finite")
     if not all(math.isfinite(item.force) for item in case.applied):

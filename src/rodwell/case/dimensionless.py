@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.physical import check_force_words, check_reach
@@ -56,6 +58,16 @@ def dimensionless(
     applied = tuple(AppliedLoad(given + more, given, bottom) for given in load.applied or ())
     check_reach(until, applied)
     return problem, until, applied
+
+
+def stiffness_of_wall(given: schema.Dimensionless | None) -> float:
+    """Stiffness of the wall in B/L⁴; infinite: rigid."""
+    if given is None or given.wall_stiffness is None:
+        return math.inf
+    if not 0.0 < given.wall_stiffness < math.inf:
+        reason = "must be above 0 and finite; leave it out for a rigid wall"
+        raise InputError("dimensionless.wall_stiffness", given.wall_stiffness, reason)
+    return float(given.wall_stiffness)
 
 
 def _turned(alpha: float) -> str:

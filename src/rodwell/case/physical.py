@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -20,10 +21,15 @@ from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import System
 
+RIGID_ELSEWHERE = "push per length and depth; counts beyond lift-off, all that is told of the rod on the wall is rigid"
+
 
 @dataclass(frozen=True)
 class Physical:
-    """A case with dimensions: problem, scales, effective end forces at s = 1 in B/L², and how; gravity in m/s²."""
+    """A case with dimensions: problem, scales, effective end forces at s = 1 in B/L², and how.
+
+    Gravity is in m/s², the stiffness of the wall in B/L⁴.
+    """
 
     problem: Problem
     scales: Scales
@@ -34,6 +40,7 @@ class Physical:
     gravity: float
     facts: tuple[Fact, ...]
     string: PhysicalString | None = None
+    wall_stiffness: float = math.inf
 
 
 def physical(
@@ -91,12 +98,15 @@ def physical(
     else:
         facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
     facts += [Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)), *lie.facts]
+    if hole.wall_stiffness is not None:
+        facts.append(Fact("stiffness of the wall", hole.wall_stiffness, "stress", RIGID_ELSEWHERE))
     if parsed.packer is not None:
         facts.append(Fact("packer", "as given", note="changes of length and the packer's force: `rodwell packer`"))
     at_end = rod if string is None else string.at_end(load.at == "bottom")
     until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids,
                                     lie.height)  # fmt: skip
-    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string)
+    wall = math.inf if hole.wall_stiffness is None else hole.wall_stiffness / scales.factor("stress")
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall)
 
 
 def _problem(

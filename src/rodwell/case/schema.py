@@ -198,6 +198,7 @@ class Dimensionless(SectionInput):
     poisson: Number = _key(0.3, "Poisson's ratio ν", 0.3, allowed=POISSON)
     torsion: Number | None = _key(None, "C/B, instead of `poisson`; 1/(1 + ν) if not given", 13.0, allowed="above 0")
     ends: Ends = _key("clamped-clamped", "as in [rod]", "clamped-pinned")
+    wall_stiffness: Number | None = _key(None, "k L⁴/B, as in [hole]", 1e6, allowed="above 0")
 
 
 UNTIL = (

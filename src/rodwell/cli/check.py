@@ -9,7 +9,7 @@ import click
 
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import force_at, json_option, print_json, progress_bar
+from rodwell.cli.options import force_at, json_option, note_rigid_wall, print_json, progress_bar
 from rodwell.quantities.text import plain, signed
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     from rodwell.errors import InputError, NotConvergedError  # noqa: PLC0415
 
     where, read = take_keep(given), Case.read(case)
+    note_rigid_wall(read.given)
     forces = [force_at(text, read) for text in at]
     with progress_bar(not as_json, "the engine's branch") as tell:
         try:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rodwell.cli.options import OutPath, check_missed, force_at, progress_bar, units_option
+from rodwell.cli.options import OutPath, check_missed, force_at, note_rigid_wall, progress_bar, units_option
 from rodwell.errors import printable
 from rodwell.quantities.text import plain
 
@@ -64,6 +64,7 @@ def export(
     from rodwell.store.folder import check_writable  # noqa: PLC0415
 
     read = Case.read(case).in_units(units)
+    note_rigid_wall(read.given)
     force = None if at == LIFT_OFF else force_at(at, read, LIFT_OFF)
     checked_files(files, "--to")
     for file in files:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -181,8 +181,19 @@ def places_text(places: Sequence[float]) -> str:
     return "   at s/L = " + ", ".join(plain(s, 6) for s in places) if places else ""
 
 
-def force_at(at: str, case: Case, word: str = "") -> float:
-    """End force of ``--at`` in B/L²: as load.until in the case file, text with a unit, or a plain number without one.
+def note_rigid_wall(sections: Mapping[str, Any]) -> None:
+    """Say on standard error that a command takes the wall as rigid, where a case has one that gives way.
+
+    ``sections`` are those of the case file.
+    """
+    known = (sections.get(name) for name in ("hole", "dimensionless"))
+    if any(isinstance(keys, Mapping) and "wall_stiffness" in keys for keys in known):
+        what = "wall_stiffness is left aside: the wall is rigid here; it counts in `rodwell run` beyond lift-off and in"
+        click.echo(f"rodwell: {what} `rodwell path CASE`", err=True)
+
+
+def force_at(at: str, case: Case, word: str = "", option: str = "--at") -> float:
+    """End force of an option in B/L²: as load.until in the case file, text with a unit, or a plain number without one.
 
     ``word`` is what may be given instead of a force.
     """
@@ -193,11 +204,11 @@ def force_at(at: str, case: Case, word: str = "") -> float:
         try:
             return float(at)
         except ValueError:
-            raise InputError("--at", at, f"must be {instead}an end force in B/L², a plain number") from None
+            raise InputError(option, at, f"must be {instead}an end force in B/L², a plain number") from None
     try:
         return to_si(at, "force") / case.scales.factor("force")
     except ValueError as error:
-        raise InputError("--at", at, f"must be {instead}an end force: it {error}") from None
+        raise InputError(option, at, f"must be {instead}an end force: it {error}") from None
 
 
 class OutPath(click.Path):

@@ -12,6 +12,7 @@ from rodwell.cli.options import (
     OutPath,
     check_missed,
     json_option,
+    note_rigid_wall,
     print_json,
     print_written,
     results_folder,
@@ -46,6 +47,7 @@ def packer(case: Path, out: Path | None, with_pdf: bool, units: str | None, as_j
         check_pdf()
     text = read_case(case)
     read = Case.read(text).in_units(units)
+    note_rigid_wall(read.given)
     folder = results_folder(out, text.name, "-packer")
     check_writable(folder)
     from rodwell.report.folders.packer import write_packer  # noqa: PLC0415

@@ -7,11 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import (
+    PARAMETERS,
     OutPath,
     check_missed,
+    force_at,
     json_option,
     make_problem,
     print_json,
@@ -26,15 +29,21 @@ from rodwell.quantities.text import amount, error_digit, plain, signed, with_err
 if TYPE_CHECKING:
     from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
+    from rodwell.case.case import Case
     from rodwell.quantities.value import Value
 
 UNIT = "B/L²"
 
 
 @click.command(short_help="The load path off the wall: lift-off, partial contact, snap, helix, and back.")
-@problem_options()
-@click.option("--until", type=float, required=True, help="End force at s = 1 (tension positive) to load the rod to.")
-@click.option("--unload-to", type=float, help="End force to unload it to afterwards.")
+@click.argument("case", type=click.Path(path_type=Path), required=False)
+@problem_options(required=False)
+@click.option(
+    "--until",
+    help='End force at s = 1 (tension positive) to load the rod to; of a CASE with its unit, "-130 kN".  [default: of '
+    "a CASE to and back from where `rodwell run` goes]",
+)
+@click.option("--unload-to", help="End force to unload it to afterwards.")
 @click.option("--at", help="End forces, separated by commas, at which states are shown.")
 @click.option(
     "--control",
@@ -46,8 +55,8 @@ UNIT = "B/L²"
 @click.option("--axial-stiffness", type=float, help="EA of the rod in B/L², with --control shortening; else rigid.")
 @click.option("--spring", type=float, help="Stiffness in B/L³ of a spring that drives it, with --control shortening.")
 @click.option(
-    "--wall-stiffness", type=float, default=math.inf,
-    help="Stiffness k L⁴/B of a wall that gives way, push per length and depth.  [default: a hard wall]",
+    "--wall-stiffness", type=float,
+    help="Stiffness k L⁴/B of a wall that gives way, push per length and depth.  [default: that of CASE, or hard]",
 )  # fmt: skip
 @click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
 @click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
@@ -55,13 +64,14 @@ UNIT = "B/L²"
 @rtol_option
 @json_option
 def path(
-    until: float,
-    unload_to: float | None,
+    case: Path | None,
+    until: str | None,
+    unload_to: str | None,
     at: str | None,
     control: str,
     axial_stiffness: float | None,
     spring: float | None,
-    wall_stiffness: float,
+    wall_stiffness: float | None,
     mirror: bool,
     seeds: int,
     out: Path | None,
@@ -69,7 +79,7 @@ def path(
     as_json: bool,
     **given: Any,
 ) -> None:
-    """What happens as the load grows quasi-statically, and comes back.
+    """What happens to a rod, or that of CASE, a TOML file, as the load grows quasi-statically, and comes back.
 
     Buckling, lift-off, gaps, points of contact, loss of stability, where the rod snaps to, the helix, and the way
     back. The rod may leave the wall; frictionless and without inertia. End force at s = 1 in B/L², tension positive;
@@ -77,23 +87,28 @@ def path(
     """
     from rodwell.analysis.path.load_path import load_path  # noqa: PLC0415
 
-    problem, forces = make_problem(given), _forces(at)
+    read = _case(case)
+    problem, rtol = (make_problem(given), rtol) if read is None else (read.problem, _tolerance(read, rtol))
+    begin, back = _range(read, until, unload_to, control)
+    forces = [_number("--at", part, read, control) for part in at.split(",")] if at else []
+    if wall_stiffness is None:
+        wall_stiffness = math.inf if read is None else read.wall_stiffness
     if out is not None:
         from rodwell.store.folder import check_writable  # noqa: PLC0415
 
         check_writable(out)
-    span = abs(until) + 1e-12
+    span = abs(begin) + 1e-12
 
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
-            problem, until=until, unload_to=unload_to, control=control, axial_stiffness=axial_stiffness, spring=spring,
+            problem, until=begin, unload_to=back, control=control, axial_stiffness=axial_stiffness, spring=spring,
             wall_stiffness=wall_stiffness, mirror=mirror, seeds=seeds, rtol=rtol,
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
     if out is not None:
         from rodwell.report.folders.path import write_path  # noqa: PLC0415
 
-        write_path(result, out, forces)
+        write_path(result, out, forces, read)
     if as_json:
         from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
@@ -103,11 +118,14 @@ def path(
                 **result.as_dict(forces),
                 "converged": not result.missed,
                 "unit": "B/L^2",
+                **({} if read is None or read.scales is None else {"unit_N": read.scales.factor("force")}),
                 "convention": convention + ends_text(problem),
             }
         )
     else:
         _print(result)
+        if read is not None and read.scales is not None:
+            click.echo(f"1 B/L² is {read.scales.text(1.0, 'force', 6)}, L {read.scales.text(1.0, 'length', 6)}.")
         for force in forces:
             _print_states(result, force)
         if out is not None:
@@ -115,13 +133,55 @@ def path(
     check_missed(result.missed, rtol)
 
 
-def _forces(at: str | None) -> list[float]:
+def _case(path: Path | None) -> Case | None:
+    """The case, if one is given; else weight and inclination must be, and beside one no option of a problem."""
+    given = click.get_current_context().get_parameter_source
+    written = [name for name in PARAMETERS if given(name) == ParameterSource.COMMANDLINE]
+    if path is None:
+        for name in ("weight", "alpha"):
+            if name not in written:
+                raise click.UsageError(f"Missing option '--{name}' (or a case file).")
+        return None
+    if written:
+        key = f"--{written[0].replace('_', '-')}"
+        raise InputError(key, None, "belongs to a problem without a case: leave it out, or the case")
+    from rodwell.case.case import Case  # noqa: PLC0415
+
+    return Case.read(path)
+
+
+def _tolerance(case: Case, rtol: float) -> float:
+    """The tolerance of the case, unless another is asked for."""
+    source = click.get_current_context().get_parameter_source("rtol")
+    return rtol if source == ParameterSource.COMMANDLINE else case.rtol
+
+
+def _range(case: Case | None, until: str | None, back: str | None, control: str) -> tuple[float, float | None]:
+    """Where the path goes, and comes back to: as asked, or, of a case, as its report goes."""
+    if until is not None:
+        return _number("--until", until, case, control), (
+            None if back is None else _number("--unload-to", back, case, control)
+        )
+    if case is None or control != "force":
+        raise click.UsageError("Missing option '--until'.")
+    from rodwell.answers.result.beyond import reach  # noqa: PLC0415
+    from rodwell.answers.result.computed import compute  # noqa: PLC0415
+
+    computed = compute(case)
+    if computed.lift_off is None:
+        raise InputError("--until", None, "must be given: no lift-off was found from which it could be chosen")
+    far, start = reach(computed)
+    return far, start if back is None else _number("--unload-to", back, case, control)
+
+
+def _number(option: str, text: str, case: Case | None, control: str) -> float:
+    """An end force in B/L², with its unit in a case with dimensions; or a shortening in L."""
+    if case is not None and control == "force":
+        return force_at(text, case, option=option)
     try:
-        return [float(part) for part in at.split(",")] if at else []
+        return float(text)
     except ValueError:
-        raise InputError(
-            "--at", at, "must be end forces in B/L² (or shortenings in L), plain numbers separated by commas"
-        ) from None
+        raise InputError(option, text, "must be end forces in B/L² (or shortenings in L), plain numbers") from None
 
 
 def _print_states(result: LoadPath, force: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rodwell.cli.options import check_missed, print_json, print_written, progress_bar
+from rodwell.cli.options import check_missed, note_rigid_wall, print_json, print_written, progress_bar
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,6 +21,7 @@ def run_study(
     from rodwell.report.folders.study import write_study  # noqa: PLC0415
     from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
 
+    note_rigid_wall(file.data)
     with progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
         tell("figure, report and data", 1.0)

@@ -31,6 +31,7 @@ KINDS: dict[str, tuple[str, str]] = {
     "moment": ("N*m", '"1.2 kN m", "800 ft lbf"'),
     "stress": ("Pa", '"200 GPa", "30e6 psi"'),
     "pressure": ("Pa", '"20 MPa", "3000 psi"'),
+    "wall stiffness": ("N/m^2", '"5e6 N/m^2", "20 MPa"'),
     "density": ("kg/m^3", '"7800 kg/m^3", "65.5 lb/gal", "1.2 sg"'),
     "force per length": ("N/m", '"315 N/m", "19.5 lbf/ft"'),
     "bending stiffness": ("N*m^2", '"9.8e5 N m^2"'),

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 FIELDS = {
-    "x": ("length", "position across the hole, upwards from its axis: the bottom is at −Δ"),
+    "x": ("length", "position across the hole, away from the side to which the rod is pressed: that is at −Δ"),
     "y": ("length", "position across the hole, sideways from its axis, y = z × x"),
     "z": ("length", "position along the hole from the end s = 0"),
     "gap": ("1", "gap between rod and wall, in clearances Δ"),
-    "angle": ("angle", "angle around the hole from its bottom, between −π and π"),
+    "angle": ("angle", "angle around the hole from that side, between −π and π"),
     "curvature": ("curvature", "curvature of the rod"),
     "bending_moment": ("moment", "bending moment in the rod"),
     "tension": ("force", "axial force in the rod, tension positive"),

@@ -15,6 +15,10 @@ PER_ELEMENT = 12
 """Places in an element at which the depth is looked at first."""
 
 
+CLOSE = 1e-14
+"""How closely ends of pieces are located, in L."""
+
+
 class Piece(NamedTuple):
     """A piece of the rod, in contact or not, from where to where."""
 
@@ -42,8 +46,10 @@ def contact_pieces(shape: Shape) -> list[Piece]:
     inner = s[1:-1]
     bounds = [0.0]
     for i in np.flatnonzero(on[1:] != on[:-1]):
-        bounds.append(
-            float(brentq(lambda t: float(depth(shape, np.array([t]))[0]), inner[i], inner[i + 1], xtol=1e-14))
-        )
+        end = float(brentq(lambda t: float(depth(shape, np.array([t]))[0]), inner[i], inner[i + 1], xtol=CLOSE))
+        if end - bounds[-1] <= CLOSE:
+            bounds.pop()  # right where a piece appears it has no length
+        else:
+            bounds.append(end)
     bounds.append(1.0)
     return [Piece(bool(on[0]) ^ bool(i % 2), *ends) for i, ends in enumerate(pairwise(bounds))]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from rodwell.analysis.path.load_path import ASSUMPTIONS
 from rodwell.answers.result.beyond import Beyond, StateBeyond
-from rodwell.answers.words.beyond import beyond_sentences
+from rodwell.answers.words.beyond import assumed_beyond, beyond_sentences
 from rodwell.case.case import Case
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.value import Value
@@ -17,7 +18,8 @@ def beyond_dict(case: Case, found: Beyond) -> dict[str, Any]:
     path = found.path
     return {
         "summary": beyond_sentences(case, found),
-        "assumptions": ASSUMPTIONS,
+        "assumptions": ASSUMPTIONS if path is None else path.assumptions,
+        "wall_stiffness": None if math.isinf(case.wall_stiffness) else case.wall_stiffness,
         "computed": path is not None,
         "why": found.why or None,
         "until": None if path is None else path.until,
@@ -85,4 +87,5 @@ def beyond_table(case: Case, found: Beyond) -> Table:
             there.state.shortening.value * m, None if there.stress is None else there.stress.value,
             None if there.stress is None or there.stress.safety is None else there.stress.safety.value,
         ))  # fmt: skip
-    return Table("Load path", columns, tuple(rows), notes=(f"{ASSUMPTIONS[:1].upper()}{ASSUMPTIONS[1:]}.",))
+    assumed = assumed_beyond(case)
+    return Table("Load path", columns, tuple(rows), notes=(f"{assumed[:1].upper()}{assumed[1:]}.",))

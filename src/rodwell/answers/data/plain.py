@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from rodwell._version import __version__
@@ -152,6 +153,7 @@ def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
             "twist": problem.twist,
             "ends": list(problem.ends),
             **({"floats": True} if problem.floats else {}),
+            **({} if math.isinf(case.wall_stiffness) else {"wall_stiffness": case.wall_stiffness}),
             **problem.given_more,
         },
         **_critical_loads(answer),

@@ -30,7 +30,8 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
     weight = a.case.problem.hung_weight
     if weight == 0.0:
         return []
-    note = "N(0) = F − mg L cos α: the most compressed place"
+    note = f"N(0) = F {'+' if a.case.problem.floats else '−'} mg L cos α"
+    note += ": the most compressed place" if weight > 0.0 else "; the most compressed place is s = 1"
     if a.case.problem.hole is not None:
         note = "F less the weight over the height of the rod in its hole"
     loads = [] if a.computed.left_before else [("critical_load_1", "Critical load of mode 1", a.window.buckling)]
@@ -42,7 +43,7 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
         loads.append(("lift_off_load", "Lift-off load", a.window.lift_off))
     out = []
     for name, label, load in loads:
-        scale, bottom = force_scale(load.value) + weight, Value(load.value - weight, load.error)
+        scale, bottom = force_scale(load.value) + abs(weight), Value(load.value - weight, load.error)
         where = f"{label}, effective force at the lower end s = 0"
         out.append(KeyNumber(f"{name}_bottom", where, bottom, "force", scale, note))
     return out

@@ -142,8 +142,8 @@ def followed(computed: Computed, progress: Progress) -> tuple[LoadPath | None, s
     until, back = reach(computed)
     try:
         path = load_path(
-            case.problem, until=until, unload_to=back, mirror=computed.first.origin.mirror, rtol=case.rtol,
-            progress=progress,
+            case.problem, until=until, unload_to=back, wall_stiffness=case.wall_stiffness,
+            mirror=computed.first.origin.mirror, rtol=case.rtol, progress=progress,
         )  # fmt: skip
     except RodwellError as error:
         return None, str(error)

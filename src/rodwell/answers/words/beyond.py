@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from rodwell.analysis.off_wall.state import HELIX, PARTIAL, STRAIGHT
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, PathPoint
+from rodwell.analysis.path.load_path import ASSUMPTIONS, HARD
 from rodwell.analysis.path.words import gradual, gradually
 from rodwell.answers.result.beyond import Beyond, StateBeyond, Step
 from rodwell.answers.words.verdict import load_text
@@ -24,6 +26,14 @@ def beyond_sentences(case: Case, found: Beyond) -> list[str]:
     if found.path is None:
         return [f"What happens beyond lift-off is not told: {found.why}."]
     return [story(case, found), *_largest(case, found), *(_at(case, *pair) for pair in found.applied)]
+
+
+def assumed_beyond(case: Case) -> str:
+    """What is assumed of a load path, with the stiffness of the wall in the case's units."""
+    if math.isinf(case.wall_stiffness):
+        return ASSUMPTIONS
+    size = size_text(case.scales, Value(case.wall_stiffness), "stress", "B/L⁴")
+    return ASSUMPTIONS.replace(HARD, f"wall of stiffness {size}")
 
 
 def story(case: Case, found: Beyond) -> str:

@@ -21,7 +21,7 @@ from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
-from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text
+from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text, soft_wall
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.scales import Scales
@@ -64,6 +64,7 @@ def assumptions(case: Case) -> tuple[str, ...]:
     if case.problem.rod.stepped:
         more = (*more, HELD_AT_STEPS)
     hole = "cylinder rigid and straight" if case.problem.hole is None else "hole rigid, curved as given"
+    hole += "" if math.isinf(case.wall_stiffness) else ", up to lift-off"
     return (ends_text(case.problem, ENDS_HOLD), *more, *(text.format(hole=hole) for text in ASSUMPTIONS))
 
 
@@ -73,6 +74,7 @@ def sentences(answer: Answer) -> list[str]:
     out = [
         verdict(a),
         *floating(answer.case),
+        *soft_wall(answer.case),
         *load_sentences(a),
         *unreached(a),
         without_wall(answer),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.in_space import lies_from, lies_until, what_ends
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
@@ -55,6 +57,7 @@ def _assumed(case: Case) -> str:
     fluids = ", effective forces" if case.with_fluids else ""
     held = ", its slope held at steps of its stiffness" if case.problem.rod.stepped else ""
     hole = "straight hole" if case.problem.hole is None else "curved hole"
+    hole += "" if math.isinf(case.wall_stiffness) else ", wall rigid up to lift-off"
     return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{held}{fluids}"
 
 

@@ -64,6 +64,18 @@ def side_of(case: Case) -> str:
     return "high" if case.problem.on_top != case.problem.floats else "low"
 
 
+def soft_wall(case: Case) -> list[str]:
+    """What counts of a wall that gives way, in a sentence; none of a rigid one."""
+    if math.isinf(case.wall_stiffness):
+        return []
+    size = size_text(case.scales, Value(case.wall_stiffness), "stress", "B/L⁴")
+    return [
+        f"The wall gives way, by {size} of push per length and depth: that counts beyond lift-off, where the rod is "
+        "followed from the straight one that has sunk into it; all that is told of the rod on the wall, critical and "
+        "lift-off loads too, takes the wall as rigid."
+    ]
+
+
 def around_text(angle: Value) -> str:
     """Where around the hole an angle ξ₂ from the low side is: "the low side", "12° to the left of the low side"."""
     degrees = angle.times(180.0 / math.pi)

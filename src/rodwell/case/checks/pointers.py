@@ -113,8 +113,6 @@ KEYS_ELSEWHERE: dict[str, dict[str, str]] = {
         "end": _DEPTHS,
         "measured_depth": _DEPTHS,
         "md": _DEPTHS,
-        "wall_stiffness": "is not taken: in a case the wall is rigid; `rodwell path --wall-stiffness` has one that "
-        "gives way",
         "friction": _FRICTION,
         "friction_factor": _FRICTION,
         "friction_coefficient": _FRICTION,

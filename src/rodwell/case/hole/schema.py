@@ -18,6 +18,7 @@ from rodwell.case.kinds import (
     OneOf,
     SectionInput,
     Stress,
+    WallStiffness,
     _key,
 )
 
@@ -39,6 +40,11 @@ class Hole(SectionInput):
     angle_from_horizontal: Angle | None = _key(
         None, "instead of `angle_from_vertical`; one of the two is required", "60 deg", allowed='"0 deg" to "90 deg"'
     )
+    wall_stiffness: WallStiffness | None = _key(
+        None, "of a wall that gives way: its push per length of the rod and depth; counts beyond lift-off (`rodwell "
+        "run`, `rodwell path`), and all that is told of the rod on the wall takes it as rigid; rigid if not given",
+        "5e6 N/m^2",
+    )  # fmt: skip
     gravity: Acceleration = _key(9.80665, "used with `density`", "9.80665 m/s^2")
     build: Curvature | None = _key(
         None, "curvature in the vertical plane of a curved hole, positive where its inclination grows with depth; "

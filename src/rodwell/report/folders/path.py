@@ -9,6 +9,7 @@ from pathlib import Path
 import matplotlib as mpl
 
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.case.case import Case
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
 from rodwell.report.folders.figures import save_figure
@@ -18,12 +19,12 @@ from rodwell.store.netcdf import write_load_path
 from rodwell.store.text import write_json
 
 
-def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[str, ...]:
+def write_path(result: LoadPath, out: Path, at: Sequence[float] = (), case: Case | None = None) -> tuple[str, ...]:
     """Write figure (PNG, SVG), events, states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
 
     All states with what touches in them are in ``load-path.nc`` (NetCDF).
 
-    The page shows the rod in its hole along the path, with a slider.
+    The page shows the rod in its hole along the path, with a slider. Figure and page are in the units of ``case``.
 
     All files, or none; returns their names.
 
@@ -34,10 +35,10 @@ def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[s
     """
     with whole_folder(out) as folder:
         with mpl.rc_context(RC):
-            save_figure(plot_path(result).figure, folder / "load-path")
+            save_figure(plot_path(result, case=case).figure, folder / "load-path")
         write_json(result.as_dict(at), folder / "load-path.json")
         write_load_path(result, folder / "load-path.nc")
-        write_path_page(folder / PAGE, result)
+        write_path_page(folder / PAGE, result, case)
         curve = result.curve
         with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file)

@@ -78,7 +78,7 @@ def _travelled(run: list[PatternedState], whole: float, total: int) -> FloatArra
 
 def _runs(path: LoadPath, leg: Leg) -> Iterator[list[PatternedState]]:
     """Runs of a leg with the straight rod before it buckles, or after it has fallen back."""
-    model = RodInHole(path.problem)
+    model = RodInHole(path.problem, path.wall_stiffness)
     straight = [[straight_state(model, force) for force in ends] for ends in leg.straight]
     yield from straight if leg.name == LOADING else ()
     yield from leg.runs

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from rodwell.analysis.path.load_path import ASSUMPTIONS
 from rodwell.answers.result.beyond import Beyond, Step
-from rodwell.answers.words.beyond import beyond_sentences
+from rodwell.answers.words.beyond import assumed_beyond, beyond_sentences
 from rodwell.answers.words.wording import forces_of, quantity, size_text
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
@@ -21,7 +20,8 @@ def beyond_section(case: Case, found: Beyond) -> ReportSection:
     text = beyond_sentences(case, found)
     if found.path is None:
         return ReportSection("Beyond lift-off", (Words(text[0], "warning"),))
-    assumed = f"{ASSUMPTIONS[:1].upper()}{ASSUMPTIONS[1:]}; {ends_text(case.problem)}. {forces_of(case).convention}."
+    assumed = assumed_beyond(case)
+    assumed = f"{assumed[:1].upper()}{assumed[1:]}; {ends_text(case.problem)}. {forces_of(case).convention}."
     blocks: list[Block] = [
         Items(tuple(text)),
         Picture(
