@@ -66,12 +66,11 @@ def computed() -> Answer:
 def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let ``rodwell run`` find its answer computed and its figures drawn."""
 
-    def draw(_: Answer, folder: Path) -> dict[str, Any]:
-        (folder / "bifurcation.png").write_bytes(b"new figure")
-        return {}
+    def draw(_: Answer) -> dict[str, Any]:
+        return {"bifurcation": {"png": b"new figure"}}
 
     monkeypatch.setattr("rodwell.answers.result.answer.answer", lambda *_: computed)
-    monkeypatch.setattr("rodwell.report.folders.case.draw", draw)
+    monkeypatch.setattr("rodwell.report.folders.pictures.draw", draw)
     monkeypatch.setattr("rodwell.report.pages.pdf.render", lambda *_: "<p>new report</p>")
 
 
@@ -264,7 +263,7 @@ def disk_full(*_: object, **__: object) -> None:
 
 STAGES = [
     pytest.param("rodwell.answers.result.answer.answer", id="computing"),
-    pytest.param("rodwell.report.folders.case.draw", id="drawing"),
+    pytest.param("rodwell.report.folders.pictures.draw", id="drawing"),
     pytest.param("rodwell.report.pages.pdf.render", id="rendering"),
     pytest.param("rodwell.report.folders.case.write_answer", id="writing-data"),
 ]
@@ -410,12 +409,12 @@ module.follow = interrupted
 WRITING = """
 import rodwell.report.folders.case as module
 
-def draw(answer, folder):
-    (folder / "half.png").write_bytes(b"half")
+def write(answer, file):
+    file.write_bytes(b"half")
     print("ready", flush=True)
     time.sleep(120)
 
-module.draw = draw
+module.write_answer = write
 """
 
 

@@ -49,7 +49,8 @@ def dimensionless(
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"
-        raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
+        reason = error.reason.replace("from 0 to", "at most, in size,") if given.weight < 0.0 else error.reason
+        raise InputError(f"{section}.{error.field}", error.value, reason) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
