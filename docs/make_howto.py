@@ -52,6 +52,8 @@ COMMANDS = {
     "liftoff-build": "liftoff --weight 15 --alpha 90 --build 0.2",
     "run-build": "run examples/build-section.toml --out results/build",
     "liftoff-sections": "liftoff --weight 15 --alpha 60 --sections 0.6:1:1,0.4:0.3:0.5",
+    "critical-steps": "critical --weight 1000 --alpha 90 --sections 0.3:1:1:1,0.4:1:1:0.6,0.3:1:1:1 "
+    "--out results/critical-steps",
     "string": "run examples/bottom-hole-assembly.toml --out results/string",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }

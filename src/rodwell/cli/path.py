@@ -23,15 +23,25 @@ from rodwell.cli.options import (
 from rodwell.errors import InputError
 
 if TYPE_CHECKING:
+    from rodwell.analysis.off_wall.state import ContactState
     from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
 
 UNIT = "B/L²"
 
+WHERE = {
+    "point": "at a point of contact", "end": "at the end of a stretch in contact",
+    "edge": "at the edge of a narrower part of the hole",
+}  # fmt: skip
+"""Where a point force acts, in words."""
+
 
 @click.command(short_help="The load path off the wall: lift-off, partial contact, snap, helix, and back.")
 @problem_options()
-@click.option("--until", type=float, required=True, help="End force at s = 1 (tension positive) to load the rod to.")
+@click.option(
+    "--until", type=float, help="End force at s = 1 (tension positive) to load the rod to; may be left out where the "
+    "clearance has steps: until it buckles.",
+)  # fmt: skip
 @click.option("--unload-to", type=float, help="End force to unload it to afterwards.")
 @click.option("--at", help="End forces, separated by commas, at which states are shown.")
 @click.option(
@@ -53,7 +63,7 @@ UNIT = "B/L²"
 @rtol_option
 @json_option
 def path(
-    until: float,
+    until: float | None,
     unload_to: float | None,
     at: str | None,
     control: str,
@@ -80,7 +90,7 @@ def path(
         from rodwell.store.folder import check_writable  # noqa: PLC0415
 
         check_writable(out)
-    span = abs(until) + 1e-12
+    span = abs(until or -100.0) + 1e-12
 
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
@@ -180,6 +190,14 @@ def _print_state(shown: PathState) -> None:
     click.echo(
         f"  energy {state.energy.value:+.9g} ± {state.energy.error:.0e} B/L, shortening {state.shortening.value:.9g} L"
     )
+    print_contacts(state)
+    check = state.certificate
+    passed = "passed" if check.passed else "NOT passed"
+    click.echo(f"  all contact forces {state.contact_total.value:.7g} {UNIT}; certificate {passed}, {check.worst:.0e}")
+
+
+def print_contacts(state: ContactState) -> None:
+    """Gaps, stretches in contact and point forces of a state, a line each."""
     for gap in state.gaps:
         size = f"{gap.largest.value:.6g} Δ at s/L = {gap.at:.5g}"
         click.echo(f"  gap      {gap.start.value:.6f} to {gap.end.value:.6f}   {size}")
@@ -187,8 +205,5 @@ def _print_state(shown: PathState) -> None:
         force = f"{contact.force.value:.6g} {UNIT}"
         click.echo(f"  contact  {contact.start.value:.6f} to {contact.end.value:.6f}   {force} spread along it")
     for point in state.point_forces:
-        what = "at a point of contact" if point.kind == "point" else "at the end of a stretch in contact"
+        what = WHERE[point.kind]
         click.echo(f"  force    {point.s.value:.6f}              {point.force.value:.6g} {UNIT} {what}")
-    check = state.certificate
-    passed = "passed" if check.passed else "NOT passed"
-    click.echo(f"  all contact forces {state.contact_total.value:.7g} {UNIT}; certificate {passed}, {check.worst:.0e}")

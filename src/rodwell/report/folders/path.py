@@ -8,7 +8,9 @@ from pathlib import Path
 
 import matplotlib as mpl
 
+from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.plots.paths.bridging import plot_bridging
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
 from rodwell.report.folders.figures import save_figure
@@ -20,7 +22,8 @@ from rodwell.store.text import write_json
 def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[str, ...]:
     """Write figure (PNG, SVG), events and states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
 
-    The page shows the rod in its hole along the path, with a slider.
+    The page shows the rod in its hole along the path, with a slider; of a string that bridges steps of its clearance a
+    picture shows it from the side, at the last load.
 
     All files, or none; returns their names.
 
@@ -32,8 +35,12 @@ def write_path(result: LoadPath, out: Path, at: Sequence[float] = ()) -> tuple[s
     with whole_folder(out) as folder:
         with mpl.rc_context(RC):
             save_figure(plot_path(result).figure, folder / "load-path")
+            if result.problem.bridges:
+                last = result.legs[-1].runs[-1][-1]
+                save_figure(plot_bridging(contact_state(last)).figure, folder / "bridging")
         write_json(result.as_dict(at), folder / "load-path.json")
-        write_path_page(folder / PAGE, result)
+        if not result.problem.bridges:
+            write_path_page(folder / PAGE, result)
         curve = result.curve
         with (folder / "load-path.csv").open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file)
