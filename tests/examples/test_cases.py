@@ -10,16 +10,22 @@ from typing import Any
 import pytest
 
 import rodwell
+from rodwell.answers.result.bridged import bridged_answer
 from rodwell.cli.run import _details, _verdict
 from rodwell.quantities.units import SYSTEMS
+from rodwell.report.reports.bridged import bridged_report
 from rodwell.report.reports.case import case_report
 from rodwell.report.reports.study import study_report
 from rodwell.studies.sweep.study import is_study
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+ELSEWHERE = ("[packer]", "[[hole.section]]")
+"""Sections that make a case one of another kind."""
+
 CASES = sorted(
-    path for path in EXAMPLES.glob("*.toml") if not is_study(path) and "[packer]" not in path.read_text("utf-8")
-)
+    path for path in EXAMPLES.glob("*.toml")
+    if not is_study(path) and not any(section in path.read_text("utf-8") for section in ELSEWHERE)
+)  # fmt: skip
 
 VIOLATIONS = {
     "an exponent": re.compile(r"(?<![\w#])\d+(?:\.\d+)?e[−+-]?\d"),
@@ -61,6 +67,7 @@ def violations(texts: Iterable[str]) -> list[tuple[str, str]]:
 def without_names(texts: Iterable[str], case: rodwell.Case) -> list[str]:
     """The texts without the title, names and sources of the catalogue, and what the user wrote."""
     parts = [part for values in case.given.values() for part in (values if isinstance(values, list) else [values])]
+    parts += [one for part in parts for one in part.get("section", ())]
     names = {case.title, *(str(v) for part in parts for v in part.values() if len(str(v)) > 12)}
     names |= {fact.value for fact in case.facts if isinstance(fact.value, str)} | {fact.note for fact in case.facts}
     own = re.compile("|".join(re.escape(name) for name in sorted(filter(None, names), key=len, reverse=True)))
@@ -92,6 +99,15 @@ def test_every_number_of_an_example_meets_its_tolerance_and_is_written_well(
         assert "B/L" not in front  # the reader's units
         assert not re.search(r"−\d[\d.\u202f]* [kmµ]?(?:N|lbf)\b", front)  # compression has its word, not a sign
         assert not re.search(r"(?:N|lbf|Pa|psi)\s*±", front)  # numerical errors stand in the tables
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_steps_of_the_clearance_are_written_well(system: str) -> None:
+    found = bridged_answer(rodwell.Case.read(EXAMPLES / "tubing-two-casings.toml").in_units(system))
+    assert found.converged
+    texts = without_names(said(bridged_report(found).as_dict()), found.case)
+    assert violations(texts) == []
+    assert [text for text in texts if OF_SYSTEM[system].search(text)] == []
 
 
 def test_a_study_is_written_well() -> None:
