@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from rodwell.case.hole.schema import Hole
 from rodwell.case.kinds import REQUIRED, Length, Name, SectionInput, _key
@@ -42,7 +41,9 @@ def check_parts(parts: object) -> None:
         what = "must be sections: write [[hole.section]], with two brackets, for each, from the top down"
         raise InputError("hole.section", None, what)
     for number, part in enumerate(parts, 1):
-        for key, value in part.items() if isinstance(part, Mapping) else ():
+        if not isinstance(part, Mapping):
+            raise InputError(called(number), part, "must be a section: write [[hole.section]] with its keys below it")
+        for key, value in part.items():
             if isinstance(value, list | tuple | Mapping):
                 raise InputError(f"{called(number)}.{key}", value, "is a list: give one value for each section")
             if isinstance(value, str) and any(sign in value for sign in ("±", "+/-", "+-")):
@@ -89,10 +90,3 @@ def parts_of(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> tu
         out.append(HolePart(called(number, one.name), below, above, diameter))
         above = below
     return tuple(out[::-1])
-
-
-def as_written(data: Mapping[str, Any], number: int) -> Any:
-    """A section as it stands in the file, None if there is none."""
-    hole = data.get("hole")
-    parts = hole.get("section") if isinstance(hole, Mapping) else None
-    return parts[number - 1] if isinstance(parts, Sequence) and number <= len(parts) else None
