@@ -31,8 +31,11 @@ LARGEST = 2.0
 SHORTER, REPEATS = 0.25, 6
 """Steps are shortened by this factor, so often, where several modes become unstable within one."""
 
-JUST_BEFORE = 1e-7
+JUST_BEFORE = 1e-9
 """How much less than its buckling load a string must bear without being unstable, as a part of the load."""
+
+PASSED_OVER = 1e-3
+"""Part of the load by which a change of contact that was not resolved is passed over."""
 
 BEYOND = "states beyond are not computed where the clearance has steps"
 
@@ -82,17 +85,32 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
 
 
 def _first_loss(start: PatternedState, until: float, progress: Callable[[float], str | None] | None) -> Followed:
-    """The path to the first load at which a disturbance grows: within a step there may be several."""
+    """The path to the first load at which a disturbance grows: within a step there may be several.
+
+    Where a change of contact was not resolved, the string is sought anew a little beyond, as at the beginning.
+    """
     path, largest = followed(start, until, largest=LARGEST, progress=progress), LARGEST
     for _ in range(REPEATS):
-        event = path.last
-        before = at_load(event, event.load + JUST_BEFORE * abs(event.load))
-        if path.ended != BRANCH_POINT or before is None or not before.solved.index:
+        last = path.last
+        if path.ended in (END, FOLD):
             return path
-        largest *= SHORTER
-        kept = path.states[:-1]
-        more = followed(kept[-1], until, largest=largest, progress=progress)
-        path = Followed(kept[:-1] + more.states, path.events[:-1] + more.events, more.ended, more.along)
+        if path.ended == BRANCH_POINT:
+            before = at_load(last, last.load + JUST_BEFORE * abs(last.load))
+            if before is not None and not before.solved.index:
+                return path
+            largest *= SHORTER
+            kept, events, again = path.states[:-2], path.events[:-1], path.states[-2]
+        else:
+            beyond = bridged(last.model, max(last.load - PASSED_OVER * max(abs(last.load), 1.0), until))
+            if beyond is None or beyond.solved.index:
+                return path
+            kept, events, again = path.states, path.events, beyond
+        more = followed(again, until, largest=largest, progress=progress)
+        path = Followed(kept + more.states, events + more.events, more.ended, more.along)
+    if path.ended == BRANCH_POINT:
+        path.ended = (
+            f"several disturbances begin to grow near F = {path.last.load:.8g} B/L², the first of them not told"
+        )
     return path
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import solveh_banded
+from scipy.linalg import cholesky_banded, solveh_banded
 
 from rodwell.analysis.off_wall.arrange import solved, wavenumber
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
@@ -50,8 +50,11 @@ def unstretched(problem: Problem) -> float:
 
 
 def bridged(model: RodInHole, load: float) -> PatternedState | None:
-    """How the string lies at an end force that compresses it nowhere; None if that was not found."""
-    places, height = _beam(model, load)
+    """How the string lies at an end force under which a beam without walls is stable; None if that was not found."""
+    try:
+        places, height = _beam(model, load)
+    except np.linalg.LinAlgError:  # it would buckle without walls: there may be several states
+        return None
     for at_ends in (True, False):
         pattern, breaks = _pattern(model.problem, places, height[::2], at_ends)
         found = solved(model, pattern, breaks, load, _sampler(places, height))
@@ -88,8 +91,8 @@ def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
     parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], numbers, strict=True)]
     places = np.append(np.concatenate(parts), 1.0)
     band, force = _assembled(model, load, places)
-    floor = -_narrowest(problem, places)
-    held = _held(problem, places.size)
+    floor, held = -_narrowest(problem, places), _held(problem, places.size)
+    cholesky_banded(_without_held(band, held), lower=True)
     height = np.zeros(2 * places.size)
     height[::2] = floor
     size = _sag(problem, places)
@@ -145,6 +148,15 @@ def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[Float
     return band, force
 
 
+def _without_held(band: FloatArray, held: BoolArray) -> FloatArray:
+    """A lower band whose rows and columns of what is held are those of the identity."""
+    out, free = band.copy(), ~held
+    out[0, held] = 1.0
+    for k in range(1, 4):
+        out[k, :-k] *= free[k:] & free[:-k]
+    return out
+
+
 def _on_springs(
     band: FloatArray, force: FloatArray, floor: FloatArray, held: BoolArray, stiffness: float, height: FloatArray
 ) -> FloatArray:
@@ -163,9 +175,7 @@ def _on_springs(
         now, pressed = gradient(height), height[::2] < floor
         sprung = band.copy()
         sprung[0, ::2] += stiffness * pressed
-        sprung[0, held] = 1.0
-        for k in range(1, 4):
-            sprung[k, :-k] *= free[k:] & free[:-k]
+        sprung = _without_held(sprung, held)
         step = -solveh_banded(sprung, now, lower=True) * free
         part = 1.0
         for _ in range(HALVINGS):  # along a line a convex energy falls as long as its slope is negative
