@@ -25,7 +25,15 @@ ORDER = {
         "column",
         "twist",
     ),
-    "What the wall bears": ("guidewire", "wall_moments", "heavy_weight", "build_section", "surveyed_well", "helix"),
+    "What the wall bears": (
+        "guidewire",
+        "wall_moments",
+        "heavy_weight",
+        "two_casings",
+        "build_section",
+        "surveyed_well",
+        "helix",
+    ),
 }
 
 CHECKED = {
@@ -48,6 +56,7 @@ CHECKED = {
     "guidewire": "contact pressure of a uniform helix from (52)–(55), written out in the script; π² for pinned ends",
     "wall_moments": "T₂ from (33), integrated a second time",
     "heavy_weight": "b ω₂ continuous, ω₂ in the ratio of the stiffnesses; the couple of the wall is the jump of b ω₃",
+    "two_casings": "free lengths and edge force of the small-slope closed form, to 1e-5",
     "bent_vessel": "the push of the wire that has not buckled, w cos ψ − κᵣ(F − κᵣ²), by hand",
     "build_section": "bending by the hole, E r κ/(1 + κΔ), and stress of the pipe that has not buckled, by hand",
     "surveyed_well": "bending of the pipe at rest, its stiffness times the angle between stations over their distance",

@@ -222,7 +222,8 @@ def case_keys() -> str:
             default = "required" if key.required else f"`{key.default}`" if key.default else ""
             examples = " ".join(f"`{example}`" for example in key.examples)
             rows.append((f"`{key.name}`", key.kind + limits, examples, default, key.meaning + more))
-        title = "Before the first section" if section == TOP else f"`[{section}]`"
+        head = f"`[[{section}]]`" if section in ("string", "hole.section") else f"`[{section}]`"
+        title = "Before the first section" if section == TOP else head
         text = "" if section == TOP else f"{purpose(section)}\n"
         parts.append(f"### {title}\n\n{text}")
         parts.append(make_howto.table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))

@@ -52,7 +52,15 @@ def test_examples_and_defaults_are_what_the_schema_takes(key: Key) -> None:
 def test_examples_suit_their_keys() -> None:
     """A diameter is no 30 m: lengths of a section are below those of rods."""
     sizes = {key.full_name: to_si(json.loads(key.examples[0]), "length") for key in KEYS if key.kind == "length"}
-    for along in ("rod.length", "string.length", "string.joint_length", "hole.from", "hole.to", "hole.tortuosity_step"):
+    for along in (
+        "rod.length",
+        "string.length",
+        "string.joint_length",
+        "hole.from",
+        "hole.to",
+        "hole.tortuosity_step",
+        "hole.section.length",
+    ):
         assert sizes.pop(along) > 5.0
     assert max(sizes.values()) < 1.0
 

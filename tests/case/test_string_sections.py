@@ -128,8 +128,6 @@ def test_real_forces_are_those_of_the_section_where_they_act() -> None:
         ({"of_2": {"outer_diameter": "5 m"}}, "string 2.outer_diameter = '5 m': is not plausible"),
         ({"hole": {"diameter": "5.5 in", "angle_from_vertical": "50 deg"}},
          "string 1 (collar).outer_diameter = '6 in': must be below the hole's diameter of 0.1397 m"),
-        ({"hole": {"diameter": "8.5 in", "angle_from_vertical": "50 deg"}},
-         "leaves a different clearance beside each section: 0.03175 m"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:

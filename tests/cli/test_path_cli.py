@@ -84,3 +84,21 @@ def test_a_string_of_sections() -> None:
     (gap,) = data["states"][0]["gaps"]
     assert gap["from"]["value"] < 0.6 < gap["to"]["value"]
     assert data["states"][0]["certificate"]["passed"]
+
+
+def test_steps_of_the_clearance(tmp_path: Path) -> None:
+    """Found by the path until it buckles and by ``critical``: the same load, below that of either clearance."""
+    steps = ("--weight", "1000", "--alpha", "90", "--sections", "0.5:1:1:1,0.5:1:1:0.6")
+    out = tmp_path / "steps"
+    done = run("path", *steps, "--at", "-300", "--out", str(out))
+    assert done.exit_code == 0, done.output
+    assert "the string that bridges steps of the clearance buckles sideways" in done.output
+    assert "at the edge of a narrower part of the hole" in done.output
+    files = ["bridging.png", "bridging.svg", "load-path.csv", "load-path.json", "load-path.png", "load-path.svg"]
+    assert sorted(file.name for file in out.iterdir()) == files
+    load = json.loads((out / "load-path.json").read_text())["events"][0]["force"]["value"]
+    data = json.loads(run("critical", *steps, "--json").output)
+    assert data["critical_loads"] == [load]
+    assert [point["kind"] for point in data["bridged"]["point_contacts"]] == ["end", "edge", "end"]
+    assert all(one["load"]["value"] < load for one in data["one_clearance"])
+    assert isinstance(run("liftoff", *steps).exception, InputError)

@@ -12,22 +12,29 @@ from click.testing import CliRunner
 from written import OF_SYSTEM, of_page, said, violations
 
 import rodwell
+from rodwell.answers.result.bridged import bridged_answer
 from rodwell.cli.main import cli
 from rodwell.cli.run import _details, _verdict
 from rodwell.quantities.units import SYSTEMS
+from rodwell.report.reports.bridged import bridged_report
 from rodwell.report.reports.case import case_report
 from rodwell.report.reports.study import study_report
 from rodwell.studies.sweep.study import is_study
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+ELSEWHERE = ("[packer]", "[[hole.section]]")
+"""Sections that make a case one of another kind."""
+
 CASES = sorted(
-    path for path in EXAMPLES.glob("*.toml") if not is_study(path) and "[packer]" not in path.read_text("utf-8")
-)
+    path for path in EXAMPLES.glob("*.toml")
+    if not is_study(path) and not any(section in path.read_text("utf-8") for section in ELSEWHERE)
+)  # fmt: skip
 
 
 def without_names(texts: Iterable[str], case: rodwell.Case) -> list[str]:
     """The texts without the title, names and sources of the catalogue, and what the user wrote."""
     parts = [part for values in case.given.values() for part in (values if isinstance(values, list) else [values])]
+    parts += [one for part in parts for one in part.get("section", ())]
     names = {case.title, *(str(v) for part in parts for v in part.values() if len(str(v)) > 12)}
     names |= {fact.value for fact in case.facts if isinstance(fact.value, str)} | {fact.note for fact in case.facts}
     own = re.compile("|".join(re.escape(name) for name in sorted(filter(None, names), key=len, reverse=True)))
@@ -88,6 +95,15 @@ def test_what_a_command_prints_and_its_report_are_written_well(
     texts = [text for text in ran.output.splitlines() if str(tmp_path) not in text]
     page = tmp_path / "out" / "report.html"
     assert violations([*texts, *(of_page(page) if page.exists() else [])]) == []
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_steps_of_the_clearance_are_written_well(system: str) -> None:
+    found = bridged_answer(rodwell.Case.read(EXAMPLES / "tubing-two-casings.toml").in_units(system))
+    assert found.converged
+    texts = without_names(said(bridged_report(found).as_dict()), found.case)
+    assert violations(texts) == []
+    assert [text for text in texts if OF_SYSTEM[system].search(text)] == []
 
 
 def test_a_study_is_written_well() -> None:

@@ -74,6 +74,17 @@ def surveyed_well() -> None:
     assert np.all(np.diff(swing) > 0.0)
 
 
+def two_casings() -> None:
+    """Lengths a and (√3 − 1)a beside the edge, a⁴ = 24δ/((2√3 − 3)w), whose force is what is left of the weight."""
+    problem, alone, buckling = run("two_casings")
+    a = (24.0 * 0.8 * problem.clearance / ((2.0 * np.sqrt(3.0) - 3.0) * problem.weight)) ** 0.25
+    c = (np.sqrt(3.0) - 1.0) * a
+    assert [point.s.value for point in alone.point_forces] == pytest.approx([0.5 - c, 0.5, 0.5 + a], rel=1e-5)
+    assert alone.point_forces[1].force.value == pytest.approx(problem.weight * (a + 0.25 * c), rel=1e-5)
+    assert buckling.state.stability_index <= 1
+    assert buckling.met
+
+
 def build_section() -> None:
     """E r κ/(1 + κΔ), and the stress of the lying pipe of its effective force, the mud being at rest, by hand."""
     found = run("build_section")
@@ -255,7 +266,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
         lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
-        build_section, bent_vessel, surveyed_well,
+        build_section, bent_vessel, surveyed_well, two_casings,
     )
 }  # fmt: skip
 

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from rodwell.case import schema
 from rodwell.case.about import NOBODY, About, about_of
 from rodwell.case.applied import AppliedLoad
+from rodwell.case.beside import Pair
 from rodwell.case.catalogue import Catalogue, package_catalogue, read_catalogue
 from rodwell.case.checks.explain import SECTIONS, explain
 from rodwell.case.checks.plausible import implausible
@@ -23,7 +24,8 @@ from rodwell.case.facts import Fact
 from rodwell.case.file import CaseText, printable_data, read_case
 from rodwell.case.fluids import NO_FLUIDS, Fluids
 from rodwell.case.hole.cylinder import Cylinder, cylinder_of
-from rodwell.case.parts import CaseError, load_of, load_problems, named, string_rod_of
+from rodwell.case.hole.sections import HoleSectionInput
+from rodwell.case.parts import CaseError, load_of, load_problems, named, split_hole, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.sections import PhysicalString, check_beside
@@ -92,6 +94,8 @@ class Case(Shown):
     string
         The sections of a string in SI units, from the bottom up; ``rod`` is then a rod of the longest section's data
         and the whole length. None of a uniform rod.
+    pairs
+        Where the clearance has steps, the pieces of the rod between them, from s = 0: what lies beside what.
     """
 
     title: str
@@ -113,6 +117,7 @@ class Case(Shown):
     gravity: float = 9.80665
     about: About = NOBODY
     string: PhysicalString | None = None
+    pairs: tuple[Pair, ...] = ()
     off_wall: bool = True
     wall_stiffness: float = math.inf
 
@@ -189,6 +194,7 @@ class Case(Shown):
         if "string" in data:  # [rod] has what belongs to the whole only
             beside = whole.pop("rod", {})
             check_beside(beside, data["string"])
+        hole_parts, whole = split_hole(whole, source)
         try:
             parsed = schema.CaseFile.model_validate(whole)
         except ValidationError as error:
@@ -197,7 +203,7 @@ class Case(Shown):
             string_rod = string_rod_of(beside, source)
         files = parsed.catalogue
         catalogue = package_catalogue() if files is None else read_catalogue(files.files, folder)
-        return _assemble(parsed, data, source, text, catalogue, string_rod, folder)
+        return _assemble(parsed, data, source, text, catalogue, string_rod, folder, hole_parts)
 
 
 def _uncertain(
@@ -229,6 +235,7 @@ def _assemble(
     catalogue: Catalogue,
     string_rod: schema.StringRod | None,
     folder: Path,
+    hole_parts: tuple[HoleSectionInput, ...],
 ) -> Case:
     if parsed.title is not None and len(parsed.title) > LONGEST_TITLE:
         raise InputError("title", parsed.title, f"must have at most {LONGEST_TITLE} characters")
@@ -251,11 +258,11 @@ def _assemble(
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
-        found = _plausible(parsed, load, catalogue, data, source, string_rod, folder)
+        found = _plausible(parsed, load, catalogue, data, source, string_rod, folder, hole_parts)
         check_loads(parsed.load, found.problem, found.applied)
         case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
-                    supports=parsed.supports, gravity=found.gravity, string=found.string,
+                    supports=parsed.supports, gravity=found.gravity, string=found.string, pairs=found.pairs,
                     wall_stiffness=found.wall_stiffness, **common)  # fmt: skip
     else:
         problem, until, applied = dimensionless(parsed.dimensionless, load)
@@ -276,10 +283,11 @@ def _plausible(
     source: str,
     string_rod: schema.StringRod | None,
     folder: Path,
+    hole_parts: tuple[HoleSectionInput, ...],
 ) -> Physical:
     """The case made dimensionless; what is not plausible stops it, beside what does not fit."""
     try:
-        found = physical(parsed, load, catalogue, string_rod, folder)
+        found = physical(parsed, load, catalogue, string_rod, folder, hole_parts)
     except InputError as error:
         odd = implausible(parsed, load, None, data) if parsed.plausible is not False else []
         mine = [what for key, _, what in odd if key == error.field]

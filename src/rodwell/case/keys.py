@@ -96,7 +96,10 @@ def keys_named(name: str) -> tuple[Key, ...]:
         If there is no such section or key, with the nearest, or with what is written instead.
     """
     asked = name.strip().strip("[]")
-    section, _, key = asked.partition(".")
+    listed = "hole.section"  # the one section whose name has a dot
+    section, _, key = (listed, "", asked[len(listed) + 1 :]) if f"{asked}.".startswith(f"{listed}.") else (
+        asked.partition(".")
+    )  # fmt: skip
     section = plain(section)
     if not key:
         if section == TOP or section in SECTIONS:

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from rodwell.case import schema
 from rodwell.case.checks.explain import explain
+from rodwell.case.hole.sections import HoleSectionInput, called, check_parts
 from rodwell.errors import InputError, printable
 
 MOST_LINES = 25
@@ -33,6 +34,24 @@ def string_rod_of(given: Any, source: str) -> schema.StringRod:
     except ValidationError as error:
         problems = [(f"rod.{key}", value, what) for key, value, what in explain(error, within=("rod",))]
         raise CaseError(source, problems) from None
+
+
+def split_hole(data: Mapping[str, Any], source: str) -> tuple[tuple[HoleSectionInput, ...], dict[str, Any]]:
+    """[[hole.section]], and the data of a case without them."""
+    hole = data.get("hole")
+    if not isinstance(hole, Mapping) or "section" not in hole:
+        return (), dict(data)
+    check_parts(hole["section"])
+    out, problems = [], []
+    for number, part in enumerate(hole["section"]):
+        try:
+            out.append(HoleSectionInput.model_validate(part))
+        except ValidationError as error:
+            found = explain(error, within=("hole.section", number))
+            problems += [(f"{called(number + 1)}.{key}", value, what) for key, value, what in found]
+    if problems:
+        raise CaseError(source, problems)
+    return tuple(out), {**data, "hole": {key: value for key, value in hole.items() if key != "section"}}
 
 
 def load_of(

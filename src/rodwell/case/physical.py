@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
+from rodwell.case.beside import Pair, pairs_of, reference, sections_of, stepped
 from rodwell.case.catalogue import Catalogue
 from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, fluid_facts, fluids_of, weight_in
 from rodwell.case.hole.lie import Lie, lie_of
 from rodwell.case.hole.schema import Hole
+from rodwell.case.hole.sections import WHOLE, HoleSectionInput, parts_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.sections import PhysicalString, check_length, clearance_of, string_of
+from rodwell.case.sections import PhysicalString, check_length, string_of
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
@@ -41,6 +44,7 @@ class Physical:
     facts: tuple[Fact, ...]
     string: PhysicalString | None = None
     wall_stiffness: float = math.inf
+    pairs: tuple[Pair, ...] = ()
 
 
 def physical(
@@ -49,10 +53,11 @@ def physical(
     catalogue: Catalogue,
     string_rod: schema.StringRod | None = None,
     folder: Path = Path(),
+    hole_parts: Sequence[HoleSectionInput] = (),
 ) -> Physical:
     """Return the dimensionless problem of a case with dimensions, and what it was made from.
 
-    ``string_rod`` is [rod] beside [[string]]; surveys are sought from ``folder``.
+    ``string_rod`` is [rod] beside [[string]], ``hole_parts`` are [[hole.section]]; surveys are sought from ``folder``.
 
     Raises
     ------
@@ -69,35 +74,30 @@ def physical(
         string, fluids = string_of(parsed.string or (), hole, parsed.mud, parsed.pressure, catalogue)
         check_length(string, string_rod.length)
         rod, weight = string.whole, string.weight
-        clearance = clearance_of(string, hole, lambda one: _clearance(one, hole))
     else:
         assert parsed.rod is not None
         rod = physical_rod(parsed.rod, hole.gravity, catalogue, parsed.rod.length)
         fluids = fluids_of(parsed.mud, parsed.pressure, rod)
         weight = weight_in(fluids, rod, hole.gravity)
-        clearance = _clearance(rod, hole)
-    if clearance >= rod.length:
-        raise InputError(
-            "hole.clearance" if hole.clearance else "hole.diameter",
-            hole.clearance or hole.diameter,
-            f"leaves a clearance of {clearance:g} m, which must be below the rod's length of {rod.length:g} m",
-        )
-    if clearance < SMALLEST_CLEARANCE * rod.length:
-        raise InputError(
-            "hole.clearance" if hole.clearance else "hole.diameter",
-            hole.clearance or hole.diameter,
-            f"leaves a clearance of {clearance:.3g} m, {clearance / rod.length:.1g} of the rod's length; at least "
-            f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
-        )
+    pairs = pairs_of(rod, string, hole, parts_of(hole_parts, hole, rod.length))
+    clearance = reference(pairs)
+    for pair in pairs:
+        _check_clearance(pair, hole, rod.length)
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
     scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
     lie = lie_of(hole, rod.length, folder)
-    problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string, lie)
+    problem = _problem(given.ends, rod, hole, scales, weight, pairs, load.twist, string, lie)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
     else:
         facts = [*string.facts(), Fact("mean weight per length mg, in the fluids", weight, "force_per_length")]
-    facts += [Fact("clearance Δ, from axis to axis", clearance, "length", _clearance_from(hole)), *lie.facts]
+    if stepped(pairs):
+        facts += [
+            Fact(f"clearance, from axis to axis: {pair.name}", pair.clearance, "length",
+                 f"s/L = {pair.start:.4g} to {pair.end:.4g}") for pair in pairs
+        ]  # fmt: skip
+    note = "of the longest piece" if stepped(pairs) else _clearance_from(hole, string is None)
+    facts += [Fact("clearance Δ, from axis to axis", clearance, "length", note), *lie.facts]
     if hole.wall_stiffness is not None:
         facts.append(Fact("stiffness of the wall", hole.wall_stiffness, "stress", RIGID_ELSEWHERE))
     if parsed.packer is not None:
@@ -106,7 +106,29 @@ def physical(
     until, applied, how = _end_force(load, parsed, problem, scales, replace(at_end, length=rod.length), fluids,
                                     lie.height)  # fmt: skip
     wall = math.inf if hole.wall_stiffness is None else hole.wall_stiffness / scales.factor("stress")
-    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall)
+    pieces = pairs if stepped(pairs) else ()
+    if pieces and problem.floats:
+        what = "carries a rod that floats, which is not computed where the clearance has steps"
+        raise InputError("mud.outside", None, what)
+    if pieces and hole.wall_stiffness is not None:
+        what = "is not computed where the clearance has steps: leave it out (a rigid wall), or give one clearance"
+        raise InputError("hole.wall_stiffness", hole.wall_stiffness, what)
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall, pieces)
+
+
+def _check_clearance(pair: Pair, hole: Hole, length: float) -> None:
+    """Refuse a clearance that is no part of the rod's length."""
+    clearance, where = pair.clearance, "" if pair.name == WHOLE else f" beside {pair.name}"
+    field, value = ("hole.clearance", hole.clearance) if hole.clearance else ("hole.diameter", pair.part.diameter)
+    if clearance >= length:
+        what = f"leaves a clearance of {clearance:g} m{where}, which must be below the rod's length of {length:g} m"
+        raise InputError(field, value, what)
+    if clearance < SMALLEST_CLEARANCE * length:
+        raise InputError(
+            field, value,
+            f"leaves a clearance of {clearance:.3g} m{where}, {clearance / length:.1g} of the rod's length; at least "
+            f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
+        )  # fmt: skip
 
 
 def _problem(
@@ -115,12 +137,13 @@ def _problem(
     hole: Hole,
     scales: Scales,
     weight: float,
-    clearance: float,
+    pairs: tuple[Pair, ...],
     twist: float,
     string: PhysicalString | None,
     lie: Lie,
 ) -> Problem:
     """The problem in units B = L = 1; errors in the names of the case file."""
+    clearance = reference(pairs)
     try:
         return Problem(
             weight=abs(weight) / scales.factor("force_per_length"),
@@ -134,13 +157,16 @@ def _problem(
             torsion=rod.torsion,
             twist=twist / scales.factor("moment"),
             ends=checked_ends(ends),
-            sections=() if string is None else string.sections,
+            sections=sections_of(pairs, string),
         )
     except InputError as error:
-        if string is not None and error.field.startswith("section "):
+        if error.field.startswith("section "):
             number, _, ratio = error.field.removeprefix("section ").partition(", ")
             what = f"is {error.value:g} times that of the string, which {error.reason}: check the units of the section"
-            raise InputError(f"{string.members[int(number) - 1].key}, {ratio}", None, what) from None
+            keys = [one.key for one in string.members] if string is not None and not stepped(pairs) else [
+                pair.name for pair in pairs
+            ]  # fmt: skip
+            raise InputError(f"{keys[int(number) - 1]}, {ratio}", None, what) from None
         names = {
             "weight": "rod.length",
             "poisson": "rod.poisson",
@@ -228,23 +254,6 @@ def check_force_words(load: schema.LoadInput | schema.DimensionlessLoad) -> None
             )
 
 
-def _clearance_from(hole: Hole) -> str:
-    return "as given" if hole.diameter is None else "half of hole.diameter less the rod's outer diameter"
-
-
-def _clearance(rod: PhysicalRod, hole: Hole) -> float:
-    if hole.clearance is not None:
-        if hole.diameter is not None:
-            raise InputError("hole.clearance", None, "contradicts hole.diameter: give only one of the two")
-        return hole.clearance
-    if hole.diameter is None:
-        raise InputError("hole.diameter", None, "is missing: give it, or hole.clearance (from axis to axis)")
-    if rod.outer_diameter is None:
-        raise InputError("rod.outer_diameter", None, "is missing: it is needed with hole.diameter")
-    if rod.outer_diameter >= hole.diameter:
-        raise InputError(
-            "hole.diameter",
-            hole.diameter,
-            f"must be above the rod's outer diameter of {rod.outer_diameter:g} m: the rod does not fit",
-        )
-    return 0.5 * (hole.diameter - rod.outer_diameter)
+def _clearance_from(hole: Hole, one_rod: bool) -> str:
+    of_rod = "the rod's outer diameter" if one_rod else "the outer diameter of a section"
+    return "as given" if hole.clearance is not None else f"half of the hole's diameter less {of_rod}"

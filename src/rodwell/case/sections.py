@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,7 +17,7 @@ from rodwell.errors import InputError
 from rodwell.problem.rod import Section
 
 EQUAL = 1e-9
-"""Relative difference of lengths, and of clearances, that counts as none."""
+"""Relative difference of lengths that counts as none."""
 
 BESIDE = ("ends", "length")
 """Keys of [rod] that may stand beside [[string]]."""
@@ -188,27 +188,6 @@ def check_length(string: PhysicalString, length: float | None) -> None:
         parts = " + ".join(f"{one.rod.length:.6g}" for one in string.members)
         what = f"is not that of the sections, {parts} = {string.length:.6g} m: correct one, or leave rod.length out"
         raise InputError("rod.length", length, what)
-
-
-def clearance_of(string: PhysicalString, hole: Hole, of_one: Callable[[PhysicalRod], float]) -> float:
-    """The clearance Δ in m, which all sections must share; ``of_one`` gives that of a section."""
-    found = []
-    for one in string.members:
-        outer = one.rod.outer_diameter
-        if hole.diameter is not None and outer is not None and outer >= hole.diameter:
-            what = f"must be below the hole's diameter of {hole.diameter:g} m: the section does not fit"
-            raise InputError(f"{one.key}.outer_diameter", outer, what)
-        with _as_section(one.number, one.name):
-            found.append(of_one(one.rod))
-    if max(found) - min(found) > EQUAL * max(found):
-        shown = ", ".join(f"{size:.4g} m ({one.name})" for size, one in zip(found, string.members, strict=True))
-        what = (
-            f"leaves a different clearance beside each section: {shown}. A step of the clearance lifts the string off "
-            "the wall beside it, and this is the theory of a rod on the wall: give hole.clearance, that of the part "
-            "that matters"
-        )
-        raise InputError("hole.diameter", hole.diameter, what)
-    return found[0]
 
 
 def _length(one: schema.StringInput) -> float:

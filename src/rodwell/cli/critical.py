@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
 from rodwell.cli.critical_in_hole import lying_numbers, show_lying
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
@@ -35,12 +36,18 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows: with the
     wall's help, and without. Twist does not enter as long as lateral weight presses the rod to the wall; where nothing
     does, and without the wall's help, it makes the rod buckle earlier. In a curved hole (--build): loads of both signs,
-    and where the wall would have to pull the rod that lies along it.
+    and where the wall would have to pull the rod that lies along it. Where --sections have several clearances: the
+    first load at which the string that bridges their steps buckles sideways.
     """
     from rodwell.analysis.straight.critical import critical_loads, tensile_loads  # noqa: PLC0415
     from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
+    if problem.bridges:
+        path = first_buckling(problem, rtol)
+        keep(where, lambda: bridged_numbers(path), quiet=as_json)
+        show_bridged(path, rtol, as_json)
+        return
     loads = critical_loads(problem, modes, rtol=rtol)
     if problem.hole is not None:
         tensile = tensile_loads(problem, modes, rtol=rtol)

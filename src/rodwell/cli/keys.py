@@ -44,7 +44,7 @@ def _print(section: str, listed: list[Key]) -> None:
     if section == TOP:
         click.secho(purpose(section), bold=True)
     else:
-        click.secho("[[string]]" if section == "string" else f"[{section}]", bold=True)
+        click.secho(f"[[{section}]]" if section in ("string", "hole.section") else f"[{section}]", bold=True)
         wrapped(purpose(section))
     click.echo()
     for key in listed:

@@ -27,12 +27,20 @@ from rodwell.errors import InputError
 from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
+    from rodwell.analysis.off_wall.state import ContactState
     from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.case.case import Case
+    from rodwell.problem.problem import Problem
     from rodwell.quantities.value import Value
 
 UNIT = "B/L²"
+
+WHERE = {
+    "point": "at a point of contact", "end": "at the end of a stretch in contact",
+    "edge": "at the edge of a narrower part of the hole",
+}  # fmt: skip
+"""Where a point force acts, in words."""
 
 
 @click.command(short_help="The load path off the wall: lift-off, partial contact, snap, helix, and back.")
@@ -41,7 +49,7 @@ UNIT = "B/L²"
 @click.option(
     "--until",
     help='End force at s = 1 (tension positive) to load the rod to; of a CASE with its unit, "-130 kN".  [default: of '
-    "a CASE to and back from where `rodwell run` goes]",
+    "a CASE to and back from where `rodwell run` goes; where the clearance has steps, until the rod buckles]",
 )
 @click.option("--unload-to", help="End force to unload it to afterwards.")
 @click.option("--at", help="End forces, separated by commas, at which states are shown.")
@@ -89,7 +97,7 @@ def path(
 
     read = _case(case)
     problem, rtol = (make_problem(given), rtol) if read is None else (read.problem, _tolerance(read, rtol))
-    begin, back = _range(read, until, unload_to, control)
+    begin, back = _range(problem, read, until, unload_to, control)
     forces = [_number("--at", part, read, control) for part in at.split(",")] if at else []
     if wall_stiffness is None:
         wall_stiffness = math.inf if read is None else read.wall_stiffness
@@ -97,7 +105,7 @@ def path(
         from rodwell.store.folder import check_writable  # noqa: PLC0415
 
         check_writable(out)
-    span = abs(begin) + 1e-12
+    span = abs(-100.0 if begin is None else begin) + 1e-12
 
     with progress_bar(not as_json, "buckling") as tell:
         result = load_path(
@@ -156,12 +164,13 @@ def _tolerance(case: Case, rtol: float) -> float:
     return rtol if source == ParameterSource.COMMANDLINE else case.rtol
 
 
-def _range(case: Case | None, until: str | None, back: str | None, control: str) -> tuple[float, float | None]:
-    """Where the path goes, and comes back to: as asked, or, of a case, as its report goes."""
-    if until is not None:
-        return _number("--until", until, case, control), (
-            None if back is None else _number("--unload-to", back, case, control)
-        )
+def _range(
+    problem: Problem, case: Case | None, until: str | None, back: str | None, control: str
+) -> tuple[float | None, float | None]:
+    """Where the path goes, and comes back to: as asked, or, of a case, as its report goes; None: until it buckles."""
+    if until is not None or problem.bridges:
+        far = None if until is None else _number("--until", until, case, control)
+        return far, None if back is None else _number("--unload-to", back, case, control)
     if case is None or control != "force":
         raise click.UsageError("Missing option '--until'.")
     from rodwell.answers.result.beyond import reach  # noqa: PLC0415
@@ -251,6 +260,14 @@ def _print_state(shown: PathState) -> None:
     stable = f"stable{held}" if index == 0 else f"unstable{held}, index {index}"
     click.echo(f"\nF = {signed(state.force, 10)}, {shown.leg}: {state.kind}, {stable}")
     click.echo(f"  energy {with_error(state.energy, 9)} B/L, shortening {amount(state.shortening, 9)} L")
+    print_contacts(state)
+    check = state.certificate
+    passed = f"{'passed' if check.passed else 'NOT passed'}, {error_digit(check.worst)}"
+    click.echo(f"  all contact forces {amount(state.contact_total, 7)} {UNIT}; certificate {passed}")
+
+
+def print_contacts(state: ContactState) -> None:
+    """Gaps, stretches in contact and point forces of a state, a line each."""
     for gap in state.gaps:
         size = f"{amount(gap.largest, 6)} Δ at s/L = {plain(gap.at, 5)}"
         click.echo(f"  gap      {_place(gap.start)} to {_place(gap.end)}   {size}")
@@ -258,8 +275,5 @@ def _print_state(shown: PathState) -> None:
         force = f"{amount(contact.force, 6)} {UNIT}"
         click.echo(f"  contact  {_place(contact.start)} to {_place(contact.end)}   {force} spread along it")
     for point in state.point_forces:
-        what = "at a point of contact" if point.kind == "point" else "at the end of a stretch in contact"
+        what = WHERE[point.kind]
         click.echo(f"  force    {_place(point.s)}              {amount(point.force, 6)} {UNIT} {what}")
-    check = state.certificate
-    passed = f"{'passed' if check.passed else 'NOT passed'}, {error_digit(check.worst)}"
-    click.echo(f"  all contact forces {amount(state.contact_total, 7)} {UNIT}; certificate {passed}")

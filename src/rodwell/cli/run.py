@@ -76,6 +76,11 @@ def run(
         return
     read = Case.read(text).in_units(units)
     check_writable(folder)
+    if read.problem.bridges:
+        from rodwell.cli.run_bridged import run_bridged  # noqa: PLC0415
+
+        run_bridged(read, folder, as_json=as_json, quiet=quiet, with_pdf=with_pdf)
+        return
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.folders.beside import beside, drawing  # noqa: PLC0415
 

@@ -89,7 +89,9 @@ class Problem:
         A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
         adding up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
-        ``poisson`` give C of torsion ratio 1. The clearance ratio must be 1. None given: a uniform rod.
+        ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
+        steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
+        computed of rods that stay on the wall is refused. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -147,6 +149,8 @@ class Problem:
                 raise InputError(flag, getattr(self, flag), "must be True or False")
         object.__setattr__(self, "ends", checked_ends(self.ends))
         object.__setattr__(self, "sections", checked_sections(self.sections))
+        if self.sections:
+            self._take_clearance()
         if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
             allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
             raise InputError("clearance", self.clearance, allowed)
@@ -169,6 +173,20 @@ class Problem:
                 InputWarning,
                 stacklevel=3,
             )
+
+    def _take_clearance(self) -> None:
+        """Take a clearance ratio that all sections share into the clearance, and check those of the others."""
+        ratios = [section[3] for section in self.sections]
+        if min(ratios) == max(ratios) != 1.0:
+            object.__setattr__(self, "clearance", self.clearance * ratios[0])
+            same = [(*section[:3], 1.0, section[4]) for section in self.sections]
+            object.__setattr__(self, "sections", checked_sections(same))
+            return
+        for number, ratio in enumerate(ratios, 1):
+            if not SMALLEST_CLEARANCE <= ratio * self.clearance < 1.0:
+                what = f"makes its clearance {ratio * self.clearance:g} L: must be above 0 and below 1, a part of the "
+                what += f"rod's length (at least {SMALLEST_CLEARANCE:g})"
+                raise InputError(f"section {number}, clearance", ratio, what)
 
     def _check_ends(self) -> None:
         """Refuse what the ends cannot hold."""
@@ -226,6 +244,22 @@ class Problem:
             name = "axis" if self.axis else "build" if self.build != 0.0 else "walk"
             value = f"{len(self.axis)} points" if self.axis else getattr(self, name)
             raise InputError(name, value, f"must be left out: {what} in straight holes only")
+
+    @cached_property
+    def bridges(self) -> bool:
+        """Whether the clearance has steps, over which a string leaves the wall."""
+        return bool(self.sections) and self.rod.clearance_steps.size > 0
+
+    def refuse_bridges(self, what: str) -> None:
+        """Raise where the clearance has steps: ``what`` are computed of rods that stay on the wall."""
+        if self.bridges:
+            ratios = " + ".join(f"{section[3]:g}" for section in self.sections[:6])
+            raise InputError(
+                "sections", f"clearance ratios {ratios}" + (" + …" if len(self.sections) > 6 else ""),
+                f"must have one clearance: {what} are those of a rod that stays on the wall, and a string bridges "
+                "steps of the clearance, off the wall. How it lies there, and when it buckles: `rodwell run` "
+                "of a case; `rodwell path`, `rodwell critical`, rodwell.load_path",
+            )  # fmt: skip
 
     @property
     def holds_angle(self) -> bool:

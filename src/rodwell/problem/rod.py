@@ -100,6 +100,17 @@ class Rod:
         return Profile(self.breaks, self._ratios(4)[:, None])
 
     @cached_property
+    def clearance(self) -> Profile:
+        """Δ(s)/Δ, of the hole beside each section."""
+        return Profile(self.breaks, self._ratios(3)[:, None])
+
+    @cached_property
+    def clearance_steps(self) -> FloatArray:
+        """Where the clearance has a step, (k,), in L: the string bridges it, off the wall."""
+        clearance = self._ratios(3)
+        return np.asarray(self.breaks[1:-1][clearance[1:] != clearance[:-1]])
+
+    @cached_property
     def turned(self) -> Profile:
         """∫₀ˢ ds/(C(s)/C), in L: how far a torque along the whole rod has turned it, over what it turns C by in L."""
         softness = 1.0 / self._ratios(4)
@@ -215,11 +226,4 @@ def _checked(section: object, number: int) -> Section:
         low = 0.0 if name == "weight" else SMALLEST_RATIO
         allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
         ratios.append(checked_number(f"section {number}, {name}", value, low, LARGEST_RATIO, allowed))
-    if ratios[2] != 1.0:
-        raise InputError(
-            f"section {number}, clearance",
-            ratios[2],
-            "must be 1: where the clearance changes along the rod it bridges the step, off the wall, and this is the "
-            "theory of a rod that stays on it; take the clearance of the part that matters, or the largest",
-        )
     return (length, ratios[0], ratios[1], ratios[2], ratios[3])

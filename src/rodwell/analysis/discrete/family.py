@@ -144,6 +144,7 @@ def family(
         If the rod would leave the wall at its ends.
     """
     refuse_off_wall(problem.ends, "buckled states")
+    problem.refuse_bridges("buckled states")
     line = path(problem, parameter, force)
     along = throughout(problem, parameter)
     return Family(

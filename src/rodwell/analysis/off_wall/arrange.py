@@ -28,8 +28,8 @@ SOFT_WALL = 2.0
 def wavenumbers(model: RodInHole, load: float) -> FloatArray:
     """√(|N|/b) at its largest in each section (n,), of a beam column, at least that of a beam bedded on the wall."""
     problem = model.problem
-    (b, q, d), breaks = model.given.T, problem.rod.breaks
-    wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance))
+    (b, q, d, radius), breaks = model.given.T, problem.rod.breaks
+    wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius))
     if model.soft:
         bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))
     ends = np.stack([load + wa * (d + q * (s - 1.0)) for s in (breaks[:-1], breaks[1:])])

@@ -5,7 +5,7 @@ The solver makes an energy stationary. Here the internal force is rebuilt from t
 
 * along a free stretch n(b) − n(a) = ∫ wₗ i + wₐ k ds,
 * along a stretch in contact the same with p d₁, p from the formula of the rod kept on the wall,
-* at each break n jumps by −P d₁: P by the jump against P by virtual work, and nothing in any other direction.
+* at each point force n jumps by −P d₁: P by the jump against P by virtual work, and nothing in any other direction.
 
 Complementarity: no penetration, no contact that pulls.
 """
@@ -80,12 +80,11 @@ class ContactCertificate:
 
 def contact_certificate(state: PatternedState) -> ContactCertificate:
     """Evaluate the certificate of a state."""
-    problem, bounds = state.model.problem, state.bounds
+    problem, points = state.model.problem, state.point_forces
     scale = max(abs(state.load), problem.weight, 1.0)
     free, touching, routes, across = 0.0, 0.0, 0.0, 0.0
     ends = []
-    for i, on in enumerate(state.touching):
-        left, right = bounds[i : i + 2]
+    for left, right, on in _parts(state):
         inset = INSET * (right - left)
         places = np.linspace(left + inset, right - inset, PANELS + 1)
         n, _ = _force(state, places)
@@ -95,11 +94,11 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
         else:
             free = max(free, float(np.max(np.abs(np.diff(n, axis=1) - load))))
         ends.append((n[:, 0], n[:, -1]))
-    for i in range(state.pattern.breaks):
+    for i, (place, outward, _) in enumerate(points):
         jump = ends[i + 1][0] - ends[i][1]
-        x, y, _ = position(state, bounds[i + 1 : i + 2])
-        inward = -np.array([x[0, 0], y[0, 0], 0.0]) / problem.clearance
-        force = problem.clearance * float(state.solved.forces[i])
+        x, y, _ = position(state, np.array([place]))
+        inward = -np.array([x[0, 0], y[0, 0], 0.0]) / float(np.hypot(x[0, 0], y[0, 0]))
+        force = problem.clearance * outward
         routes = max(routes, abs(float(-jump @ inward) - force))
         across = max(across, float(np.max(np.abs(jump - (jump @ inward) * inward))))
     residuals = {
@@ -109,6 +108,13 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
         "jumps across the wall's normal": across / scale,
     }
     return ContactCertificate(residuals, _penetration(state), *_least(state))
+
+
+def _parts(state: PatternedState) -> list[tuple[float, float, bool]]:
+    """Stretches, parted at edges: from where to where, and whether in contact."""
+    bounds = np.union1d(state.bounds, state.pattern.edges)
+    owner = np.searchsorted(state.bounds, bounds[:-1], side="right") - 1
+    return [(left, right, state.touching[i]) for left, right, i in zip(bounds[:-1], bounds[1:], owner, strict=True)]
 
 
 def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -148,12 +154,13 @@ def _penetration(state: PatternedState) -> float:
         if not on:
             s = np.linspace(float(state.bounds[i]), float(state.bounds[i + 1]), 400)
             x, y, _ = position(state, s)
-            deepest = max(deepest, float(np.max(np.hypot(x[0], y[0]))) / state.model.problem.clearance - 1.0)
+            r = np.hypot(x[0], y[0]) / state.problem.clearance
+            deepest = max(deepest, float(np.max(r - state.problem.rod.clearance(s))))
     return max(deepest, 0.0)
 
 
 def _least(state: PatternedState) -> tuple[float, float]:
     """Least concentrated force, and least contact force per length."""
-    forces = state.model.problem.clearance * state.solved.forces
+    forces = state.problem.clearance * np.array([force for _, force, _ in state.point_forces])
     pressing = [one.value for one in conditions(state) if one.kind == OPENS]
     return float(np.min(forces, initial=np.inf)), float(min(pressing, default=np.inf))

@@ -14,12 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import solved, wavenumber
-from rodwell.analysis.off_wall.bumps import beside, lowered, within
+from rodwell.analysis.off_wall.bumps import beside, lowered, sides, within
 from rodwell.analysis.off_wall.conditions import (
     BESIDE_STEP,
     CROSSES,
     GROWS,
     GROWS_AT_END,
+    LEAVES_EDGE,
     LOST,
     OPENS,
     TOUCHES,
@@ -31,7 +32,7 @@ from rodwell.analysis.off_wall.conditions import (
 )
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.plan import Plan
-from rodwell.analysis.off_wall.steps import cross, open_at, release
+from rodwell.analysis.off_wall.steps import cross, edge_at, open_at, release
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
 
@@ -51,7 +52,8 @@ HALVINGS, ROUNDS = 5, 3
 """Sizes of a first gap, each half the one before; and how often others that would open next open with it."""
 
 NAMES = {OPENS: "gap_opens", TOUCHES: "touches", LOST: "contact_lost", GROWS: "contact_line",
-         SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens", CROSSES: ""}  # fmt: skip
+         SPLITS: "contact_splits", GROWS_AT_END: "contact_line", UNHELD: "gap_opens", CROSSES: "",
+         LEAVES_EDGE: "contact_lost"}  # fmt: skip
 """What a change is called along a path; that an end of a stretch passes a step of a string is no event."""
 
 
@@ -70,15 +72,18 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
     ``part``: of the first length that a gap usually starts with.
     """
     first, vanished, last = vanished[0], list(vanished), None
+    if any(one.kind == CROSSES and edge_at(state, one.s) is not None for one in vanished):
+        return None  # contact up to the very edge of a narrower part would need a couple
     size = part * FIRST_GAP / wavenumber(state.model, state.load)
     for _ in range(ROUNDS):
         spots: list[float] = []
         for halved in range(HALVINGS):
             half, contact = size * 0.5**halved, max(2.2 * FIRST_CONTACT * 0.5**halved, SHORTEST_CONTACT)
-            plan = Plan(state, half, contact, list(state.pattern.touching), list(state.solved.shape.breaks))
+            pattern, breaks = state.pattern, list(state.solved.shape.breaks)
+            plan = Plan(state, half, contact, list(pattern.touching), breaks, list(pattern.edges))
             for condition in sorted(vanished, key=lambda one: -one.s):
                 _EDITS[condition.kind](plan, condition)
-            pattern = replace(state.pattern, touching=tuple(plan.touching))
+            pattern = replace(pattern, touching=tuple(plan.touching), edges=tuple(sorted(plan.edges)))
             sample = lowered(sampler(state.solved.shape), plan.bumps)
             found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
             if found is None:
@@ -108,7 +113,7 @@ def _next(state: PatternedState, vanished: list[Condition], spots: list[float], 
 
 def _just_now(condition: Condition) -> bool:
     """Whether a condition is as good as met: contact without force, a gap without curvature."""
-    return condition.kind in (LOST, GROWS, GROWS_AT_END) and condition.value > -1e-6
+    return condition.kind in (LOST, GROWS, GROWS_AT_END, LEAVES_EDGE) and condition.value > -1e-6
 
 
 def _growing(first: Condition, found: PatternedState, plan: Plan) -> Callable[[Solved], float]:
@@ -117,10 +122,15 @@ def _growing(first: Condition, found: PatternedState, plan: Plan) -> Callable[[S
         low, high = plan.fixed
         return lambda one: _place(one, high) - _place(one, low)
     place = first.s
+    edge = edge_at(found, place)
+    if first.kind == TOUCHES and edge is not None:
+        number = found.pattern.edges.index(edge)
+        return lambda one: float(PatternedState(found.pattern, found.elements, one).edge_forces[number])
     if first.kind == TOUCHES:
         point = int(np.argmin(np.abs(found.solved.shape.breaks - place)))
         return lambda one: float(one.forces[point])
-    return lambda one: 1.0 - float(np.hypot(*sampler(one.shape)(np.array([place]))[0][:, 0, 0]))
+    radius = float(np.min(found.problem.rod.clearance(sides(place))))
+    return lambda one: radius - float(np.hypot(*sampler(one.shape)(np.array([place]))[0][:, 0, 0]))
 
 
 def _place(one: Solved, number: int) -> float:
@@ -152,7 +162,11 @@ def _open(plan: Plan, condition: Condition) -> None:
 
 
 def _touch(plan: Plan, condition: Condition) -> None:
-    """The rod reaches the wall within a free stretch: a point of contact, without force at first."""
+    """The rod reaches the wall within a free stretch: a point of contact, or an edge, without force at first."""
+    edge = edge_at(plan.state, condition.s)
+    if edge is not None:
+        plan.edges.append(edge)
+        return
     plan.touching[condition.number : condition.number + 1] = [False, False]
     plan.breaks.insert(condition.number, condition.s)
 
@@ -160,6 +174,11 @@ def _touch(plan: Plan, condition: Condition) -> None:
 def _lose(plan: Plan, condition: Condition) -> None:
     """A point of contact without force leaves the wall."""
     del plan.touching[condition.number], plan.breaks[condition.number]
+
+
+def _leave_edge(plan: Plan, condition: Condition) -> None:
+    """The rod leaves an edge that no longer pushes."""
+    plan.edges.remove(condition.s)
 
 
 def _grow(plan: Plan, condition: Condition) -> None:
@@ -212,7 +231,7 @@ def _release(plan: Plan, condition: Condition) -> None:
 
 
 _EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _grow, SPLITS: _split,
-          GROWS_AT_END: _grow_at_end, CROSSES: cross}  # fmt: skip
+          GROWS_AT_END: _grow_at_end, CROSSES: cross, LEAVES_EDGE: _leave_edge}  # fmt: skip
 
 
 def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:

@@ -9,7 +9,8 @@ Where one of them vanishes along a path the pattern of contact changes:
 * at an end that is not radially held a rod in contact does not turn around the wall, since nothing bears the radial
   moment that this takes: else it leaves the wall there; nor where its stiffness has a step,
 * the rod nowhere reaches the wall within a free stretch: else it touches there,
-* ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them.
+* ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them,
+* the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -24,14 +26,14 @@ import numpy as np
 from rodwell.analysis.off_wall.depth import Piece, contact_pieces
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Elements, Pattern
-from rodwell.numerics.stretches.chain import ANGLE_RATE
+from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "grows_at_end", "touches", "leaves"
-UNHELD, CROSSES = "unheld", "crosses"
+UNHELD, CROSSES, LEAVES_EDGE = "unheld", "crosses", "leaves_edge"
 
 PER_ELEMENT = 12
 """Places in an element at which pressure and gap are looked at first."""
@@ -112,6 +114,19 @@ class PatternedState:
             return np.array([piece.left for piece in self.pieces] + [1.0])
         return np.concatenate([[0.0], self.solved.shape.breaks, [1.0]])
 
+    @cached_property
+    def edge_forces(self) -> FloatArray:
+        """Outward forces on the edges that the rod touches, (k,), from s = 0, in the unit of the others."""
+        return np.asarray(-self.solved.out.plain[self.solved.shape.chain.edges, RADIUS])
+
+    @property
+    def point_forces(self) -> list[tuple[float, float, str]]:
+        """Places and outward forces of concentrated contact, from s = 0: at "end"s of stretches, "point"s, "edge"s."""
+        kinds = ["point" if self.pattern.is_point(i) else "end" for i in range(self.pattern.breaks)]
+        found = list(zip(map(float, self.solved.shape.breaks), map(float, self.solved.forces), kinds, strict=True))
+        found += [(s, float(force), "edge") for s, force in zip(self.pattern.edges, self.edge_forces, strict=True)]
+        return sorted(found)
+
     def elements_of(self, stretch: int) -> range:
         """Numbers of the elements of a stretch."""
         first = sum(map(sum, self.elements[:stretch]))
@@ -132,6 +147,10 @@ def conditions(state: PatternedState) -> list[Condition]:
         if pattern.is_point(i):
             found.append(Condition(GROWS, i, float(solved.openings[i]), place))
     found += [at for last in (False, True) if (at := _at_end(state, last)) is not None]
+    found += [
+        Condition(LEAVES_EDGE, i, float(force), s)
+        for i, (s, force) in enumerate(zip(pattern.edges, state.edge_forces, strict=True))
+    ]
     return found + at_steps(state)
 
 
@@ -219,21 +238,28 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
 def apart(state: PatternedState, stretch: int) -> Condition:
     """The least gap within a free stretch, over the polynomial with which it opens from its ends, and where.
 
-    Positive everywhere if and only if the gap is; unlike the gap itself it does not vanish at the ends.
+    Positive everywhere if and only if the gap is; unlike the gap itself it does not vanish at the ends. An edge that
+    the rod touches parts the stretch.
     """
     left, right = state.bounds[stretch : stretch + 2]
+    ends = [left, *(edge for edge in state.pattern.edges if left < edge < right), right]
+    return min((_apart(state, stretch, *pair) for pair in pairwise(ends)), key=lambda one: one.value)
+
+
+def _apart(state: PatternedState, stretch: int, left: float, right: float) -> Condition:
+    """The same of a part of a stretch between edges."""
     shape, elements = state.solved.shape, np.array(state.elements_of(stretch))
-    powers = [_power(state, stretch, last) for last in (False, True)]
+    powers = [_power(state, stretch, bool(last), end) for last, end in enumerate((left, right))]
     inset = max(EDGE * (right - left), min(WIDEST * (right - left), SHORTEST_EDGE))
     low, high = left + (inset if powers[0] else 0.0), right - (inset if powers[1] else 0.0)
     elements = elements[(shape.places[elements] < high) & (shape.places[elements + 1] > low)]
     start, end = shape.places[elements], shape.places[elements + 1]
-    length = end - start
+    length, radii = end - start, shape.chain.radii[elements, None]
 
     def gap(xi: FloatArray) -> FloatArray:
         x, y = shape.along(elements, xi, 1)[:, 0]
         at = (start[:, None] + length[:, None] * xi - left) / (right - left)
-        return np.asarray((1.0 - np.hypot(x, y)) / (at ** powers[0] * (1.0 - at) ** powers[1]))
+        return np.asarray((radii - np.hypot(x, y)) / (at ** powers[0] * (1.0 - at) ** powers[1]))
 
     inside = (np.maximum(low, start) - start) / length, (np.minimum(high, end) - start) / length
     values, parts = lowest(gap, np.linspace(*inside, PER_ELEMENT + 1, axis=1))
@@ -242,8 +268,13 @@ def apart(state: PatternedState, stretch: int) -> Condition:
     return Condition(TOUCHES, stretch, best, float(start[k] + length[k] * parts[k]))
 
 
-def _power(state: PatternedState, stretch: int, last: bool) -> int:
-    """Like which power of the distance the gap opens at an end of a free stretch."""
+def _power(state: PatternedState, stretch: int, last: bool, place: float) -> int:
+    """Like which power of the distance the gap opens at an end of a free stretch, or at an edge within it."""
+    if place in state.pattern.edges:
+        shape = state.solved.shape
+        node = int(np.searchsorted(shape.places, place))
+        own, beyond = shape.chain.radii[[node - 1, node] if last else [node, node - 1]]
+        return 1 if own < beyond else 0  # in the wider part the rod is a step away from the wall
     neighbour = stretch + (1 if last else -1)
     touching = state.pattern.touching
     if 0 <= neighbour < len(touching):
@@ -273,16 +304,17 @@ def lowest(function: Callable[[FloatArray], FloatArray], xi: FloatArray) -> tupl
 
 def watched(condition: Condition, state: PatternedState) -> float:
     """The value of a condition in another state of the same pattern."""
-    if condition.kind == OPENS:
-        return pressing(state, [condition.number])[0].value
-    if condition.kind == TOUCHES:
-        return apart(state, condition.number).value
-    if condition.kind == GROWS:
-        return float(state.solved.openings[condition.number])
-    if condition.kind == CROSSES or (condition.kind == UNHELD and condition.number > 1):
+    kind, number = condition.kind, condition.number
+    if kind == OPENS:
+        return pressing(state, [number])[0].value
+    if kind == TOUCHES:
+        return apart(state, number).value
+    if kind in (GROWS, LEAVES_EDGE):
+        return float((state.solved.openings if kind == GROWS else state.edge_forces)[number])
+    if kind == CROSSES or (kind == UNHELD and number > 1):
         same = [one for one in at_steps(state) if one[:2] == condition[:2]]
         return same[0].value if same else np.nan
-    if condition.kind in (GROWS_AT_END, UNHELD):
-        at = _at_end(state, bool(condition.number))
+    if kind in (GROWS_AT_END, UNHELD):
+        at = _at_end(state, bool(number))
         return np.nan if at is None else at.value
-    return _pushing(state, condition.number)
+    return _pushing(state, number)

@@ -21,13 +21,14 @@ SAMPLES = 16
 class Numbers(NamedTuple):
     """Numbers of a state, in units B = L = 1, gaps in Δ.
 
-    ``bounds``: ends of the stretches; ``points``: concentrated forces at the breaks; ``stretches``: contact force of
-    each stretch, ∫|p| ds; ``gaps``: the largest gap of each stretch and where.
+    ``bounds``: ends of the stretches; ``point_places``, ``points``: concentrated forces, from s = 0; ``stretches``:
+    contact force of each stretch, ∫|p| ds; ``gaps``: the largest gap of each stretch and where.
     """
 
     energy: float
     shortening: float
     bounds: FloatArray
+    point_places: FloatArray
     points: FloatArray
     stretches: FloatArray
     gaps: FloatArray
@@ -59,9 +60,10 @@ def measured(state: PatternedState) -> Numbers:
                 highest, at = largest, where
         elif largest > 0.0:
             gaps[i], places[i] = largest, where
+    at_points = np.array([one[:2] for one in state.point_forces]).reshape(-1, 2)
     return Numbers(
-        out.energy * d**2, out.energy_by_load * d**2, state.bounds, d * state.solved.forces, forces, gaps, places,
-        highest, at,
+        out.energy * d**2, out.energy_by_load * d**2, state.bounds, at_points[:, 0], d * at_points[:, 1], forces, gaps,
+        places, highest, at,
     )  # fmt: skip
 
 
@@ -87,7 +89,8 @@ def _behind_soft_wall(state: PatternedState) -> Numbers:
                 highest, at = per_depth * largest, where
         else:
             gaps[i], places[i] = largest, where
-    return Numbers(out.energy * d**2, out.energy_by_load * d**2, bounds, np.zeros(0), forces, gaps, places, highest, at)
+    none = np.zeros(0)
+    return Numbers(out.energy * d**2, out.energy_by_load * d**2, bounds, none, none, forces, gaps, places, highest, at)
 
 
 def _farther(shape: Shape, left: FloatArray, length: FloatArray, on: bool) -> Callable[[FloatArray], FloatArray]:
@@ -111,7 +114,7 @@ def _inside(state: PatternedState, elements: IntArray) -> Callable[[FloatArray],
 
     def inside(xi: FloatArray) -> FloatArray:
         x, y = state.solved.shape.along(elements, xi, 1)[:, 0]
-        return np.asarray(np.hypot(x, y) - 1.0)
+        return np.asarray(np.hypot(x, y) - state.solved.shape.chain.radii[elements, None])
 
     return inside
 
@@ -126,8 +129,9 @@ def position(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArr
         _, phi1, phi2, phi3 = angle[:, on]
         sin, cos = np.sin(angle[0, on]), np.cos(angle[0, on])
         around, radial = phi3 - phi1**3, -3.0 * phi1 * phi2
-        fields[:, 3, on] = around * sin - radial * cos, around * cos + radial * sin
-        given = shape.chain.given[elements_at(shape, s[on])].T
+        elements = elements_at(shape, s[on])
+        given, radii = shape.chain.given[elements].T, shape.chain.radii[elements]
+        fields[:, 3, on] = radii * (around * sin - radial * cos), radii * (around * cos + radial * sin)
         pressure[on] = state.model.pressure(s[on], angle[:, on], shape.load, given)
     if state.model.soft:
         pressure = -d * state.model.stiffness * np.maximum(np.hypot(fields[0, 0], fields[1, 0]) - 1.0, 0.0)

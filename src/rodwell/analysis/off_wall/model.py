@@ -3,7 +3,8 @@
 Lateral position and y are measured in Δ, the energy in BΔ²/L³, so that numbers are of order one; places s stay in L.
 On the wall the density of :mod:`rodwell.physics.on_wall` serves, off it that of :mod:`rodwell.physics.off_wall`; they
 are equal where both hold. A section of a string is a uniform rod of its own constants, on the wall and off it
-(:mod:`rodwell.physics.on_wall.sections`); what is ``given`` in an element are these: b, q and d, in that order.
+(:mod:`rodwell.physics.on_wall.sections`), in a hole of its own clearance; what is ``given`` in an element are these: b,
+q, d and the clearance ρ in Δ, in that order.
 """
 
 from __future__ import annotations
@@ -51,10 +52,10 @@ class RodInHole:
 
     @cached_property
     def given(self) -> FloatArray:
-        """b, q and d of each section, (n, 3)."""
+        """b, q, d and ρ of each section, (n, 4)."""
         rod = self.problem.rod
         offset, weight = rod.lever.coefficients.T
-        return np.stack([rod.stiffness.coefficients[:, 0], weight, offset], axis=1)
+        return np.stack([rod.stiffness.coefficients[:, 0], weight, offset, rod.clearance.coefficients[:, 0]], axis=1)
 
     def load_per_length(self, given: FloatArray) -> FloatArray:
         """Axial weight q wₐ: a section's density depends on s only through N(s) = F + wₐ(d + q(s − 1))."""
@@ -66,24 +67,31 @@ class RodInHole:
         out[FORCE] = load
         return out
 
+    def _beside(self, load: float, given: FloatArray) -> list[Any]:
+        """Parameters at an end force, with the clearance beside each element."""
+        out = list(self.parameters(load))
+        out[CLEARANCE] = self.problem.clearance * given[3]
+        return out
+
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
-        d = self.problem.clearance
-        y = d * u[0]
-        e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given, self.parameters(load), _BY_FORCE)
+        d, radius = self.problem.clearance, given[3]
+        y = (d * radius) * u[0]
+        e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given[:3], self._beside(load, given), _BY_FORCE)
         shape = s.shape
         hessian = np.empty((1, 3, 1, 3, *shape))
         for i in range(3):
             for j in range(3):
                 hessian[0, i, 0, j] = h[i][j]
-        return e / d**2, rate / d**2, _stacked(g, shape) / d, _stacked(m, shape) / d, hessian
+        gradient, mixed = radius * _stacked(g, shape) / d, radius * _stacked(m, shape) / d
+        return e / d**2, rate / d**2, gradient, mixed, radius**2 * hessian
 
     def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
         d = self.problem.clearance
         (x, x1, x2), (_, y1, y2) = d * u
         b = given[0]  # of the softness 1/b under every load, as in the sections of a rod on the wall
-        own = of_section(given, self.parameters(load), 1.0 / b)
+        own = of_section(given[:3], self._beside(load, given), 1.0 / b)
         e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, own, _BY_FORCE)
         shape = s.shape
         gradient, mixed = np.zeros((2, 3, *shape)), np.zeros((2, 3, *shape))
@@ -105,22 +113,22 @@ class RodInHole:
         the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4, k). Weight and end
         force do not enter; seen from the place itself, φ = 0 there, r̂ = (−1, 0) and θ̂ = (0, 1).
         """
-        d = self.problem.clearance
+        d, b, radius = self.problem.clearance, given[0], self.problem.clearance * given[3]
         phi1, phi2, phi3 = u[1:4]
         nil = np.zeros_like(phi1)
-        x2, y2 = d * phi1**2, d * phi2
-        x3, y3 = 3.0 * d * phi1 * phi2, d * (phi3 - phi1**3)
-        b = given[0]
+        x2, y2 = radius * phi1**2, radius * phi2
+        x3, y3 = 3.0 * radius * phi1 * phi2, radius * (phi3 - phi1**3)
         own = of_section((b, 0.0, 0.0), self.parameters(0.0), 1.0 / b)
-        _, _, g, _, h = hole_density(1.0, -d, nil, x2, d * phi1, y2, own, _BY_FORCE)
+        _, _, g, _, h = hole_density(1.0, -radius, nil, x2, radius * phi1, y2, own, _BY_FORCE)
         by_slopes, by_bends = (h[1][0], h[1][2]), (h[1][1], h[1][3])  # second derivatives by x″ and x′, y′ or x″, y″
         shear = g[1] - by_slopes[0] * x2 - by_slopes[1] * y2 - by_bends[0] * x3 - by_bends[1] * y3
         by_rate = -by_slopes[1] - 2.0 * phi1 * by_bends[0]
-        return -b * g[2] / d, b * by_rate, b * (phi1 * g[4] - shear) / d
+        return -b * g[2] / d, b * given[3] * by_rate, b * (phi1 * g[4] - shear) / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""
-        y, own = self.problem.clearance * angle, of_section(given, self.parameters(load))
+        y = self.problem.clearance * given[3] * angle
+        own = of_section(given[:3], self._beside(load, given))
         return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], own, given[0]))
 
 

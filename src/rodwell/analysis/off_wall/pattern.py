@@ -30,13 +30,15 @@ class Pattern:
 
     ``turns`` is the angle at s = 1 over 2π where the end holds it. ``planar``: the rod lies in the plane through its
     ends and the hole's axis, and nothing but a disturbance takes it out. ``fixed``: where elements end too, of a rod
-    behind a soft wall, which is one free stretch: there its contact ends.
+    behind a soft wall, which is one free stretch: there its contact ends. ``edges``: steps of the clearance, within
+    free stretches, at which the rod touches the edge of the narrower part: points of contact whose place is known.
     """
 
     touching: tuple[bool, ...]
     turns: float = 0
     planar: bool = False
     fixed: tuple[float, ...] = ()
+    edges: tuple[float, ...] = ()
 
     @property
     def breaks(self) -> int:
@@ -60,13 +62,14 @@ class Pattern:
         return out
 
 
-def end_held(problem: Problem, last: bool, turns: float) -> tuple[BoolArray, FloatArray]:
+def end_held(problem: Problem, last: bool, turns: float, radius: float) -> tuple[BoolArray, FloatArray]:
     """What an end holds of (r, φ, r′, φ′), and at which values (NaN where it does not): (4,) each.
 
-    Clamped, pinned, guided and free ends are radially held; a ball joint holds the place only.
+    Clamped, pinned, guided and free ends are radially held; a ball joint holds the place only. ``radius``: of the disc
+    there.
     """
     end = problem.ends[1 if last else 0]
-    values = np.array([1.0, 2.0 * math.pi * turns if last else 0.0, 0.0, 0.0])
+    values = np.array([radius, 2.0 * math.pi * turns if last else 0.0, 0.0, 0.0])
     held = np.zeros(4, dtype=bool)
     held[RADIUS] = end != "loose"
     held[ANGLE] = end in ("clamped", "pinned", "ball")
@@ -119,26 +122,31 @@ def chain(
     places = np.concatenate([corners[owner] * (1.0 - part) + corners[owner + 1] * part, corners[-1:]])
     # one piece more at each corner that is fixed, not a break
     section = section_after[owner - np.repeat(np.arange(len(elements)), sizes)]
+    radii = problem.rod.clearance.coefficients[section, 0]
+    around = np.minimum(np.append(radii[:1], radii), np.append(radii, radii[-1:]))  # at nodes, of the narrower part
+    edges = np.flatnonzero(np.isin(places[:, 0], pattern.edges) & ~places[:, 1:].any(axis=1))
     polar = np.zeros(total + 1, dtype=bool)
-    polar[first[1:-1]] = True
+    polar[first[1:-1]] = polar[edges] = True
     polar[:-1] |= touching
     polar[1:] |= touching
     held, values = np.zeros((total + 1, 4), dtype=bool), np.full((total + 1, 4), np.nan)
     held[polar, RADIUS] = held[polar, RADIAL_SLOPE] = True
-    values[polar, RADIUS], values[polar, RADIAL_SLOPE] = 1.0, 0.0
+    values[polar, RADIUS], values[polar, RADIAL_SLOPE] = around[polar], 0.0
+    held[edges, RADIAL_SLOPE], values[edges, RADIAL_SLOPE] = False, np.nan
     for node, last in ((0, False), (total, True)):
         free_end = problem.ends[1 if last else 0] == "loose" and not touching[-1 if last else 0]
         polar[node] = not free_end
-        held[node], values[node] = end_held(problem, last, pattern.turns)
+        held[node], values[node] = end_held(problem, last, pattern.turns, float(around[node]))
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
-            values[node, [RADIUS, RADIAL_SLOPE]] = 1.0, 0.0
+            values[node, [RADIUS, RADIAL_SLOPE]] = around[node], 0.0
     if pattern.planar and pattern.touching == (False,) and problem.lateral_weight == 0.0:
         # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
     moving = first[1:-1].astype(np.int64)
     base, shares = places[:, 0], places[:, 1:]
-    return Chain(degree, touching, polar, held, moving, base, shares, given[section], pattern.planar), values
+    links = Chain(degree, touching, polar, held, moving, base, shares, given[section], radii, edges, pattern.planar)
+    return links, values
 
 
 def _corners(steps: FloatArray, elements: Elements) -> FloatArray:

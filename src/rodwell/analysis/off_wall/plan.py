@@ -12,7 +12,8 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 class Plan:
     """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold.
 
-    ``half`` is half the first length of a gap, ``contact`` the first length of a stretch in contact.
+    ``half`` is half the first length of a gap, ``contact`` the first length of a stretch in contact; ``edges`` are
+    those of narrower parts of the hole that the rod touches.
     """
 
     state: PatternedState
@@ -20,6 +21,7 @@ class Plan:
     contact: float
     touching: list[bool]
     breaks: list[float]
+    edges: list[float]
     bumps: list[Bump] = field(default_factory=list)
     pair: tuple[float, float] | None = None
 

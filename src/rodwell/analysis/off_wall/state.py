@@ -23,6 +23,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Peak, Value
 
 STRAIGHT, SINUSOIDAL, HELIX, PARTIAL = "straight", "sinusoidal", "helix", "partial contact"
+BRIDGED = "bridged"
 
 MOST_DEGREES = 8
 """By how much the degree of the elements may be raised for a certificate that passes."""
@@ -35,6 +36,8 @@ def kind_of(state: PatternedState, turns: int) -> str:
     """What a state is that winds so many times around the hole: see :attr:`ContactState.kind`."""
     if turns:
         return HELIX
+    if state.pattern.planar and state.problem.bridges:
+        return BRIDGED
     if not state.everywhere:
         return PARTIAL
     return STRAIGHT if float(np.max(np.abs(state.solved.shape.nodes[:, 1]))) < FLAT else SINUSOIDAL
@@ -63,7 +66,8 @@ class Contact:
 class PointForce:
     """A concentrated contact force, from the wall on the rod, in B/L², at a place in L.
 
-    ``kind``: "point", a point of contact with gaps on both sides, or "end", an end of a stretch in contact.
+    ``kind``: "point", a point of contact with gaps on both sides, "end", an end of a stretch in contact, or "edge", the
+    edge of a narrower part of the hole.
     """
 
     s: Value
@@ -110,7 +114,10 @@ class ContactState:
 
     @cached_property
     def kind(self) -> str:
-        """What the state is: "straight", "sinusoidal", "helix" (it winds around the hole) or "partial contact"."""
+        """What the state is: "straight", "sinusoidal", "helix" (around the hole), "partial contact" or "bridged".
+
+        Bridged is one in the vertical plane, over steps of the clearance.
+        """
         return kind_of(self.fine, self.turns)
 
     @cached_property
@@ -152,14 +159,11 @@ class ContactState:
 
     @cached_property
     def point_forces(self) -> tuple[PointForce, ...]:
-        """Concentrated contact forces from s = 0: at points of contact, and at both ends of stretches in contact."""
+        """Concentrated contact forces from s = 0: at points of contact, edges, both ends of stretches in contact."""
         return tuple(
-            PointForce(
-                self._value("bounds", i + 1), self._value("points", i),
-                "point" if self.fine.pattern.is_point(i) else "end",
-            )
-            for i in range(self.fine.pattern.breaks)
-        )  # fmt: skip
+            PointForce(self._value("point_places", i), self._value("points", i), kind)
+            for i, (_, _, kind) in enumerate(self.fine.point_forces)
+        )
 
     @cached_property
     def contact_total(self) -> Value:
@@ -221,9 +225,9 @@ def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
     problem = state.problem
     n, stiffness = state.load + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
     rod = in_space(x, y, n, problem.twist, stiffness)
+    gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
     return {
-        "x": x[0], "y": y[0], "z": along_axis(state, places),
-        "gap": 1.0 - np.hypot(x[0], y[0]) / problem.clearance, "angle": np.arctan2(y[0], -x[0]),
+        "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),
         "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
         "contact_pressure": pressure,
     }  # fmt: skip

@@ -34,6 +34,12 @@ def closes_with_slope(state: PatternedState, stretch: int) -> bool:
     return "ball" in ends or bool(np.any((steps > left) & (steps < right)))
 
 
+def edge_at(state: PatternedState, s: float) -> float | None:
+    """The step of the clearance at a place, None where there is none: the edge of the narrower part of the hole."""
+    steps = state.problem.rod.clearance_steps
+    return next((float(step) for step in steps if abs(step - s) < BESIDE_STEP), None)
+
+
 def open_at(plan: Plan, condition: Condition) -> None:
     """A gap opens beside a step of the weight, where contact comes to push least at the step itself.
 

@@ -45,6 +45,24 @@ def checked_problem(problem: Problem) -> None:
         raise InputError("ends", "-".join(problem.ends), "loose ends have no load path yet: take ball or free")
 
 
+def checked_bridging(problem: Problem, control: str, unload_to: float | None, mirror: bool) -> None:
+    """Raise if a string whose clearance has steps has no load path here, with the reason."""
+    if problem.lateral_weight == 0.0:
+        raise InputError(
+            "sections", f"{len(problem.sections)} of them", "have steps of the clearance, and no lateral weight lays "
+            "the string on the walls: give it some (alpha above 0 and below 180), or one clearance",
+        )  # fmt: skip
+    for name, value, none in (("twist", problem.twist, 0.0), ("unload_to", unload_to, None), ("mirror", mirror, False)):
+        if value != none:
+            raise InputError(
+                name, value, "must be left out where the clearance has steps: the string is followed in the vertical "
+                "plane, where twist would not leave it and from which it comes back as it went, until it buckles",
+            )  # fmt: skip
+    if control != "force":
+        raise InputError("control", control, "must be force where the clearance has steps: states beyond buckling, "
+                         "for which the difference counts, are not computed there")  # fmt: skip
+
+
 def checked_wall(problem: Problem, stiffness: float) -> float:
     """Return the stiffness of the wall in B/L⁴, infinite for a hard one, or raise."""
     allowed = f"from {SOFTEST_WALL:g} to {STIFFEST_WALL:g} in B/L⁴, or infinite: a hard wall"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE, Control
-from rodwell.analysis.off_wall.state import STRAIGHT, ContactState, plain
+from rodwell.analysis.off_wall.state import BRIDGED, STRAIGHT, ContactState, plain
 from rodwell.faces import drawn_in_space
 from rodwell.quantities.value import Value
 
@@ -102,6 +102,8 @@ class PathPoint:
     @property
     def meaning(self) -> str:
         """What happens, in words."""
+        if self.kind == CRITICAL and self.state is not None and self.state.kind == BRIDGED:
+            return "the string that bridges steps of the clearance buckles sideways"
         if self.to is None:
             return MEANING[self.kind]
         if self.to.kind == STRAIGHT:

@@ -16,7 +16,14 @@ from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
-from rodwell.analysis.path.checks import checked_control, checked_problem, checked_range, checked_wall
+from rodwell.analysis.path.bridged import bridging, farthest
+from rodwell.analysis.path.checks import (
+    checked_bridging,
+    checked_control,
+    checked_problem,
+    checked_range,
+    checked_wall,
+)
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.legs import walked
 from rodwell.analysis.path.loading import loaded
@@ -243,7 +250,7 @@ def _passes(leg: Leg, value: float, control: Control) -> bool:
 def load_path(
     problem: Problem,
     *,
-    until: float,
+    until: float | None = None,
     unload_to: float | None = None,
     control: str = "force",
     axial_stiffness: float | None = None,
@@ -261,7 +268,8 @@ def load_path(
     problem
         The rod; it may leave the wall.
     until
-        End force at s = 1 in B/L², tension positive, to which the compression grows.
+        End force at s = 1 in B/L², tension positive, to which the compression grows. It may be left out where the
+        clearance has steps: the path ends there where the string buckles.
     unload_to
         End force to which it is taken back; None: not at all.
     control
@@ -286,6 +294,13 @@ def load_path(
         Called with the leg and the end force of each new state. A text that it returns ends the path there, as the
         reason, with all that was found.
 
+    Notes
+    -----
+    Where the clearance has steps (``problem.sections``) the string bridges them, off the wall. It is followed in the
+    vertical plane, from where it is stretched everywhere: its ``critical`` event is the first load at which a
+    disturbance out of the plane grows. States beyond are not computed, nor are twist and unloading taken. A step is
+    taken at its place along the rod: that the rod is pushed along the hole by its shortening is left out.
+
     Raises
     ------
     InputError
@@ -294,21 +309,29 @@ def load_path(
         If the straight rod's critical load, or the path's first state, could not be computed.
     """
     checked_problem(problem)
-    first_run.begin(problem)
     model = RodInHole(problem, checked_wall(problem, wall_stiffness))
     rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
+    if problem.bridges:
+        checked_bridging(problem, control, unload_to, mirror)
+    if until is None:
+        if not problem.bridges:
+            raise InputError("until", None, "is missing: give the end force to which the rod is loaded")
+        until = farthest(problem)
     until, unload_to = checked_range(way, until, unload_to)
     seeds = checked_whole("seeds", seeds, 1, 100)
-    mode = critical_loads(problem, 1, rtol=rtol)[0]
 
     def told(leg: str) -> Callable[[float], str | None] | None:
         return None if progress is None else lambda force: progress(leg, force)
 
-    up = loaded(model, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))
-    walks = [up]
-    if up.ended == END and unload_to is not None:
-        how = How(way, rtol, seeds, mode, told(UNLOADING))
-        walks.append(walked(up.last, model, until, unload_to, Leg(UNLOADING), how))
+    if problem.bridges:
+        walks = [bridging(model, until, rtol, told(LOADING))]
+    else:
+        first_run.begin(problem)
+        mode = critical_loads(problem, 1, rtol=rtol)[0]
+        walks = [loaded(model, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))]
+        if walks[0].ended == END and unload_to is not None:
+            how = How(way, rtol, seeds, mode, told(UNLOADING))
+            walks.append(walked(walks[0].last, model, until, unload_to, Leg(UNLOADING), how))
     ended = next((walk.ended for walk in walks if walk.ended != END), "")
     events = tuple(event for walk in walks for event in walk.events)
     legs = tuple(walk.leg for walk in walks)

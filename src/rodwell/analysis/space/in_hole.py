@@ -12,6 +12,7 @@ import numpy as np
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.measured import along_axis, position
 from rodwell.analysis.space.geometry import Geometry, checked_places, checked_radius, checked_scale, upwards
+from rodwell.errors import InputError
 from rodwell.quantities.arrays import FloatArray
 
 PLACES = 401
@@ -27,6 +28,11 @@ def geometry_in_hole(
 ) -> Geometry:
     """Return a rod that may have left the wall in space; arguments and errors as of :meth:`PathState.geometry`."""
     problem = state.model.problem
+    if problem.bridges:
+        raise InputError(
+            "sections", f"{len(problem.sections)} of them", "must have one clearance: the rod in space is drawn in a "
+            "hole of one diameter; seen from the side it is drawn by `rodwell path --out`",
+        )  # fmt: skip
     s = np.linspace(0.0, 1.0, checked_places(PLACES if places is None else places))
     x, y, pressure = position(state, s)
     slope = np.hypot(x[1], y[1])

@@ -173,6 +173,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     """
     rtol = checked_rtol(rtol)
     count = checked_whole("modes", count, 1, MOST_MODES)
+    problem.refuse_bridges("critical loads of the straight rod")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
     if problem.hole is not None:
@@ -215,6 +216,7 @@ def tensile_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> Cr
     InputError, NotConvergedError
         As :func:`critical_loads` does.
     """
+    problem.refuse_bridges("critical loads of the straight rod")
     rtol, count = checked_rtol(rtol), checked_whole("modes", count, 1, MOST_MODES)
     return CriticalLoads(() if problem.hole is None else _lying(problem, count, rtol, tension=True))
 

@@ -204,6 +204,7 @@ def loads_without_wall(problem: Problem, count: int = 1, *, rtol: float = RTOL) 
         If the tolerance cannot be met.
     """
     problem.refuse_curved("loads without the wall are computed")
+    problem.refuse_bridges("loads of the straight rod")
     rtol, count = checked_rtol(rtol), checked_whole("count", count, 1, MOST_LOADS)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")

@@ -29,19 +29,19 @@ def beyond_dict(case: Case, found: Beyond) -> dict[str, Any]:
         "missed": list(found.missed),
         "events": [
             one.event.as_dict()
-            | _state(case, one.state, one.event.force)
+            | state_dict(case, one.state, one.event.force)
             | {"before": one.before, "meaning": one.meaning}
             for one in found.events
         ],
         "applied": [
             {"given": load.given, "at": "bottom" if load.bottom else "top"}
-            | ({"why": one} if isinstance(one, str) else one.state.as_dict() | _state(case, one, one.load))
+            | ({"why": one} if isinstance(one, str) else one.state.as_dict() | state_dict(case, one, one.load))
             for load, one in found.applied
         ],
     }
 
 
-def _state(case: Case, one: StateBeyond | None, force: Value) -> dict[str, Any]:
+def state_dict(case: Case, one: StateBeyond | None, force: Value) -> dict[str, Any]:
     """What stands beside an event: load in SI, gaps, forces on the wall, stress."""
     out: dict[str, Any] = {} if case.scales is None else {"si": case.scales.si(force, "force")}
     if one is None:

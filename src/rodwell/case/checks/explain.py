@@ -10,12 +10,14 @@ from pydantic import BaseModel, ValidationError
 from rodwell.case import schema
 from rodwell.case.checks.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
 from rodwell.case.hole.schema import CylinderInput, Hole
+from rodwell.case.hole.sections import HoleSectionInput
 from rodwell.errors import LONGEST_VALUE
 
 SECTIONS: dict[str, type[BaseModel]] = {
     "rod": schema.RodInput,
     "string": schema.StringInput,
     "hole": Hole,
+    "hole.section": HoleSectionInput,
     "cylinder": CylinderInput,
     "supports": schema.Supports,
     "dimensionless": schema.Dimensionless,
@@ -61,7 +63,7 @@ TAPERED = (
 
 
 def explain(
-    error: ValidationError, declared: bool = False, within: tuple[str, ...] = ()
+    error: ValidationError, declared: bool = False, within: tuple[str | int, ...] = ()
 ) -> list[tuple[str, object, str]]:
     """Return validation errors in the user's words: (key, value, what to do).
 
@@ -83,9 +85,9 @@ def explain(
 
 
 def _where(location: tuple[int | str, ...]) -> str:
-    """The key as it is named: "rod.length", "string 2.length"."""
-    if location[:1] == ("string",) and len(location) > 1:
-        return ".".join([f"string {int(location[1]) + 1}", *(str(part) for part in location[2:])])
+    """The key as it is named: "rod.length", "string 2.length", "hole.section 1.diameter"."""
+    if location[:1] in (("string",), ("hole.section",)) and len(location) > 1:
+        return ".".join([f"{location[0]} {int(location[1]) + 1}", *(str(part) for part in location[2:])])
     return ".".join(str(part) or "''" for part in location)
 
 
@@ -140,8 +142,8 @@ def _several(location: tuple[int | str, ...], value: object, declared: bool) -> 
 
 def unknown(location: tuple[int | str, ...]) -> str:
     """What to say of an unknown key or section: what is written instead, the nearest, or the section it belongs to."""
-    if location[0] == "string" and len(location) > 2:
-        return _unknown_key("string", str(location[2]))
+    if location[0] in ("string", "hole.section") and len(location) > 2:
+        return _unknown_key(str(location[0]), str(location[2]))
     return (
         _unknown_section(str(location[0])) if len(location) == 1 else _unknown_key(str(location[0]), str(location[1]))
     )

@@ -14,7 +14,7 @@ from rodwell.quantities.written import GAUGE, number_and_rest
 
 _METRES = re.compile(r"(-?\d[\d.]*(?:e[+-]?\d+)?) m(?![\w/²³^*·])")
 _PER_METRE = re.compile(r"(-?\d[\d.]*(?:e[+-]?\d+)?) N/m\b")
-_STRING = re.compile(r"string (\d+)")
+_LISTED = re.compile(r"(string|hole\.section) (\d+)")
 _FIELD = re.compile(r"\b(in|ft|lbf?|klbf|gal|ppg|ppf|pcf|psig?|ksi|inch|inches|feet|foot)\b|[\"″′]")
 
 
@@ -54,12 +54,13 @@ def _in(number: str, unit: str, other: str) -> str:
 
 def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
     """What the user wrote for a key, rather than what became of it; None stays None."""
-    section, _, key = field.rpartition(".") if field.startswith("string ") else field.partition(".")
+    section, _, key = field.rpartition(".") if _LISTED.match(field) else field.partition(".")
     written = data.get(section)
-    number = _STRING.match(section)
+    number = _LISTED.match(section)
     if number is not None:
-        sections = data.get("string", ())
-        written = sections[int(number[1]) - 1] if int(number[1]) <= len(sections) else None
+        whole = data if number[1] == "string" else data.get("hole", {})
+        sections = whole.get(number[1].rpartition(".")[2], ())
+        written = sections[int(number[2]) - 1] if int(number[2]) <= len(sections) else None
     return written[key] if value is not None and isinstance(written, Mapping) and key in written else value
 
 

@@ -18,7 +18,7 @@ GRID = 600
 
 
 def rim_fields(angle: FloatArray) -> FloatArray:
-    """X, Y and two derivatives (2, 3, k) of a curve on the rim, from the angle and its derivatives (3, k)."""
+    """X, Y and two derivatives (2, 3, k) of a curve on a rim of radius 1, from the angle and its derivatives (3, k)."""
     phi, phi1, phi2 = angle[:3]
     sin, cos = np.sin(phi), np.cos(phi)
     x = np.stack([-cos, sin * phi1, cos * phi1**2 + sin * phi2])
@@ -49,7 +49,7 @@ def fields_at(shape: Shape, s: FloatArray, orders: int = 3) -> tuple[FloatArray,
     on = shape.chain.touching[elements]
     if on.any():
         angle[:, on] = shape.along(elements[on], xi[on], orders)[0, ..., 0]
-        fields[:, :3, on] = rim_fields(angle[:3, on])
+        fields[:, :3, on] = shape.chain.radii[elements[on]] * rim_fields(angle[:3, on])
     if not on.all():
         fields[..., ~on] = shape.along(elements[~on], xi[~on], orders)[..., 0]
     return fields, angle

@@ -1,14 +1,16 @@
 """The chain of stretches: elements, the nodes between them, and where these lie.
 
-Two fields (X, Y) in the unit disc, alternately on its rim (then one field, the angle φ) and free. Every node has four
-coordinates: (r, φ, r′, φ′) where it is *polar*, at both ends of every stretch on the rim, at points of contact and at
-ends held there; (X, Y, X′, Y′) within free stretches. The bottom of the disc is at (−1, 0):
+Two fields (X, Y) in a disc of radius 1, or one with steps of the radius between elements, alternately on its rim (then
+one field, the angle φ) and free. Every node has four coordinates: (r, φ, r′, φ′) where it is *polar*, at both ends of
+every stretch on the rim, at points of contact and at ends held there; (X, Y, X′, Y′) within free stretches. With the
+bottom of the disc at φ = 0
 
     X = −r cos φ,  Y = r sin φ.
 
-So contact is r = 1, r′ = 0, two coordinates held, and the rim's curvature sits in the map from polar to Cartesian
-coordinates. Where a stretch on the rim begins or ends, its place is unknown; the nodes within a stretch divide it in
-fixed parts: places are ``base + shares @ breaks``.
+So contact is r at the rim, r′ = 0, two coordinates held, and the rim's curvature sits in the map from polar to
+Cartesian coordinates. Where a stretch on the rim begins or ends, its place is unknown; the nodes within a stretch
+divide it in fixed parts: places are ``base + shares @ breaks``. A node at a step of the radius may touch the edge of
+the narrower part: r held, r′ free.
 """
 
 from __future__ import annotations
@@ -45,6 +47,10 @@ class Chain:
         Places of the nodes: (e+1,) and (e+1, m).
     given
         What the model knows of each element, constant in it: (e, g).
+    radii
+        Radius of the disc around each element, (e,).
+    edges
+        The nodes that touch the edge of a narrower part of the disc, (k,): held in r, free to turn.
     planar
         Whether shapes stay in the plane Y = 0, as their symmetry has it; disturbances may leave it.
     """
@@ -57,6 +63,8 @@ class Chain:
     base: FloatArray
     shares: FloatArray
     given: FloatArray
+    radii: FloatArray
+    edges: IntArray
     planar: bool = False
 
     @property

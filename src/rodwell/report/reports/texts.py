@@ -91,6 +91,10 @@ def inputs(case: Case) -> list[tuple[str, str]]:
         parts = {section: values} if isinstance(values, Mapping) else {}
         if section == "string":
             parts = {f"string {number}": one for number, one in enumerate(values, 1)}
+        if section == "hole" and "section" in values:
+            parts = {section: {key: value for key, value in values.items() if key != "section"}} | {
+                f"hole.section {number}": one for number, one in enumerate(values["section"], 1)
+            }
         for name, part in parts.items():
             out += [(f"{name}.{key}", str(value)) for key, value in part.items()]
     return out

@@ -85,5 +85,6 @@ class Rods:
 def data_of(problem: Problem) -> dict[str, Any]:
     """A problem as plain data, by name: every field of it, so that nothing that it holds is left out of a map."""
     problem.refuse_curved("maps are computed")
+    problem.refuse_bridges("maps")
     data = {field.name: getattr(problem, field.name) for field in fields(problem)}
     return data | {"ends": "-".join(problem.ends), "sections": [list(section) for section in problem.sections]}

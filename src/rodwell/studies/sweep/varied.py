@@ -11,7 +11,7 @@ from rodwell.errors import InputError
 from rodwell.studies.labels import label
 from rodwell.studies.varied import Place, Varied, checked, is_varied, varied_list, varied_range
 
-LISTS = ("catalogue", "load.applied")
+LISTS = ("catalogue", "load.applied", "hole.section")
 """Sections and keys in which a list is a list, not an input that varies; a range of ``load.applied`` varies."""
 
 FIXED = {

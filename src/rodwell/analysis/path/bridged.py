@@ -1,0 +1,120 @@
+"""The load path of a string that bridges steps of the clearance: in the vertical plane, until it buckles out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from rodwell.analysis.off_wall.arrange import at_load
+from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.following import followed
+from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, FOLD, Followed
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.resolve import resolved_event
+from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.bridging import bridged, unstretched
+from rodwell.analysis.path.events import CRITICAL, LOADING, Leg, PathPoint
+from rodwell.analysis.path.legs import Walked
+from rodwell.errors import NotConvergedError
+from rodwell.numerics.stretches.chain import ANGLE, ANGLE_RATE
+from rodwell.numerics.stretches.newton import softest
+from rodwell.problem.problem import Problem
+
+FARTHEST = 10.0
+"""End force up to which a string is compressed in search of its buckling, in that of a clamped rod of its stiffest and
+heaviest section in its narrowest hole."""
+
+LARGEST = 2.0
+"""Largest step along the path: in the plane a string bends little more from one load to the next."""
+
+SHORTER, REPEATS = 0.25, 6
+"""Steps are shortened by this factor, so often, where several modes become unstable within one."""
+
+JUST_BEFORE = 1e-9
+"""How much less than its buckling load a string must bear without being unstable, as a part of the load."""
+
+PASSED_OVER = 1e-3
+"""Part of the load by which a change of contact that was not resolved is passed over."""
+
+BEYOND = "states beyond are not computed where the clearance has steps"
+
+
+def farthest(problem: Problem) -> float:
+    """The end force in B/L² up to which a string that bridges steps is loaded if nothing is asked for."""
+    _, stiffness, weight, clearance, _ = np.array(problem.sections).T
+    b, q, narrow = float(np.max(stiffness)), float(np.max(weight)), problem.clearance * float(np.min(clearance))
+    of_bed = 2.0 * float(np.sqrt(b * q * problem.lateral_weight / narrow))
+    return -FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight)
+
+
+def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[float], str | None] | None) -> Walked:
+    """The leg of growing compression, from where the string is stretched everywhere.
+
+    Raises
+    ------
+    NotConvergedError
+        If it was not found how the string lies there.
+    """
+    begin = max(unstretched(model.problem), until)
+    start = bridged(model, begin)
+    if start is None:
+        raise NotConvergedError(
+            f"how the string bridges the steps of its clearance at F = {begin:.8g} B/L² was not found: no state whose "
+            "contacts all push and that keeps inside the hole"
+        )
+    out = Walked(Leg(LOADING, [[start]]), last=start, ended=END)
+    if begin == until:
+        return out
+    path = _first_loss(start, until, progress)
+    out.leg.runs, out.last, out.ended = [path.states], path.last, path.ended
+    for event in path.events:
+        lost = event is path.events[-1] and path.ended in (BRANCH_POINT, FOLD)
+        if event.kind == END or (event.kind == BRANCH_POINT and not lost):
+            continue
+        one = resolved_event(event, rtol)
+        sideways = lost and event.kind == BRANCH_POINT and _sideways(one.event.state)
+        state = ContactState(model.problem, event.state, one.event.state)
+        kind = CRITICAL if sideways else event.kind
+        met = one.met and state.certificate.passed
+        out.events.append(PathPoint(kind, one.load, tuple(map(float, event.s)), LOADING, None, state, met))
+        if lost:
+            how = "buckles sideways" if sideways else "gives way in its plane"
+            out.ended = f"the string {how} at F = {one.load.value:.8g} B/L²: {BEYOND}"
+    return out
+
+
+def _first_loss(start: PatternedState, until: float, progress: Callable[[float], str | None] | None) -> Followed:
+    """The path to the first load at which a disturbance grows: within a step there may be several.
+
+    Where a change of contact was not resolved, the string is sought anew a little beyond, as at the beginning.
+    """
+    path, largest = followed(start, until, largest=LARGEST, progress=progress), LARGEST
+    for _ in range(REPEATS):
+        last = path.last
+        if path.ended in (END, FOLD):
+            return path
+        if path.ended == BRANCH_POINT:
+            before = at_load(last, last.load + JUST_BEFORE * abs(last.load))
+            if before is not None and not before.solved.index:
+                return path
+            largest *= SHORTER
+            kept, events, again = path.states[:-2], path.events[:-1], path.states[-2]
+        else:
+            beyond = bridged(last.model, max(last.load - PASSED_OVER * max(abs(last.load), 1.0), until))
+            if beyond is None or beyond.solved.index:
+                return path
+            kept, events, again = path.states, path.events, beyond
+        more = followed(again, until, largest=largest, progress=progress)
+        path = Followed(kept + more.states, events + more.events, more.ended, more.along)
+    if path.ended == BRANCH_POINT:
+        path.ended = (
+            f"several disturbances begin to grow near F = {path.last.load:.8g} B/L², the first of them not told"
+        )
+    return path
+
+
+def _sideways(state: PatternedState) -> bool:
+    """Whether a planar state is softest against a disturbance out of its plane."""
+    direction = softest(state.solved).reshape(-1, 4) ** 2
+    return float(np.sum(direction[:, [ANGLE, ANGLE_RATE]])) > 0.5 * float(np.sum(direction))

@@ -1,0 +1,107 @@
+"""What is computed for a case whose clearance has steps: the string that bridges them, until it buckles sideways."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
+from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.answers.result.beyond import PATIENCE, StateBeyond
+from rodwell.case.applied import AppliedLoad
+from rodwell.case.case import Case
+from rodwell.errors import RodwellError
+from rodwell.quantities.value import Value
+from rodwell.strength.off_wall import RodOffWall
+from rodwell.strength.section import RodSection, StringSections, rod_section
+
+SAME = 1e-9
+"""Relative distance from the buckling load within which a load counts as at it, not below."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bridged:
+    """A case whose clearance has steps.
+
+    Attributes
+    ----------
+    case
+        The case.
+    path
+        The string as the compression grows, in the vertical plane.
+    buckling
+        The load at which it buckles sideways, with the state there; None where none was found.
+    alone
+        The string without end compression, or stretched so that nothing is compressed.
+    applied
+        Loads that act, with the state there, or why it is not known.
+    """
+
+    case: Case
+    path: LoadPath
+    buckling: tuple[PathPoint, StateBeyond] | None
+    alone: StateBeyond
+    applied: tuple[tuple[AppliedLoad, StateBeyond | str], ...]
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """Loads that miss the tolerance, in words."""
+        return self.path.missed
+
+    @property
+    def converged(self) -> bool:
+        """Whether every load meets the tolerance."""
+        return not self.missed
+
+    def share(self, load: AppliedLoad) -> float | None:
+        """Compression at s = 1 over that at which the string buckles, from where it is stretched everywhere."""
+        if self.buckling is None:
+            return None
+        top = self.alone.load.value
+        return (top - load.force) / (top - self.buckling[0].force.value)
+
+
+def bridged_answer(case: Case) -> Bridged:
+    """Follow the string of a case until it buckles sideways, and find it under the loads that act.
+
+    Raises
+    ------
+    InputError
+        For what is not computed where the clearance has steps, with the reason.
+    NotConvergedError
+        If it was not found how the string lies under its weight.
+    """
+    begun, section = time.process_time(), rod_section(case)
+
+    def progress(_leg: str, _force: float) -> str | None:
+        if time.process_time() - begun <= PATIENCE:
+            return None
+        return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"
+
+    path = load_path(case.problem, rtol=case.rtol, progress=progress)
+    found, buckling = path.first(CRITICAL), None
+    if found is not None and found.state is not None:
+        buckling = found, _there(found.state, found.force, section)
+    top = path.legs[0].runs[0][0].load
+    alone = _there(path.at(top)[0].state, Value(top), section)
+    applied = tuple((load, _at_load(path, load, top, found, section)) for load in case.applied)
+    return Bridged(case, path, buckling, alone, applied)
+
+
+def _at_load(
+    path: LoadPath, load: AppliedLoad, top: float, found: PathPoint | None, section: RodSection | StringSections | None
+) -> StateBeyond | str:
+    """The string under a load that acts, or why it is not known."""
+    if found is not None and load.force <= found.force.value * (1.0 - SAME):
+        return "the string has buckled sideways: states beyond are not computed where the clearance has steps"
+    try:
+        if load.force > top:  # stretched more than where the path begins
+            path = load_path(path.problem, until=load.force, rtol=path.rtol)
+        return _there(path.at(load.force)[0].state, Value(load.force), section)
+    except RodwellError as error:
+        return str(error)
+
+
+def _there(state: ContactState, load: Value, section: RodSection | StringSections | None) -> StateBeyond:
+    return StateBeyond(LOADING, load, state, None if section is None else section.largest(RodOffWall(state)))

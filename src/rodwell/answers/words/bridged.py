@@ -1,0 +1,118 @@
+"""What it means that the clearance of a case has steps, in sentences."""
+
+from __future__ import annotations
+
+from rodwell.answers.result.beyond import StateBeyond
+from rodwell.answers.result.bridged import Bridged
+from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
+from rodwell.answers.words.wording import forces_of, size_text
+from rodwell.quantities.text import amount
+from rodwell.quantities.value import Value
+
+LIMITS = (
+    "Computed is how the string lies in the vertical plane, over the edges of the narrower parts, and the load at "
+    "which it buckles sideways. Not computed where the clearance has steps: what becomes of it after it has buckled, "
+    "its way back, friction, torque, and formulas of practice beside it.",
+    "A step is taken at its place along the rod; quasi-static, frictionless, hard walls.",
+)
+"""What is computed, and what is not."""
+
+
+def bridged_sentences(found: Bridged) -> list[str]:
+    """The verdict first; then where the string lies, its loads, and what is not computed."""
+    under = (_under(found, i) for i in range(len(found.applied)))
+    return [verdict(found), *_lies(found), *under, *limits(found)]
+
+
+def limits(found: Bridged) -> tuple[str, ...]:
+    """What is computed, and what is not, of what was given too."""
+    case = found.case
+    given = ["[supports]"] * (case.supports is not None) + ["[cylinder]"] * (case.cylinder is not None)
+    given += ["uncertainties of inputs"] * bool(case.uncertain)
+    return (*LIMITS, f"Given, and not used here: {', '.join(given)}.") if given else LIMITS
+
+
+def verdict(found: Bridged) -> str:
+    """In one sentence: whether it buckles under the loads that act, and when."""
+    said = forces_of(found.case)
+    if found.buckling is None:
+        why = found.path.ended_because or "no load was found at which it does"
+        return f"Whether the string buckles was not found: {why}."
+    load = said.load(found.buckling[0].force, other=True)
+    if not found.applied:
+        return f"The string bridges the steps of its clearance and buckles sideways at {load}."
+    worst = min(found.applied, key=lambda one: one[0].force)[0]
+    share = found.share(worst)
+    assert share is not None
+    if share >= 1.0:
+        return f"The string buckles sideways under the load that acts: at {load}."
+    return (
+        f"The string bridges the steps of its clearance and is stable under the loads that act: it buckles sideways at "
+        f"{load}; {100.0 * max(share, 0.0):.0f} % of that is used."
+    )
+
+
+def _lies(found: Bridged) -> list[str]:
+    """Edges that it touches, with their forces, without compression."""
+    case, state = found.case, found.alone.state
+    edges = [point for point in state.point_forces if point.kind == "edge"]
+    if not edges:
+        return []
+    shown = ", ".join(f"{size_text(case.scales, point.force)} at s/L = {amount(point.s, 4)}" for point in edges)
+    one = len(edges) == 1
+    return [f"Where nothing is compressed it rests on {'the edge' if one else f'{len(edges)} edges'} of the narrower "
+            f"part{'' if one else 's'} of the hole with {shown}."]  # fmt: skip
+
+
+def _under(found: Bridged, number: int) -> str:
+    """What is known under a load that acts."""
+    load, there = found.applied[number]
+    said = forces_of(found.case)
+    at = said.load(Value(load.force))
+    if isinstance(there, str):
+        return f"Under {at}: {there}."
+    return f"Under {at} it lies still, with gaps of up to {_gap(found, there)}{_stress(found, there)}."
+
+
+def _gap(found: Bridged, there: StateBeyond) -> str:
+    gap = there.largest_gap
+    assert gap is not None
+    return size_text(found.case.scales, gap.times(found.case.problem.clearance), "length", "L")
+
+
+def _stress(found: Bridged, there: StateBeyond) -> str:
+    if there.stress is None or found.case.scales is None:
+        return ""
+    stress = found.case.scales.system.amount(there.stress, "stress", 4)
+    safety = there.stress.safety
+    return f" and a von Mises stress of at most {stress}" + (
+        "" if safety is None else f", a safety factor of {amount(safety, 3)}"
+    )
+
+
+def bridged_statuses(found: Bridged) -> tuple[Status, ...]:
+    """Buckling, strength and the numbers, each in a word with its reason."""
+    shares = [share for load, _ in found.applied if (share := found.share(load)) is not None]
+    if found.buckling is None:
+        buckling = Status("Buckling", OPEN, "not found", found.path.ended_because or "no load was found")
+    elif not shares:
+        buckling = Status("Buckling", OPEN, "no load given", "load.applied says what acts")
+    else:
+        bad = max(shares) >= 1.0
+        buckling = Status("Buckling", BAD if bad else GOOD, "buckles sideways" if bad else "stable",
+                          f"{100.0 * max(shares):.0f} % of the buckling load is used")  # fmt: skip
+    factors = [one.stress.safety.value for _, one in found.applied
+               if not isinstance(one, str) and one.stress is not None and one.stress.safety is not None]  # fmt: skip
+    if not factors or any(isinstance(one, str) for _, one in found.applied):
+        rod = Status("Strength", OPEN, "not judged", "no strength is given, or no state known under a load that acts")
+    else:
+        least = min(factors)
+        rod = Status(
+            "Strength",
+            GOOD if least >= 1.0 else BAD,
+            "yields" if least < 1.0 else "bears it",
+            f"least safety factor {least:.3g}",
+        )
+    numbers = Status("Numbers", GOOD if found.converged else BAD, "converged" if found.converged else "NOT CONVERGED",
+                     "every load is within its tolerance" if found.converged else "see the errors")  # fmt: skip
+    return buckling, rod, numbers

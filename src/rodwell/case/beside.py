@@ -1,0 +1,106 @@
+"""What lies beside what: sections of a string in parts of a hole, with the clearance of each pair."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rodwell.case.hole.schema import Hole
+from rodwell.case.hole.sections import WHOLE, HolePart
+from rodwell.case.pipe import PhysicalRod
+from rodwell.case.sections import Member, PhysicalString
+from rodwell.errors import InputError
+from rodwell.problem.rod import PLAIN, Section
+
+EQUAL = 1e-9
+"""Relative difference of clearances, and difference of places in L, that counts as none."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A piece of the rod between steps, s/L: the section of the string (None: the rod is one), the part of the hole.
+
+    ``clearance`` is from axis to axis, in m.
+    """
+
+    start: float
+    end: float
+    member: Member | None
+    part: HolePart
+    clearance: float
+
+    @property
+    def name(self) -> str:
+        """How it is called in messages."""
+        if self.member is None:
+            return self.part.name
+        return self.member.key if self.part.name == WHOLE else f"{self.member.key} in {self.part.name}"
+
+
+def pairs_of(
+    rod: PhysicalRod, string: PhysicalString | None, hole: Hole, parts: Sequence[HolePart]
+) -> tuple[Pair, ...]:
+    """The pieces of a rod, from s = 0 up, as sections of the string and parts of the hole part it.
+
+    Raises
+    ------
+    InputError
+        Where a clearance cannot be told, or something does not fit into its hole.
+    """
+    members = [(None, 0.0, 1.0)] if string is None else [
+        (one, *ends) for one, ends in zip(string.members, string.ends, strict=True)
+    ]  # fmt: skip
+    out = []
+    for member, start, end in members:
+        for part in parts:
+            low, high = max(start, part.start), min(end, part.end)
+            if high - low > EQUAL:
+                one = rod if member is None else member.rod
+                out.append(Pair(low, high, member, part, _clearance(one, hole, member, part)))
+    return tuple(out)
+
+
+def reference(pairs: Sequence[Pair]) -> float:
+    """The clearance that the others are ratios to, in m: that of the longest piece."""
+    return max(pairs, key=lambda pair: pair.end - pair.start).clearance
+
+
+def stepped(pairs: Sequence[Pair]) -> bool:
+    """Whether the clearance has steps."""
+    sizes = [pair.clearance for pair in pairs]
+    return max(sizes) - min(sizes) > EQUAL * max(sizes)
+
+
+def sections_of(pairs: Sequence[Pair], string: PhysicalString | None) -> tuple[Section, ...]:
+    """Sections of the problem, their clearances as ratios to the reference."""
+    if not stepped(pairs):
+        return () if string is None else string.sections
+    unit, out = reference(pairs), []
+    for pair in pairs:
+        one = PLAIN[0] if string is None or pair.member is None else string.sections[pair.member.number - 1]
+        _, stiffness, weight, _, torsion = one
+        out.append((pair.end - pair.start, stiffness, weight, pair.clearance / unit, torsion))
+    return tuple(out)
+
+
+def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePart) -> float:
+    """The clearance of a rod in a part of the hole."""
+    of_rod = "rod" if member is None else member.key
+    of_hole = part.name
+    if hole.clearance is not None:
+        if hole.diameter is not None:
+            raise InputError("hole.clearance", None, "contradicts hole.diameter: give only one of the two")
+        return hole.clearance
+    if part.diameter is None:
+        raise InputError("hole.diameter", None, "is missing: give it, or hole.clearance (from axis to axis)")
+    outer = rod.outer_diameter
+    if outer is None:
+        raise InputError(f"{of_rod}.outer_diameter", None, "is missing: it is needed with hole.diameter")
+    if outer < part.diameter:
+        return 0.5 * (part.diameter - outer)
+    if member is None:
+        what = f"must be above the rod's outer diameter of {outer:g} m: the rod does not fit"
+        raise InputError(f"{of_hole}.diameter", part.diameter, what)
+    wall = "the hole's diameter" if of_hole == WHOLE else f"the diameter of {of_hole}"
+    what = f"must be below {wall} of {part.diameter:g} m: the section does not fit"
+    raise InputError(f"{of_rod}.outer_diameter", outer, what)
