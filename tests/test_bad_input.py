@@ -243,8 +243,8 @@ BAD_ANALYSIS = [
 
 BAD_PLAIN = [
     plain("weight-missing", "dimensionless.weight", "is missing; add it", dimensionless__weight=GONE),
-    plain("weight-negative", "dimensionless.weight", "= -1", "from 0 to 1e+09", dimensionless__weight=-1),
-    plain("weight-too-large", "dimensionless.weight", "from 0 to 1e+09", dimensionless__weight=1e10),
+    plain("weight-too-negative", "dimensionless.weight", "= -1", "up to 1e+09 in size", dimensionless__weight=-1e10),
+    plain("weight-too-large", "dimensionless.weight", "up to 1e+09 in size", dimensionless__weight=1e10),
     plain("weight-nan", "dimensionless.weight", "= nan", "must be finite", dimensionless__weight=NAN),
     plain("weight-inf", "dimensionless.weight", "= inf", "must be finite", dimensionless__weight=INF),
     plain("weight-text", "dimensionless.weight", "without quotes or unit", dimensionless__weight="16.5"),

@@ -80,7 +80,7 @@ def test_limits_in_words_are_those_that_are_checked() -> None:
     key = {key.full_name: key for key in KEYS}
     assert key["rod.poisson"].allowed == LIMITS["poisson"][2]
     assert key["analysis.rtol"].allowed == f"from {LOWEST_RTOL:g} to {HIGHEST_RTOL:g}"
-    assert key["dimensionless.weight"].allowed == f"from 0 to {LIMITS['weight'][1]:g}".replace("e+09", "e9")
+    assert key["dimensionless.weight"].allowed == f"up to {LIMITS['weight'][1]:g} in size".replace("e+09", "e9")
 
 
 def test_command_explains_all_a_section_and_a_key() -> None:

@@ -9,7 +9,7 @@ from rodwell.case.applied import AppliedLoad
 from rodwell.case.physical import check_force_words, check_reach
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
-from rodwell.problem.problem import Problem
+from rodwell.problem.problem import LIMITS, Problem
 
 
 def check_sections(parsed: schema.CaseFile) -> None:
@@ -49,6 +49,10 @@ def dimensionless(
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"
+        if error.field == "weight":
+            allowed = f"must be up to {LIMITS['weight'][1]:g} in size; negative: the rod floats"
+            reason = allowed if math.isfinite(given.weight) else error.reason
+            raise InputError("dimensionless.weight", given.weight, reason) from None
         raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
