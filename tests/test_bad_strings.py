@@ -71,7 +71,7 @@ IMPOSSIBLE = [
     ("bore-too-wide", PIPE, STEEL.replace("4.276", "5.276"), "rod.inner_diameter", ("below the outer diameter",)),
     ("bore-of-catheter-too-wide", f"{PIPE}\n", 'pipe = "6 Fr catheter"\ninner_diameter = "3 mm"\nmaterial = "peek"\n',
      "rod.inner_diameter", ("below the outer diameter of 0.002 m",)),
-    ("angle-beyond", '"30 deg"', '"130 deg"', "hole.angle_from_vertical", ('from "0 deg" to "90 deg"',)),
+    ("angle-beyond", '"30 deg"', '"190 deg"', "hole.angle_from_vertical", ('from "0 deg" to "180 deg"',)),
     ("mud-in-solid-rod", f"{PIPE}\n", 'outer_diameter = "5 in"\nmaterial = "steel"\n', "pressure.inside",
      ("the rod is solid", "give rod.inner_diameter")),
     ("inner-mud-in-solid-rod", f'{PIPE}\nlength = "300 ft"\n{GRADE}\n[mud]\n{MUD}\n{PRESSURE}',

@@ -33,9 +33,6 @@ def dimensionless(
 ) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
     """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
-    if given.alpha < 0.0 or given.alpha > 90.0:
-        reason = "must be from 0 (vertical) to 90 (horizontal), in degrees" + _turned(given.alpha)
-        raise InputError("dimensionless.alpha", given.alpha, reason)
     try:
         problem = Problem(
             weight=abs(given.weight),
@@ -72,10 +69,3 @@ def stiffness_of_wall(given: schema.Dimensionless | None) -> float:
         reason = "must be above 0 and finite; leave it out for a rigid wall"
         raise InputError("dimensionless.wall_stiffness", given.wall_stiffness, reason)
     return float(given.wall_stiffness)
-
-
-def _turned(alpha: float) -> str:
-    """What to do about an inclination beyond horizontal: reports say that s = 1 is the upper end."""
-    if not 90.0 < alpha <= 180.0:
-        return ""
-    return f"; s = 1 is the upper end: turn the rod round, alpha = {180.0 - alpha:g} with ends in reverse order"

@@ -90,8 +90,8 @@ def physical(
             f"{SMALLEST_CLEARANCE:g} of it is needed: check the units of diameters and length",
         )
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
-    lie = lie_of(hole, rod.length, folder)
+    lie, system = lie_of(hole, rod.length, folder), System(parsed.units or "si")
+    scales = Scales(rod.length, rod.stiffness, radius, system, load.at == "bottom", lie.height < 0.0)
     problem = _problem(given.ends, rod, hole, scales, weight, clearance, load.twist, string, lie)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
@@ -192,7 +192,7 @@ def _end_force(
     bottom, gravity = load.at == "bottom", parsed.hole.gravity
     drop = rod.length * height if bottom else 0.0
     less = fluids.effective_minus_real(rod, gravity, drop) if load.kind == "real" else 0.0
-    where = "bottom, s = 0" if bottom else "top, s = 1"
+    where = f"end s = {0 if bottom else 1}" if scales.climbs else "bottom, s = 0" if bottom else "top, s = 1"
     facts = []
 
     def at_top(given: float, what: str) -> float:
