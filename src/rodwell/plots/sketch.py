@@ -122,6 +122,8 @@ def _side(ax: Any, case: Case) -> None:
     reach = [view(place, across) for place in (-2.3, LONG + 2.3) for across in (-view.hole - 1.1, view.hole + 0.6)]
     reach += [view(0.5 * LONG, across) for across in (-view.hole - 1.1, view.hole + 1.6)]
     reach += [*_weight_arrow(view, case)] if case.problem.weight > 0.0 else []  # arrows from outside are not drawn
+    if case.problem.alpha > 90.0:
+        reach.append(view(LONG + 4.0, view.hole))  # words on the load stand to the left of the lower end
     for low_edge, high_edge, limit in ((*_range(reach, 0), ax.set_xlim), (*_range(reach, 1), ax.set_ylim)):
         limit(low_edge - 0.6, high_edge + 0.6)
 
