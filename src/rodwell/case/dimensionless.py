@@ -9,7 +9,7 @@ from rodwell.case.applied import AppliedLoad
 from rodwell.case.physical import check_force_words, check_reach
 from rodwell.errors import InputError
 from rodwell.problem.ends import checked_ends
-from rodwell.problem.problem import Problem
+from rodwell.problem.problem import LIMITS, Problem
 
 
 def check_sections(parsed: schema.CaseFile) -> None:
@@ -33,9 +33,6 @@ def dimensionless(
 ) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
     """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
-    if given.alpha < 0.0 or given.alpha > 90.0:
-        reason = "must be from 0 (vertical) to 90 (horizontal), in degrees" + _turned(given.alpha)
-        raise InputError("dimensionless.alpha", given.alpha, reason)
     try:
         problem = Problem(
             weight=abs(given.weight),
@@ -49,8 +46,11 @@ def dimensionless(
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"
-        reason = error.reason.replace("from 0 to", "at most, in size,") if given.weight < 0.0 else error.reason
-        raise InputError(f"{section}.{error.field}", error.value, reason) from None
+        if error.field == "weight":
+            allowed = f"must be up to {LIMITS['weight'][1]:g} in size; negative: the rod floats"
+            reason = allowed if math.isfinite(given.weight) else error.reason
+            raise InputError("dimensionless.weight", given.weight, reason) from None
+        raise InputError(f"{section}.{error.field}", error.value, error.reason) from None
     if load.until is None and load.applied is None:
         check_force_words(load)
     bottom = load.at == "bottom"
@@ -69,10 +69,3 @@ def stiffness_of_wall(given: schema.Dimensionless | None) -> float:
         reason = "must be above 0 and finite; leave it out for a rigid wall"
         raise InputError("dimensionless.wall_stiffness", given.wall_stiffness, reason)
     return float(given.wall_stiffness)
-
-
-def _turned(alpha: float) -> str:
-    """What to do about an inclination beyond horizontal: reports say that s = 1 is the upper end."""
-    if not 90.0 < alpha <= 180.0:
-        return ""
-    return f"; s = 1 is the upper end: turn the rod round, alpha = {180.0 - alpha:g} with ends in reverse order"

@@ -84,8 +84,8 @@ def physical(
     for pair in pairs:
         _check_clearance(pair, hole, rod.length)
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    scales = Scales(rod.length, rod.stiffness, radius, System(parsed.units or "si"), load.at == "bottom")
-    lie = lie_of(hole, rod.length, folder)
+    lie, system = lie_of(hole, rod.length, folder), System(parsed.units or "si")
+    scales = Scales(rod.length, rod.stiffness, radius, system, load.at == "bottom", lie.height < 0.0)
     problem = _problem(given.ends, rod, hole, scales, weight, pairs, load.twist, string, lie)
     if string is None:
         facts = [*rod.facts, *fluid_facts(fluids, rod, hole.gravity)]
@@ -110,6 +110,9 @@ def physical(
     if pieces and problem.floats:
         what = "carries a rod that floats, which is not computed where the clearance has steps"
         raise InputError("mud.outside", None, what)
+    if pieces and lie.height < 0.0:
+        what = "takes s = 1 below s = 0, which is not computed where the clearance has steps"
+        raise InputError("hole.angle_from_vertical", hole.angle_from_vertical, what)
     if pieces and hole.wall_stiffness is not None:
         what = "is not computed where the clearance has steps: leave it out (a rigid wall), or give one clearance"
         raise InputError("hole.wall_stiffness", hole.wall_stiffness, what)
@@ -218,7 +221,7 @@ def _end_force(
     bottom, gravity = load.at == "bottom", parsed.hole.gravity
     drop = rod.length * height if bottom else 0.0
     less = fluids.effective_minus_real(rod, gravity, drop) if load.kind == "real" else 0.0
-    where = "bottom, s = 0" if bottom else "top, s = 1"
+    where = f"end s = {0 if bottom else 1}" if scales.climbs else "bottom, s = 0" if bottom else "top, s = 1"
     facts = []
 
     def at_top(given: float, what: str) -> float:

@@ -193,7 +193,8 @@ class Dimensionless(SectionInput):
     """[dimensionless]: instead of [rod] and [hole]."""
 
     weight: Number = _key(REQUIRED, "γ = mg L³/B; negative: the rod floats", 16.5, -15.0, allowed="up to 1e9 in size")
-    alpha: Number = _key(90.0, "inclination α from the vertical, in degrees", 60, allowed="from 0 to 90")
+    alpha: Number = _key(90.0, "inclination α from the vertical, in degrees; beyond 90 s = 1 is the lower end", 60,
+                          allowed="from 0 to 180")  # fmt: skip
     clearance: Number = _key(0.01, "Δ/L, from axis to axis", 0.01, allowed="above 0 and below 1")
     poisson: Number = _key(0.3, "Poisson's ratio ν", 0.3, allowed=POISSON)
     torsion: Number | None = _key(None, "C/B, instead of `poisson`; 1/(1 + ν) if not given", 13.0, allowed="above 0")
@@ -209,7 +210,10 @@ APPLIED = (
     "the load that acts, or a list, **tension positive**: what becomes of the rod there; a range makes a study of it"
 )
 TWIST = "end twisting moment T₁ at s = 1, a dead load"
-AT = "where `until` and `applied` act: `top` (s = 1, the upper end) or `bottom` (s = 0); `top` if not given"
+AT = (
+    "where `until` and `applied` act: `top` (s = 1, the upper end unless the hole climbs) or `bottom` (s = 0); `top` "
+    "if not given"
+)
 
 
 class LoadInput(SectionInput):

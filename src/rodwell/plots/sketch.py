@@ -111,7 +111,8 @@ def _side(ax: Any, case: Case) -> None:
         _sections(ax, view, case.string)
     for end, place in enumerate((0.0, LONG)):
         _end(ax, view, place, case.problem.ends[end])
-        where = ("bottom, " if end == 0 else "top, ") if case.problem.alpha < 90.0 else ""
+        names, alpha = ("bottom, ", "top, "), case.problem.alpha
+        where = "" if alpha == 90.0 else names[end if alpha < 90.0 else 1 - end]
         _say(ax, view, place, f"{where}s = {end}\n{case.problem.ends[end]}", low - 0.25, "low")
     _length(ax, view, case)
     if view.axis is None:
@@ -121,6 +122,8 @@ def _side(ax: Any, case: Case) -> None:
     reach = [view(place, across) for place in (-2.3, LONG + 2.3) for across in (-view.hole - 1.1, view.hole + 0.6)]
     reach += [view(0.5 * LONG, across) for across in (-view.hole - 1.1, view.hole + 1.6)]
     reach += [*_weight_arrow(view, case)] if case.problem.weight > 0.0 else []  # arrows from outside are not drawn
+    if case.problem.alpha > 90.0:
+        reach.append(view(LONG + 4.0, view.hole))  # words on the load stand to the left of the lower end
     for low_edge, high_edge, limit in ((*_range(reach, 0), ax.set_xlim), (*_range(reach, 1), ax.set_ylim)):
         limit(low_edge - 0.6, high_edge + 0.6)
 
@@ -203,7 +206,9 @@ def _length(ax: Any, view: _View, case: Case) -> None:
         ax.annotate("", view(stop, at), view(tail, at), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 0.9})
     text = "L" if case.scales is None else f"L = {case.scales.text(1.0, 'length')}"
     if view.axis is None:
-        text += {0.0: ", vertical", 90.0: ", horizontal"}.get(case.problem.alpha, "")
+        alpha = case.problem.alpha
+        climbing = f", α = {plain(alpha)}°" if alpha > 90.0 else ""
+        text += {0.0: ", vertical", 90.0: ", horizontal"}.get(alpha, climbing)
     else:
         text += f", α = {plain(case.problem.alpha, 4)}° at mid-length\n{bend_text(case)}"
     if not view.true:

@@ -24,15 +24,18 @@ class Forces:
 
     @property
     def bottom(self) -> bool:
-        """Whether they are shown at the lower end."""
+        """Whether they are shown at the end s = 0, the lower one unless the hole climbs."""
         return self.scales is not None and self.scales.bottom
 
     @property
     def end(self) -> str:
-        """The end at which forces are shown: "the bottom", "the top", "s = 1"; "either end" where they are the same."""
+        """The end at which forces are shown: "the bottom", "the top", "s = 1"; "either end" where they are the same.
+
+        In a hole that climbs an end is called by its s, not by where it is.
+        """
         if self.scales is None:
             return "s = 1"
-        return "either end" if self.weight == 0.0 else _END[self.bottom]
+        return "either end" if self.weight == 0.0 else end_name(self.scales, bottom=self.bottom)
 
     @property
     def at_end(self) -> str:
@@ -85,7 +88,7 @@ class Forces:
         there = Value((0.0 if self.bottom else self.weight) - force.value, force.error)
         same = (there.value < 0.0) == (self.compression(force).value < 0.0)
         word = "" if same else " of tension" if there.value < 0.0 else " of compression"
-        return f" ({self._size(there)}{word} at {_END[not self.bottom]})"
+        return f" ({self._size(there)}{word} at {end_name(self.scales, bottom=not self.bottom)})"
 
     def load(self, force: Value, *, other: bool = False) -> str:
         """A load with its sign and its end: "29 110 lbf of compression at the bottom", "−114.243 B/L² at s = 1"."""
@@ -107,4 +110,8 @@ class Forces:
         return f"{amount(size, 6)} B/L²" if self.scales is None else self.scales.amount(size, "force")
 
 
-_END = {True: "the bottom", False: "the top"}
+def end_name(scales: Scales | None, *, bottom: bool) -> str:
+    """What an end is called in a case: the bottom, s = 0, or the top; by its s where the hole climbs."""
+    if scales is not None and scales.climbs:
+        return f"s = {0 if bottom else 1}"
+    return "the bottom" if bottom else "the top"

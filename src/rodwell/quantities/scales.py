@@ -15,7 +15,8 @@ class Scales:
 
     ``radius`` is the rod's outer radius in m where it is known. The theory does not need it, pictures do. ``system``
     says in which units summaries, reports and figures show results; data files stay in SI. ``bottom`` says that they
-    show end forces at the lower end s = 0, where the case gives its loads, and not at s = 1.
+    show end forces at the end s = 0, where the case gives its loads, and not at s = 1; ``climbs`` that s = 1 is the
+    lower end.
     """
 
     length: float
@@ -23,6 +24,7 @@ class Scales:
     radius: float | None = None
     system: System = SI
     bottom: bool = False
+    climbs: bool = False
 
     def factor(self, dimension: str) -> float:
         """SI value of one dimensionless unit of ``dimension`` (see :data:`rodwell.quantities.names.UNITS`)."""

@@ -31,8 +31,7 @@ from rodwell.analysis.off_wall.conditions import (
     watched,
 )
 from rodwell.analysis.off_wall.pattern import Pattern
-from rodwell.analysis.off_wall.plan import Plan
-from rodwell.analysis.off_wall.steps import cross, edge_at, open_at, release
+from rodwell.analysis.off_wall.steps import Plan, cross, edge_at, open_at, release
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
 

@@ -1,4 +1,4 @@
-"""What steps between the sections of a string do to a pattern of contact.
+"""A pattern of contact being rewritten, and what steps between the sections of a string do to it.
 
 Where the bending stiffness has a step, a rod in contact on both sides with a slope there would need a couple from the
 wall, which only pushes (:mod:`rodwell.physics.on_wall.sections`): it leaves the wall over a short stretch around the
@@ -9,11 +9,12 @@ element ends there, they are set over it (:func:`cross`).
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 
-from rodwell.analysis.off_wall.bumps import at_step, beside, pressure_at, sides
+from rodwell.analysis.off_wall.bumps import Bump, at_step, beside, pressure_at, sides
 from rodwell.analysis.off_wall.conditions import BESIDE_STEP, Condition, PatternedState
-from rodwell.analysis.off_wall.plan import Plan
 
 OVER = 2.0
 """How far beyond a step an end is set, in distances at which it counts as having reached it."""
@@ -24,6 +25,33 @@ ROOM = 0.9
 
 SHARE = 0.1
 """Part of a gap that opens at a step of the weight on the side where contact still pushes."""
+
+
+@dataclass(repr=False)
+class Plan:
+    """A pattern being rewritten: stretches, ends between them, gaps that open, and the length to hold.
+
+    ``half`` is half the first length of a gap, ``contact`` the first length of a stretch in contact; ``edges`` are
+    those of narrower parts of the hole that the rod touches.
+    """
+
+    state: PatternedState
+    half: float
+    contact: float
+    touching: list[bool]
+    breaks: list[float]
+    edges: list[float]
+    bumps: list[Bump] = field(default_factory=list)
+    pair: tuple[float, float] | None = None
+
+    @property
+    def fixed(self) -> tuple[int, int] | None:
+        """The numbers of the ends whose distance is held."""
+        if self.pair is None:
+            return None
+        places = [0.0, *self.breaks, 1.0]
+        first, last = (places.index(place) - 1 for place in self.pair)
+        return first, last
 
 
 def closes_with_slope(state: PatternedState, stretch: int) -> bool:

@@ -44,7 +44,8 @@ def _at_bottom(a: Assessment) -> list[KeyNumber]:
     out = []
     for name, label, load in loads:
         scale, bottom = force_scale(load.value) + abs(weight), Value(load.value - weight, load.error)
-        where = f"{label}, effective force at the lower end s = 0"
+        which = "upper" if a.case.scales is not None and a.case.scales.climbs else "lower"
+        where = f"{label}, effective force at the {which} end s = 0"
         out.append(KeyNumber(f"{name}_bottom", where, bottom, "force", scale, note))
     return out
 

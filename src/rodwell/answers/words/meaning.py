@@ -29,7 +29,7 @@ from rodwell.quantities.text import minus, percent, plain, signed
 from rodwell.quantities.value import Value
 
 ASSUMPTIONS = (
-    "end force and end torque are dead loads at the upper end s = 1",
+    "end force and end torque are dead loads at the {end} s = 1",
     "rod inextensible, unshearable, linearly elastic, straight when free",
     "{hole}; contact without friction",
     "shapes computed for a rod kept on the wall: beyond lift-off they need a wall that also pulls",
@@ -64,8 +64,9 @@ def assumptions(case: Case) -> tuple[str, ...]:
     if case.problem.rod.stepped:
         more = (*more, HELD_AT_STEPS)
     hole = "cylinder rigid and straight" if case.problem.hole is None else "hole rigid, curved as given"
+    end = "lower end" if case.problem.alpha > 90.0 else "upper end"
     hole += "" if math.isinf(case.wall_stiffness) else ", up to lift-off"
-    return (ends_text(case.problem, ENDS_HOLD), *more, *(text.format(hole=hole) for text in ASSUMPTIONS))
+    return (ends_text(case.problem, ENDS_HOLD), *more, *(text.format(hole=hole, end=end) for text in ASSUMPTIONS))
 
 
 def sentences(answer: Answer) -> list[str]:

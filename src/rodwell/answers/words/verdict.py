@@ -10,6 +10,7 @@ from rodwell.answers.words.wording import forces_of, place_text, quantity, side_
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.problem.problem import ends_text
+from rodwell.quantities.forces import end_name
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
 from rodwell.strength.limits import LIFTS_OFF, UNSTABLE, YIELDS
@@ -174,7 +175,7 @@ def share_shown(a: Assessment) -> Value | None:
 def load_text(case: Case, load: AppliedLoad) -> str:
     """A load as it was given: "35 000 lbf of compression at the bottom"."""
     sign = "compression" if load.given < 0.0 else "tension"
-    end = "the bottom" if load.bottom else "the top"
+    end = end_name(case.scales, bottom=load.bottom)
     if case.scales is None:
         return f"{plain(load.given, 6)} B/L² at {'s = 0' if load.bottom else 's = 1'} ({sign})"
     kind = ", real force in the wall" if load.real else ""

@@ -51,7 +51,7 @@ def place_text(case: Case, place: Value) -> str:
     if scales is None:
         return text
     above = size_text(scales, place, "length")
-    if case.problem.axial_weight == 0.0:
+    if case.problem.axial_weight == 0.0 or scales.climbs:
         return f"{above} from the end s = 0"
     if not 0.0 < place.value < 1.0:
         return "the bottom" if place.value <= 0.0 else "the top"

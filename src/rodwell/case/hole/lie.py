@@ -99,7 +99,7 @@ def _bent(hole: Hole, length: float) -> Lie:
     except InputError as error:
         raise InputError(f"hole.{error.field}", None, error.reason) from None
     if arc.straight:
-        return Lie(alpha, height=math.cos(math.radians(alpha)) if alpha < 90.0 else 0.0)
+        return Lie(alpha, height=0.0 if alpha == 90.0 else math.cos(math.radians(alpha)))
     height = float(np.diff(arc.points(np.array([0.0, 1.0]))[:, 2])[0])
     return Lie(alpha, build, walk, height=height, facts=_curvature_facts(arc, length))
 
@@ -213,20 +213,8 @@ def angle_of(hole: Hole) -> float:
         )
     name, value = given[0]
     degrees = round(math.degrees(value), 12)  # "90 deg" makes its way through radians
-    if not 0.0 <= degrees <= 90.0:
-        raise InputError(
-            f"hole.{name}", f"{degrees:g} deg", 'must be from "0 deg" to "90 deg"' + _turned(name, degrees)
-        )
+    low, high = (0.0, 180.0) if name == "angle_from_vertical" else (-90.0, 90.0)
+    if not low <= degrees <= high:
+        beyond = "beyond horizontal s = 1 is the lower end"
+        raise InputError(f"hole.{name}", f"{degrees:g} deg", f'must be from "{low:g} deg" to "{high:g} deg": {beyond}')
     return degrees if name == "angle_from_vertical" else 90.0 - degrees
-
-
-def _turned(name: str, degrees: float) -> str:
-    """What to do about a hole that climbs: an angle beyond horizontal."""
-    vertical = degrees if name == "angle_from_vertical" else 90.0 - degrees
-    if not 90.0 < vertical <= 180.0:
-        return ""
-    same = 180.0 - vertical if name == "angle_from_vertical" else vertical - 90.0
-    return (
-        f': s = 1 is the upper end. A hole that climbs is the same hole seen from its other end: write "{same:g} deg" '
-        "and turn the rod round, rod.ends in reverse order, load.at the other end"
-    )

@@ -35,10 +35,10 @@ class Hole(SectionInput):
     )
     clearance: Length | None = _key(None, "Δ, from axis to axis, instead of `diameter`", "1.75 in", "2.5 mm")
     angle_from_vertical: Angle | None = _key(
-        None, "inclination α, from vertical to horizontal", "30 deg", allowed='"0 deg" to "90 deg"'
+        None, "inclination α; beyond horizontal s = 1 is the lower end", "30 deg", allowed='"0 deg" to "180 deg"'
     )
     angle_from_horizontal: Angle | None = _key(
-        None, "instead of `angle_from_vertical`; one of the two is required", "60 deg", allowed='"0 deg" to "90 deg"'
+        None, "instead of `angle_from_vertical`; one of the two is required", "60 deg", allowed='"-90 deg" to "90 deg"'
     )
     wall_stiffness: WallStiffness | None = _key(
         None, "of a wall that gives way: its push per length of the rod and depth; counts beyond lift-off (`rodwell "

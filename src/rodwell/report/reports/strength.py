@@ -9,6 +9,7 @@ from rodwell.answers.words.in_space import no_window
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.verdict import load_text, local_sentence, share_shown
 from rodwell.answers.words.wording import forces_of, place_text, quantity
+from rodwell.quantities.forces import end_name
 from rodwell.quantities.text import amount, minus, number_text, percent, plain
 from rodwell.quantities.units import SI, System
 from rodwell.quantities.value import Value
@@ -241,7 +242,7 @@ def _limits(a: Assessment) -> Grid:
         )
     heads = ("End force at s = 1", "Effective force at s = 0")
     if said.scales is not None:
-        there = "the top" if said.bottom else "the bottom"
+        there = end_name(said.scales, bottom=not said.bottom)
         heads = (f"Compression{said.at_end}", f"at {there}")
     head = ("What", *heads[: 1 + two], "±\u00a0error", "Where")
     return Grid(head, tuple(rows), numeric=tuple(range(1, 3 + two)))
