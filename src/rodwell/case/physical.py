@@ -107,16 +107,21 @@ def physical(
                                     lie.height)  # fmt: skip
     wall = math.inf if hole.wall_stiffness is None else hole.wall_stiffness / scales.factor("stress")
     pieces = pairs if stepped(pairs) else ()
-    if pieces and problem.floats:
-        what = "carries a rod that floats, which is not computed where the clearance has steps"
-        raise InputError("mud.outside", None, what)
-    if pieces and lie.height < 0.0:
-        what = "takes s = 1 below s = 0, which is not computed where the clearance has steps"
+    if pieces:
+        _check_bridging(problem, hole, lie)
+    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall, pieces)
+
+
+def _check_bridging(problem: Problem, hole: Hole, lie: Lie) -> None:
+    """Refuse beside steps of the clearance what is not computed with them."""
+    if problem.floats:
+        raise InputError("mud.outside", None, "lets the rod float, which is not computed where the clearance has steps")
+    if lie.height < 0.0:
+        what = "puts s = 1 below s = 0, which is not computed where the clearance has steps"
         raise InputError("hole.angle_from_vertical", hole.angle_from_vertical, what)
-    if pieces and hole.wall_stiffness is not None:
+    if hole.wall_stiffness is not None:
         what = "is not computed where the clearance has steps: leave it out (a rigid wall), or give one clearance"
         raise InputError("hole.wall_stiffness", hole.wall_stiffness, what)
-    return Physical(problem, scales, until, applied, rod, fluids, hole.gravity, (*facts, *how), string, wall, pieces)
 
 
 def _check_clearance(pair: Pair, hole: Hole, length: float) -> None:
