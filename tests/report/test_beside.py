@@ -80,3 +80,15 @@ def test_with_threads_it_is_done_here() -> None:
     finally:
         wait.set()
         thread.join()
+
+
+def test_a_second_process_that_heeds_no_signal_keeps_nobody_waiting() -> None:
+    """SIGTERM that comes right after the fork meets the handlers of the first process, and may be lost."""
+
+    def deaf() -> Any:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        return number_of_process
+
+    with beside(deaf):
+        pass
+    assert multiprocessing.active_children() == []

@@ -18,6 +18,9 @@ Work = Callable[..., Any]
 Start = Callable[..., Callable[[], Any]]
 """Starts the work with its arguments, and returns what waits for its result."""
 
+GRACE = 1.0
+"""How long the second process has to end by itself, in seconds."""
+
 
 @contextmanager
 def beside(ready: Callable[[], Work]) -> Iterator[Start]:
@@ -57,9 +60,12 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
         try:
             yield start
         finally:
+            here.close()  # where it waits for work, it ends: a signal may have come before it could be heeded
             process.terminate()
-            process.join()
-            here.close()
+            process.join(GRACE)
+            if process.is_alive():
+                process.kill()
+                process.join()
 
 
 def drawing() -> Work:
