@@ -76,7 +76,7 @@ def test_sizes_beyond_sense(section: str, key: str, value: str) -> None:
         ("rod", "inner_diameter", "11 cm", "rod.inner_diameter", "'11 cm'"),
         ("rod", "outer_diameter", "80 cm", "hole.diameter", "'70 cm'"),
         ("hole", "diameter", "1 km", "hole.diameter", "'1 km'"),
-        ("hole", "angle_from_vertical", "1.6 rad", "hole.angle_from_vertical", "'1.6 rad'"),
+        ("hole", "angle_from_vertical", "3.2 rad", "hole.angle_from_vertical", "'3.2 rad'"),
     ],
 )
 def test_values_are_shown_as_they_were_written(section: str, key: str, value: str, blamed: str, shown: str) -> None:

@@ -77,7 +77,7 @@ NO_KEYS = [
     ("hole.inclination", 'write angle_from_vertical = "30 deg"'),
     ("hole.angle", "write angle_from_vertical or angle_from_horizontal"),
     ("hole.azimuth", "write walk, or a survey"),
-    ("hole.section", "leave [[hole.section]] out and give hole.diameter"),
+    ("hole.section", "must be sections: write [[hole.section]], with two brackets"),
     ("hole.dogleg", 'build = "3 deg/30 m"'),
     ("hole.turn_rate", "walk sideways"),
     ("hole.friction", OUT_OF_SCOPE),

@@ -77,7 +77,7 @@ def test_sections_of_a_string_and_of_its_hole_part_each_other() -> None:
         ({"liner": {"length": None}}, "hole.section 2.length: is missing"),
         ({"hole": {"clearance": "1 in"}}, "hole.clearance = '1 in': contradicts [[hole.section]]"),
         ({"hole": {"build": "1 deg/30 m"}}, "hole.build = '1 deg/30 m': cannot stand beside [[hole.section]]"),
-        ({"hole": {"section": {"length": "3 m"}}}, "hole.section: must be sections: write [[hole.section]]"),
+        ({"hole": {"section": {"length": "3 m"}}}, "must be sections: write [[hole.section]]"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:

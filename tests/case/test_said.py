@@ -32,7 +32,6 @@ def refused(**changes: str) -> str:
         ({"hole__diameter": "4.9 in"}, "above the rod's outer diameter of 0.127 m (5 in)"),
         ({"rod__inner_diameter": "5.5 in"}, "below the outer diameter of 0.127 m (5 in)"),
         ({"rod__length": "2 in", "hole__diameter": "12 in"}, "the rod's length of 0.0508 m (2 in)"),
-        ({"hole__angle_from_vertical": "92 deg"}, 'write "88 deg"'),
         (
             {"cylinder__outer_diameter": "8 in", "cylinder__yield_strength": "36 ksi"},
             "inner diameter of 0.2159 m (8.5 in)",

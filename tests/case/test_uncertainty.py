@@ -90,9 +90,11 @@ def test_several_inputs_add_as_independent_ones_and_as_a_monte_carlo_run_has_it(
 
 
 def test_an_angle_at_its_limit_moves_one_way() -> None:
+    limits = [case(hole__angle_from_vertical=f"{degrees} ± 1 deg").uncertain[0] for degrees in (0, 180)]
+    assert [(given.up is None, given.down is None) for given in limits] == [(False, True), (True, False)]
     found = case(hole__angle_from_vertical="90 ± 1 deg")
     (given,) = found.uncertain
-    assert given.up is None
+    assert given.up is not None
     assert given.down is not None
     spread = spread_of_load(
         of_critical_load(rodwell.critical_loads(found.problem, 1)[0]), found.scales, found.uncertain

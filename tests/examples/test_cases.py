@@ -52,7 +52,7 @@ def test_every_number_of_an_example_meets_its_tolerance_and_is_written_well(
     assert found.converged
     for system in SYSTEMS if found.case.scales is not None else (None,):
         case = found.case.in_units(system)
-        there = rodwell.Answer(case, found.critical, found.branches, found.until, found.other_arm)
+        there = rodwell.Answer(case, found.critical, found.branches, found.until, found.other_arm, found.lying)
         report = case_report(there).as_dict()
         texts = without_names(said(report), case)
         _verdict(there)

@@ -184,12 +184,12 @@ def test_weights_of_the_paper() -> None:
 
 
 def test_points_that_fail_say_why() -> None:
-    """Beyond 90° there is no case; at 0° lift-off is buckling; the others are computed."""
-    result = rodwell.study({"dimensionless": {"weight": 40, "alpha": [0, 45, 100]}})
+    """Beyond 180° there is no case; at 0° lift-off is buckling; the others are computed."""
+    result = rodwell.study({"dimensionless": {"weight": 40, "alpha": [0, 45, 190]}})
     vertical, tilted, wrong = result.points
     assert wrong.case is None
     assert wrong.critical is None
-    assert "from 0 (vertical) to 90" in (wrong.reasons or {})["case"]
+    assert "from 0 (vertical) over 90" in (wrong.reasons or {})["case"]
     assert vertical.lift_off is not None
     assert vertical.critical is not None
     assert vertical.lift_off.value == pytest.approx(vertical.critical.value)
@@ -199,7 +199,7 @@ def test_points_that_fail_say_why() -> None:
     assert result.incomplete == (vertical, wrong)
     assert any("1 of 3 points could not be computed" in line for line in sentences(result))
     row = study_table(result).rows[2]
-    assert "must be from 0 (vertical) to 90" in str(row[-1])
+    assert "must be from 0 (vertical) over 90" in str(row[-1])
     assert None in row
     json.dumps(study_dict(result), allow_nan=False)
     assert len(plot_study(result).axes) == 2

@@ -282,7 +282,7 @@ def test_loads_with_proof_are_refused() -> None:
         (((0.5, 1.0), (0.4, 1.0)), "add up to 1, not to 0.9"),
         (((0.5, 0.0), (0.5, 1.0)), "section 1, stiffness"),
         (((0.5, 1.0, -1.0), (0.5, 1.0)), "section 1, weight"),
-        (((0.5, 1.0), (0.5, 1.0, 1.0, 2.0)), "section 2, clearance = 2.0: must be 1"),
+        (((0.5, 1.0), (0.5, 1.0, 1.0, 200.0)), "section 2, clearance = 200.0: makes its clearance 2 L"),
         (((0.5, 1.0), (0.5, 1.0, 1.0, 1.0, 0.0)), "section 2, torsion"),
         (((0.5, float("nan")), (0.5, 1.0)), "section 1, stiffness"),
         (((0.0, 1.0), (1.0, 1.0)), "section 1, length"),

@@ -101,6 +101,7 @@ def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePa
     if member is None:
         what = f"must be above the rod's outer diameter of {outer:g} m: the rod does not fit"
         raise InputError(f"{of_hole}.diameter", part.diameter, what)
-    wall = "the hole's diameter" if of_hole == WHOLE else f"the diameter of {of_hole}"
-    what = f"must be below {wall} of {part.diameter:g} m: the section does not fit"
+    what = f"must be below the hole's diameter of {part.diameter:g} m: the section does not fit"
+    if of_hole != WHOLE:
+        what = f"must be below the diameter of {of_hole} of {part.diameter:g} m: the section does not fit"
     raise InputError(f"{of_rod}.outer_diameter", outer, what)

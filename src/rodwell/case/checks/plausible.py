@@ -95,6 +95,9 @@ RANGES: dict[str, Range] = {
         0.5, 30.0, "acceleration", "gravity is from 0.5 m/s² (small moons) to 30 m/s² (Jupiter), or 0", (9.7, 9.9),
         or_zero=True,
     ),
+    "hole.wall_stiffness": Range(
+        1.0, 1e15, "stress", "walls give way by N/m of rod and m: from 1 Pa (gels) to 1e15 Pa", (1e3, 1e12),
+    ),
     "hole.build": _BEND,
     "hole.walk": _BEND,
     "hole.tortuosity_step": Range(1e-6, 1e3, "length", "courses of a survey are up to 1 km long", (1e-3, 100.0)),

@@ -39,7 +39,7 @@ def check_parts(parts: object) -> None:
     """Refuse what is no list of sections, and lists and uncertainties in them, before anything is read."""
     if not isinstance(parts, Sequence) or isinstance(parts, str):
         what = "must be sections: write [[hole.section]], with two brackets, for each, from the top down"
-        raise InputError("hole.section", None, what)
+        raise InputError("hole.section", parts, what)
     for number, part in enumerate(parts, 1):
         if not isinstance(part, Mapping):
             raise InputError(called(number), part, "must be a section: write [[hole.section]] with its keys below it")
