@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 import rodwell
@@ -16,7 +15,10 @@ PPI = 110
 def pages(out: Path) -> dict[str, str]:
     """Draw the front of the report of the field example into ``out``."""
     answer = rodwell.answer(rodwell.Case.read(out / "examples" / "field-drill-pipe.toml"))
-    with tempfile.TemporaryDirectory() as folder:
-        sheets = typeset(case_report(answer), draw(answer, Path(folder)), format="png", ppi=PPI)
+    pictures = {
+        name: next((kind, formats[kind]) for kind in ("svg", "png") if kind in formats)
+        for name, formats in draw(answer).items()
+    }
+    sheets = typeset(case_report(answer), pictures, format="png", ppi=PPI)
     (out / "front.png").write_bytes(sheets[0])
     return {}
