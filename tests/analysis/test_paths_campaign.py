@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
-import sys
-from pathlib import Path
 from types import ModuleType
 
 import pytest
+from programs import CAMPAIGNS, loaded
 
-CAMPAIGN = Path(__file__).resolve().parents[2] / "benchmarks" / "campaigns" / "paths.py"
+CAMPAIGN = CAMPAIGNS / "paths.py"
 
 
 @pytest.fixture(scope="module")
 def campaign() -> ModuleType:
-    sys.path.insert(0, str(CAMPAIGN.parent))
-    specification = importlib.util.spec_from_file_location("campaign_of_paths", CAMPAIGN)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    sys.path.remove(str(CAMPAIGN.parent))
-    return module
+    return loaded(CAMPAIGN)
 
 
 def test_a_path_with_a_snap_has_no_faults(campaign: ModuleType) -> None:

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import random
-import sys
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+from programs import CAMPAIGNS, loaded
 
-CAMPAIGN = Path(__file__).resolve().parents[2] / "benchmarks" / "campaigns" / "case_files.py"
+CAMPAIGN = CAMPAIGNS / "case_files.py"
 
 
 @pytest.fixture(scope="module")
 def campaign() -> ModuleType:
-    specification = importlib.util.spec_from_file_location("campaign_of_case_files", CAMPAIGN)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    sys.modules[specification.name] = module
-    specification.loader.exec_module(module)
-    return module
+    return loaded(CAMPAIGN)
 
 
 def test_mutated_files_end_in_a_case_or_a_message(campaign: ModuleType, tmp_path: Path) -> None:

@@ -1,11 +1,10 @@
 """The page on what rodwell stands on knows every package, and each has a licence that rodwell's users can live with."""
 
-import importlib.util
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
+from programs import ROOT, loaded
 
 PERMISSIVE = r"BSD|MIT|Apache|PSF|Python Software Foundation|Zlib|0BSD|CC0|HPND"
 LIBRARIES = {"python-flint": "LGPL"}
@@ -15,13 +14,7 @@ LIBRARIES = {"python-flint": "LGPL"}
 @pytest.fixture(scope="module")
 def page() -> Any:
     """The module that makes the page."""
-    file = Path(__file__).parents[2] / "docs" / "make_dependencies.py"
-    spec = importlib.util.spec_from_file_location(file.stem, file)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return loaded(ROOT / "docs" / "make_dependencies.py")
 
 
 def test_the_page_says_what_each_package_is_for(page: Any) -> None:

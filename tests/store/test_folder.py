@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import multiprocessing
 import os
-import sys
 import time
 import warnings
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+from programs import CAMPAIGNS, loaded
 
 from rodwell.errors import InputError
 from rodwell.store import swap
 from rodwell.store.folder import check_writable, whole_folder
 from rodwell.store.staging import LOCK, NEW, OLD, PART, PREFIX, write_plan
 
-CAMPAIGN = Path(__file__).resolve().parents[2] / "benchmarks" / "campaigns" / "kills.py"
+CAMPAIGN = CAMPAIGNS / "kills.py"
 POSIX = pytest.mark.skipif(os.name == "nt", reason="locks and kills of POSIX")
 
 
@@ -267,13 +266,7 @@ def test_a_file_in_place_of_a_folder_changes_nothing(out: Path) -> None:
 
 @pytest.fixture(scope="module")
 def campaign() -> ModuleType:
-    specification = importlib.util.spec_from_file_location("campaign_of_kills", CAMPAIGN)
-    assert specification is not None
-    assert specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    sys.modules[specification.name] = module
-    specification.loader.exec_module(module)
-    return module
+    return loaded(CAMPAIGN)
 
 
 @POSIX

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from pathlib import Path
 from types import ModuleType
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from programs import CAMPAIGNS, loaded
 
 import rodwell
 from rodwell import Case, InputError, Survey
@@ -34,13 +34,7 @@ DATA: dict[str, Any] = {
 @pytest.fixture(scope="module")
 def campaign() -> ModuleType:
     """The campaign of 1,000 wells, of which a few are looked at here."""
-    file = ROOT / "benchmarks" / "campaigns" / "screen_verdicts.py"
-    spec = importlib.util.spec_from_file_location("screen_verdicts", file)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return loaded(CAMPAIGNS / "screen_verdicts.py")
 
 
 def test_no_verdict_is_milder_than_its_lines(campaign: ModuleType) -> None:

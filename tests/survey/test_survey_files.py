@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import io
 import math
 import time
@@ -17,6 +16,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from programs import CAMPAIGNS, loaded
 
 from rodwell import InputError, Survey, read_surveys
 from rodwell.cli.main import cli
@@ -27,13 +27,7 @@ ROWS = [(0.0, 0.0, 30.5), (100.25, 10.5, 40.0), (1200.0, 62.75, 359.5)]
 
 def _campaign() -> ModuleType:
     """The campaign over 20,000 damaged files, with what writes files of every kind."""
-    file = Path(__file__).parents[2] / "benchmarks" / "campaigns" / "survey_files.py"
-    spec = importlib.util.spec_from_file_location("survey_files", file)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return loaded(CAMPAIGNS / "survey_files.py")
 
 
 campaign = _campaign()
