@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -69,8 +70,9 @@ def _critical(path: LoadPath) -> PathPoint:
     return found
 
 
-def _one_clearance(problem: Problem) -> list[tuple[float, Value]]:
-    """The first critical load with each clearance all along, from the widest down."""
+@cache
+def _one_clearance(problem: Problem) -> tuple[tuple[float, Value], ...]:
+    """The first critical load with each clearance all along, from the widest down: files and text show them."""
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
 
     found = []
@@ -78,7 +80,7 @@ def _one_clearance(problem: Problem) -> list[tuple[float, Value]]:
         same = [(*section[:3], 1.0, section[4]) for section in problem.sections]
         mode = critical_loads(problem.but(sections=same, clearance=ratio * problem.clearance), 1)[0]
         found.append((ratio * problem.clearance, mode.load))
-    return found
+    return tuple(found)
 
 
 def _data(path: LoadPath) -> dict[str, Any]:
