@@ -21,13 +21,14 @@ def run_bridged(case: Case, folder: Path, *, as_json: bool, quiet: bool, with_pd
     from rodwell.answers.words.bridged import bridged_sentences  # noqa: PLC0415
     from rodwell.report.folders.bridged import write_bridged  # noqa: PLC0415
 
-    found = bridged_answer(case)
-    write_bridged(found, folder, with_pdf=with_pdf)
-    if as_json:
-        print_json(bridged_dict(found), indent=2)
-    elif not quiet:
+    found, speaks = bridged_answer(case), not (as_json or quiet)
+    if speaks:  # before anything is written: where that fails the answer is not lost
         click.echo(case.title)
         for sentence in bridged_sentences(found):
             wrapped(sentence)
+    write_bridged(found, folder, with_pdf=with_pdf)
+    if as_json:
+        print_json(bridged_dict(found), indent=2)
+    elif speaks:
         print_written(folder, "report.html", with_pdf)
     check_missed(list(found.missed), case.rtol)

@@ -96,7 +96,7 @@ RANGES: dict[str, Range] = {
         or_zero=True,
     ),
     "hole.wall_stiffness": Range(
-        1.0, 1e15, "stress", "walls give way by N/m of rod and m: from 1 Pa (gels) to 1e15 Pa", (1e3, 1e12),
+        1.0, 1e15, "stress", "stiffnesses of walls are from 1 Pa (gels) to 1e15 Pa", (1e3, 1e12),
     ),
     "hole.build": _BEND,
     "hole.walk": _BEND,
