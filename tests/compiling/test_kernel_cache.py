@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import errno
+import fcntl
 import os
 import re
 import shutil
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import warnings
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,7 +24,7 @@ from numba.core.dispatcher import Dispatcher
 
 from rodwell.analysis.discrete import first_run
 from rodwell.cli import main as command_line
-from rodwell.compiling import cache
+from rodwell.compiling import cache, turns
 from rodwell.compiling.kernels import kernel
 from rodwell.errors import CacheWarning
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -139,6 +141,36 @@ def test_machine_code_on_disk_is_seen(folder):
     compiled._cache.flush()
     assert files(folder) == []
     assert not cache.on_disk(compiled, FLOAT)
+
+
+def test_of_two_processes_one_compiles(folder):
+    kernel(tripled)(1.0)
+    (path,) = files(folder)
+    whole = path.read_bytes()
+    path.unlink()
+    lock = path.with_name(f"{path.name}.turn").open("w")
+    fcntl.flock(lock, fcntl.LOCK_EX)  # another process compiles it
+    waiting = kernel(tripled)
+    with ThreadPoolExecutor(1) as thread:
+        result = thread.submit(waiting, 2.0)
+        assert wait([result], timeout=0.2).not_done
+        path.write_bytes(whole)
+        lock.close()
+        assert result.result() == 6.0
+    assert compilations(waiting) == 0
+    assert files(folder) == [path]
+
+
+def test_nobody_waits_for_ever(folder, monkeypatch):
+    monkeypatch.setattr(turns, "LONGEST_WAIT", 0.05)
+    kernel(tripled)(1.0)
+    (path,) = files(folder)
+    path.unlink()
+    with path.with_name(f"{path.name}.turn").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        compiled = kernel(tripled)
+        assert (compiled(2.0), compilations(compiled)) == (6.0, 1)
+    assert path.exists()
 
 
 def test_code_of_other_sources_is_not_loaded(folder, monkeypatch):

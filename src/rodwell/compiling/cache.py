@@ -36,6 +36,7 @@ from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from rodwell._version import __version__
+from rodwell.compiling import turns
 from rodwell.errors import CacheWarning
 
 ROOM = Path(__file__).resolve().parent
@@ -82,13 +83,18 @@ class KernelCache(FunctionCache):
         self._cache_file = files
 
     def load_overload(self, signature: Any, target: Any) -> Any:
-        """Load machine code from the disk; None where there is none.
+        """Load machine code from the disk; None where there is none: then it is this process's turn to compile it.
 
         Numba first reads in all that compiling needs, at each kernel, which takes longer than the machine code. That
         runs with the runtime alone; where something must be compiled after all, the compiler reads what it needs.
         """
         rtsys.initialize(target)
-        return self._load_overload(signature, target)
+        found = self._load_overload(signature, target)
+        if found is None:
+            path = self._path(signature, target.codegen())
+            if turns.take(path) and (found := self._load_overload(signature, target)) is not None:
+                turns.give_back(path)
+        return found
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
         """Put machine code on disk; where that fails it stays in memory."""
@@ -100,11 +106,17 @@ class KernelCache(FunctionCache):
                 f"compiled kernels cannot be kept in {self.cache_path} ({problem.strerror or problem}), so they are "
                 "compiled at each start. The environment variable NUMBA_CACHE_DIR names another folder",
             )
+        finally:
+            turns.give_back(self._path(signature, compiled.codegen))
 
     def holds(self, signature: Any, codegen: Any) -> bool:
         """Whether machine code for a signature lies on disk, fresh and whole."""
         files: Any = self._cache_file
         return files.code(self._index_key(signature, codegen)) is not None
+
+    def _path(self, signature: Any, codegen: Any) -> Path:
+        files: _Files = self._cache_file  # type: ignore[assignment]
+        return files.path(self._index_key(signature, codegen))
 
 
 class _Files:
@@ -128,7 +140,7 @@ class _Files:
 
     def code(self, key: Any) -> memoryview | None:
         """What lies on disk for a key, if that is fresh and whole: key and data, pickled."""
-        path = self._path(key)
+        path = self.path(key)
         try:
             content = path.read_bytes()
         except (FileNotFoundError, NotADirectoryError):
@@ -144,7 +156,7 @@ class _Files:
 
     def save(self, key: Any, data: Any) -> None:
         stamped = stamp(self.module, *_models(key)) + dumps((key, data))
-        path = self._path(key)
+        path = self.path(key)
         beside = path.with_name(f"{path.name}.tmp.{uuid.uuid4().hex[:16]}")
         try:
             beside.write_bytes(_checksum(stamped) + stamped)
@@ -157,7 +169,8 @@ class _Files:
             if path.name.startswith(f"{self.name}.") and path.suffix == ".nbc":
                 path.unlink(missing_ok=True)
 
-    def _path(self, key: Any) -> Path:
+    def path(self, key: Any) -> Path:
+        """Where the machine code for a key lies."""
         models = [f"{model.__module__}.{model.__qualname__}" for model in _models(key)]  # types tell no modules
         return self.folder / f"{self.name}.{blake2b(repr((key, models)).encode(), digest_size=8).hexdigest()}.nbc"
 
