@@ -64,7 +64,11 @@ class Axis:
         piece = np.searchsorted(self.breaks[1:-1], inside, side="right")
         low, high = self.breaks[piece], self.breaks[piece + 1]
         local = 2.0 * (inside - low) / (high - low) - 1.0
-        values = np.einsum("nk,knc->nc", chebyshev.chebvander(local, DEGREE), self.coefficients[:, piece])
+        table = chebyshev.chebvander(local, DEGREE)
+        values = np.empty((places.size, self.coefficients.shape[2]))
+        order = np.argsort(piece, kind="stable")
+        for members in np.split(order, np.flatnonzero(np.diff(piece[order])) + 1):  # those of one piece at a time
+            values[members] = table[members] @ self.coefficients[:, piece[members[0]]]
         curvatures, frames, points = values[:, :2], values[:, 2:11].reshape(-1, 3, 3), values[:, 11:]
         for beyond, end in ((places < 0.0, 0.0), (places > self.length, self.length)):
             if beyond.any():

@@ -135,7 +135,8 @@ class Hole:
         first = circle(curvatures, frame, np.zeros(3), np.array([-0.5]))[1][0]
         return curvatures, frame, -first
 
-    def _at(self, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Curvatures (n, 2), frames (n, 3, 3) and points (n, 3) of the axis at arclengths S (n,), see below."""
         places = np.atleast_1d(np.asarray(places, dtype=float))
         if self.axis:
             return self._axis.at(places)
@@ -144,15 +145,15 @@ class Hole:
 
     def curvatures(self, places: FloatArray) -> FloatArray:
         """Curvatures k1, k2 in 1/L at arclengths S (n,): (n, 2)."""
-        return self._at(places)[0]
+        return self.at(places)[0]
 
     def frame(self, places: FloatArray) -> FloatArray:
         """Unit vectors N1, N2, T, the rows of (n, 3, 3), at arclengths S (n,)."""
-        return self._at(places)[1]
+        return self.at(places)[1]
 
     def points(self, places: FloatArray) -> FloatArray:
         """Points x, y, z of the axis in L, (n, 3), at arclengths S (n,); an arc begins at the origin."""
-        return self._at(places)[2]
+        return self.at(places)[2]
 
     @property
     def error(self) -> float:
@@ -275,13 +276,13 @@ def _meeting(hole: Hole, clearance: float) -> tuple[float, float, float] | None:
     from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to import
 
     places = np.linspace(0.0, 1.0, int(min(20_000, max(400, 4.0 / clearance))))
-    points = hole.points(places)
+    _, frames, points = hole.at(places)
     step = places[1]
     pairs = cKDTree(points).query_pairs(2.0 * clearance + step, output_type="ndarray")
     pairs = pairs[pairs[:, 1] - pairs[:, 0] > max(math.pi * clearance / step, 4.0)]
     if not len(pairs):
         return None
-    tangents = hole.frame(places)[:, 2]
+    tangents = frames[:, 2]
     low, high = pairs.T
     gap = points[high] - points[low]
     for end, sign in ((low, 1.0), (high, -1.0)):  # the nearest points between the samples, to first order

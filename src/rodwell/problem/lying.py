@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from rodwell.problem.hole import Hole
@@ -21,27 +23,37 @@ def places_of_lying_rod(hole: Hole, reach: float, s: FloatArray) -> FloatArray:
     """
     if not hole.axis:
         return np.asarray(0.5 + (s - 0.5) / (1.0 + reach * hole.curvatures(np.array([0.5]))[0, 0]))
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    grid = np.linspace(-MARGIN, 1.0 + MARGIN, GRID)
-    half = 0.5 * np.diff(grid)[:, None]
-
-    def stretch(places: FloatArray) -> FloatArray:
-        return 1.0 + reach * hole.curvatures(places.ravel())[:, 0].reshape(places.shape)
-
-    lengths = (stretch(grid[:-1, None] + half * (nodes + 1.0)) @ weights) * half[:, 0]
-    along = np.concatenate([[0.0], np.cumsum(lengths)])
-    along += 0.5 - np.interp(0.5, grid, along)
+    grid, along = _lengths(hole, reach)
     found = np.interp(s, along, grid)
     for _ in range(3):  # Newton's method, with the integral from the nearest grid point below
         below = np.clip(np.searchsorted(grid, found, side="right") - 1, 0, grid.size - 2)
-        step = 0.5 * (found - grid[below])
-        part = (stretch(grid[below][:, None] + step[:, None] * (nodes + 1.0)) @ weights) * step
-        found = found - (along[below] + part - s) / stretch(found)
+        found = found - (along[below] + _length(hole, reach, grid[below], found) - s) / _stretch(hole, reach, found)
     return np.asarray(found)
+
+
+@lru_cache(maxsize=64)
+def _lengths(hole: Hole, reach: float) -> tuple[FloatArray, FloatArray]:
+    """Places on the axis, rising, and the arclength s of the lying rod beside each, (n,)."""
+    grid = np.linspace(-MARGIN, 1.0 + MARGIN, GRID)
+    along = np.concatenate([[0.0], np.cumsum(_length(hole, reach, grid[:-1], grid[1:]))])
+    return grid, along + 0.5 - np.interp(0.5, grid, along)
+
+
+def _length(hole: Hole, reach: float, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Lengths (m,) of the lying rod from beside the places ``low`` to beside ``high``, (m,) each."""
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    half = 0.5 * (high - low)
+    return np.asarray((_stretch(hole, reach, low[:, None] + half[:, None] * (nodes + 1.0)) @ weights) * half)
+
+
+def _stretch(hole: Hole, reach: float, places: FloatArray) -> FloatArray:
+    """Arclength of the lying rod per arclength of the axis, at places of any shape."""
+    return 1.0 + reach * hole.curvatures(places.ravel())[:, 0].reshape(places.shape)
 
 
 def rise_of_lying_rod(hole: Hole, reach: float) -> float:
     """Height of the end s = 1 of a rod on that generator above the end s = 0, in L."""
     places = places_of_lying_rod(hole, reach, np.array([0.0, 1.0]))
-    heights = hole.points(places)[:, 2] - reach * hole.frame(places)[:, 0, 2]
+    _, frames, points = hole.at(places)
+    heights = points[:, 2] - reach * frames[:, 0, 2]
     return float(heights[1] - heights[0])

@@ -114,8 +114,9 @@ def wall_side(problem: Problem) -> float:
 def hole_at(problem: Problem, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """K₁, k₂, g₁, g₂ (4, m) at places S (m,) of the hole's axis, in the frame turned to the rod, and T·k (m,)."""
     hole, side = _hole(problem), wall_side(problem)
-    up = hole.frame(places)[:, :, 2]
-    return side * np.stack([*hole.curvatures(places).T, up[:, 0], up[:, 1]]), up[:, 2]
+    curvatures, frames, _ = hole.at(places)
+    up = frames[:, :, 2]
+    return side * np.stack([*curvatures.T, up[:, 0], up[:, 1]]), up[:, 2]
 
 
 def undeformed_place(problem: Problem, s: FloatArray) -> FloatArray:
@@ -133,9 +134,10 @@ def ends_of_lying_rod(problem: Problem) -> tuple[float, float]:
 def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> FloatArray:
     """Height (m,) in L of the rod's centre beside places S (m,) of the axis, at angles ξ₂ (m,) from the low side."""
     hole = _hole(problem)
-    up = hole.frame(places)[:, :, 2]
+    _, frames, points = hole.at(places)
+    up = frames[:, :, 2]
     inwards = np.cos(angle) * up[:, 0] - np.sin(angle) * up[:, 1]
-    return np.asarray(hole.points(places)[:, 2] - problem.clearance * inwards)
+    return np.asarray(points[:, 2] - problem.clearance * inwards)
 
 
 @lru_cache(maxsize=64)

@@ -176,9 +176,9 @@ def _beside(problem: Problem, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         return axis, np.tile(upwards(problem) * np.eye(3)[:2], (z.size, 1, 1))
     places = float(undeformed_place(problem, np.array([0.0]))[0]) + z
     middle = np.array([0.5])
-    turn = problem.hole.frame(middle)[0]
-    axis = (problem.hole.points(places) - problem.hole.points(middle)) @ turn.T + np.array([0.0, 0.0, 0.5])
-    return axis, problem.hole.frame(places)[:, :2] @ turn.T
+    (_, (turn,), origin), (_, frames, points) = problem.hole.at(middle), problem.hole.at(places)
+    axis = (points - origin) @ turn.T + np.array([0.0, 0.0, 0.5])
+    return axis, frames[:, :2] @ turn.T
 
 
 def upwards(problem: Problem) -> float:

@@ -7,7 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import PiecewisePolynomial, ends_of_lying_rod, hole_at, lifted, wall_side
+from rodwell.analysis.discrete.curved import (
+    PiecewisePolynomial,
+    ends_of_lying_rod,
+    height_of_rod,
+    hole_at,
+    lifted,
+    wall_side,
+)
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.curved import hole_at as tabulated
@@ -76,12 +83,13 @@ class InHole:
         assert hole is not None
         y, y1 = self.shape(s, 2)
         places, angle = self.place(s), y / self.clearance
-        n1, n2, tangent = (np.asarray(x) for x in hole.frame(places).transpose(1, 0, 2))
+        _, frames, points = hole.at(places)
+        n1, n2, tangent = frames.transpose(1, 0, 2)
         cos_a, sin_a = side * np.cos(angle)[:, None], side * np.sin(angle)[:, None]
         sin, cos = y1[:, None], np.sqrt(1.0 - y1**2)[:, None]
         d1, u2 = cos_a * n1 - sin_a * n2, sin_a * n1 + cos_a * n2
         along, around = sin * u2 + cos * tangent, cos * u2 - sin * tangent
-        return hole.points(places) - self.clearance * d1, np.stack([along, d1, around], axis=1)
+        return points - self.clearance * d1, np.stack([along, d1, around], axis=1)
 
     def fields(self, s: FloatArray) -> dict[str, FloatArray]:
         """Fields at places (m,) in units B = L = 1: those of the rod, by their names in the nomenclature.
@@ -91,11 +99,11 @@ class InHole:
         u, p = self.shape(s, 4), self.parameters
         omega1, omega2, omega3, f1, f2, f3, pressure = strand(s, u, self.given(s), p)
         torsion = self.problem.torsional_stiffness
-        xi1 = p[TWIST] / torsion * s + float(self.turned(np.array([0.0]))[0]) - self.turned(s)
+        xi1 = p[TWIST] / torsion * s + self._turned_in_all - self.turned(s)
         material = material_curvatures(xi1, omega2, omega3, p[TWIST], torsion)
         return {
             "y": u[0],
-            "xi2": u[0] / self.clearance + (np.pi if self.problem.on_top else 0.0),
+            "xi2": self._angle(u[0]),
             "eta": np.arcsin(u[1]),
             "omega1": omega1,
             "omega2": omega2,
@@ -103,7 +111,7 @@ class InHole:
             "material_omega1": material[0],
             "material_omega2": material[1],
             "material_omega3": material[2],
-            "z": self.place(s) - self.place(np.array([0.0])),
+            "z": self.place(s) - self._first_place,
             "xi1": xi1,
             "contact_pressure": np.asarray(pressure),
             "rod_F1": np.asarray(f1),
@@ -112,18 +120,31 @@ class InHole:
             "rod_M1": np.full_like(s, -p[TWIST]),
             "rod_M2": np.asarray(omega2),
             "rod_M3": np.asarray(omega3),
-            "tangential_balance": self._tangential_balance(s),
+            "tangential_balance": self._energy_along(s, omega2, omega3, f1) - self._energy_at_end,
         }
 
-    def _tangential_balance(self, s: FloatArray) -> FloatArray:
-        """Residual of F₁ + ½(ω₂² + ω₃²) − w × height = const.: F₁ comes from what drives the rod along the hole."""
+    def _angle(self, y: FloatArray) -> FloatArray:
+        """ξ₂ (m,) from the low side."""
+        return y / self.clearance + (np.pi if self.problem.on_top else 0.0)
 
-        def total(places: FloatArray) -> FloatArray:
-            _, omega2, omega3, f1, *_ = strand(places, self.shape(places, 4), self.given(places), self.parameters)
-            height = self.frames(places)[0][:, 2]
-            return np.asarray(f1 + 0.5 * (omega2**2 + omega3**2) - self.parameters[AXIAL_WEIGHT] * height)
+    def _energy_along(self, s: FloatArray, omega2: FloatArray, omega3: FloatArray, f1: FloatArray) -> FloatArray:
+        """F₁ + ½(ω₂² + ω₃²) − w × height, which is constant: F₁ comes from what drives the rod along the hole."""
+        height = height_of_rod(self.problem, self.place(s), self._angle(self.shape(s, 1)[0]))
+        return np.asarray(f1 + 0.5 * (omega2**2 + omega3**2) - self.parameters[AXIAL_WEIGHT] * height)
 
-        return np.asarray(total(s) - total(np.array([1.0])))
+    @cached_property
+    def _energy_at_end(self) -> float:
+        end = np.array([1.0])
+        _, omega2, omega3, f1, *_ = strand(end, self.shape(end, 4), self.given(end), self.parameters)
+        return float(self._energy_along(end, omega2, omega3, f1)[0])
+
+    @cached_property
+    def _first_place(self) -> float:
+        return float(self.place(np.array([0.0]))[0])
+
+    @cached_property
+    def _turned_in_all(self) -> float:
+        return float(self.turned(np.array([0.0]))[0])
 
     def energies(self) -> dict[str, float]:
         """Parts of the energy relative to θ = 0, by name, with the hole as it was tabulated."""
