@@ -27,6 +27,7 @@ import make_long
 import make_packer
 import make_paper
 import make_wells
+import matplotlib.pyplot as plt
 from click.testing import CliRunner
 
 import rodwell
@@ -121,11 +122,15 @@ def _commands() -> dict[str, str]:
 
 
 def _examples() -> dict[str, str]:
+    """What the samples print, as they stand; one that fails, or shows nothing, fails the build."""
     with contextlib.chdir(OUT):
         for example in sorted((HERE / "_examples").glob("*.py")):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
                 runpy.run_path(str(example))
+            if not printed.getvalue().strip() and not plt.get_fignums():
+                raise RuntimeError(f"{example.name} neither prints nor draws anything")
+            plt.close("all")
             _write(f"{example.stem}.txt", printed.getvalue())
     return {}
 
