@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
 from enum import IntEnum
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -69,6 +70,10 @@ MEASURES = {
 }
 """Names of the measured numbers, as in the nomenclature."""
 
+_Positions: Any = namedtuple("_Positions", Measured.__members__)
+AT = _Positions(*map(int, Measured))
+"""The same positions as plain numbers: kernels take no others as indices with Numba below 0.68."""
+
 _NAMED = {name: which for which, name in MEASURES.items()}
 
 
@@ -131,28 +136,28 @@ def state_numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, 
     out = np.zeros((3, PROBED + len(PROBES)))
     numbers, scales, noise = out
     _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
-    for i, which, turns in ((0, Measured.OMEGA2_0, turns_0), (2, Measured.OMEGA2_1, turns_1)):
+    for i, which, turns in ((0, AT.OMEGA2_0, turns_0), (2, AT.OMEGA2_1, turns_1)):
         bend, size = derivative(landmarks[i], 2, c, marks[i])
         # no moment where the end turns freely: what the spline has there tells how far it is off
         u[i, 2], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, COEFFICIENT_NOISE * size)
-    numbers[Measured.P_MAX], scales[Measured.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
-    numbers[Measured.ENERGY], scales[Measured.ENERGY] = energy, max(abs(energy), bending)
-    numbers[Measured.SHORTENING] = scales[Measured.SHORTENING] = shortening
-    numbers[Measured.OMEGA2_0] = -u[0, 2] / np.sqrt(1.0 - u[0, 1] ** 2)
-    numbers[Measured.OMEGA2_1] = -u[2, 2] / np.sqrt(1.0 - u[2, 1] ** 2)
+    numbers[AT.P_MAX], scales[AT.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
+    numbers[AT.ENERGY], scales[AT.ENERGY] = energy, max(abs(energy), bending)
+    numbers[AT.SHORTENING] = scales[AT.SHORTENING] = shortening
+    numbers[AT.OMEGA2_0] = -u[0, 2] / np.sqrt(1.0 - u[0, 1] ** 2)
+    numbers[AT.OMEGA2_1] = -u[2, 2] / np.sqrt(1.0 - u[2, 1] ** 2)
     # the scale is ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
-    scales[Measured.OMEGA2_0] = scales[Measured.OMEGA2_1] = max(sharpest, steepest**2 / clearance)
-    numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
-    numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = torque, torque_size
+    scales[AT.OMEGA2_0] = scales[AT.OMEGA2_1] = max(sharpest, steepest**2 / clearance)
+    numbers[AT.ANGLE_MID], scales[AT.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
+    numbers[AT.TORQUE_0], scales[AT.TORQUE_0] = torque, torque_size
     numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
     for k in range(STEEPEST):
         if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
             scales[k] = 1.0
-    numbers[AS_FIELD], scales[AS_FIELD] = as_field, scales[Measured.P_MAX]
+    numbers[AS_FIELD], scales[AS_FIELD] = as_field, scales[AT.P_MAX]
     for k in range(len(PROBES)):
         numbers[PROBED + k], scales[PROBED + k] = at_probes[k], np.inf
-    noise[Measured.P_MAX] = unsure
-    for which in (Measured.ANGLE_MID, Measured.TORQUE_0):
+    noise[AT.P_MAX] = unsure
+    for which in (AT.ANGLE_MID, AT.TORQUE_0):
         noise[which] = SOFT * scales[which]
     return out
 
