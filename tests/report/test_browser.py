@@ -60,66 +60,81 @@ def browser(chromium: Any) -> Iterator[Any]:
     browser.close()
 
 
-@pytest.fixture
-def page(browser: Any) -> Iterator[Any]:
-    page = browser.new_page(viewport={"width": WIDTHS[0], "height": 900})
+@pytest.fixture(scope="module")
+def report(browser: Any, folder: Path) -> Iterator[Any]:
+    """The report, opened once: to open it takes as long as most of what is tested."""
+    page = browser.new_page()
+    opened(page, folder / "report.html")
     yield page
     page.close()
 
 
-def opened(page: Any, file: Path) -> Any:
-    """The page with its script run and its pictures loaded; errors of scripts fail the test."""
+@pytest.fixture
+def page(report: Any) -> Any:
+    """The report as a wide light screen shows it."""
+    seen(report, "light", WIDTHS[0])
+    return report
+
+
+def opened(page: Any, file: Path) -> None:
+    """Open a page, run its script and load its pictures; errors of scripts fail the test."""
     faults: list[str] = []
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.goto(file.as_uri())
     page.wait_for_load_state("load")
     assert faults == []
-    return page
+
+
+def seen(page: Any, scheme: str, width: int) -> None:
+    """Show a page in another style and width, once it is drawn so."""
+    page.emulate_media(color_scheme=scheme)
+    page.set_viewport_size({"width": width, "height": 900})
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def serious(page: Any) -> list[tuple[str, str]]:
+    """What axe finds that keeps people from using a page."""
+    from axe_playwright_python.sync_playwright import Axe
+
+    found = Axe().run(page).response["violations"]
+    return [(v["id"], v["nodes"][0]["html"][:120]) for v in found if v["impact"] in ("serious", "critical")]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_pages_fit_every_width_and_have_no_serious_fault(browser: Any, folder: Path, scheme: str) -> None:
-    from axe_playwright_python.sync_playwright import Axe
-
-    axe = Axe()
+def test_pages_fit_every_width_and_have_no_serious_fault(report: Any, scheme: str) -> None:
     for width in WIDTHS:
-        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-        opened(page, folder / "report.html")
-        assert page.evaluate("document.documentElement.scrollWidth") <= width
-        dark = page.evaluate("getComputedStyle(document.documentElement).backgroundColor")
+        seen(report, scheme, width)
+        assert report.evaluate("document.documentElement.scrollWidth") <= width
+        dark = report.evaluate("getComputedStyle(document.documentElement).backgroundColor")
         assert (dark == "rgb(18, 24, 30)") == (scheme == "dark")
-        found = axe.run(page).response["violations"]
-        assert [(v["id"], v["nodes"][0]["html"][:90]) for v in found if v["impact"] in ("serious", "critical")] == []
+        assert serious(report) == []
         # letters of a figure: 9.5 points of a drawing 7.2 inches wide are not smaller than 8 pixels
-        drawn = page.evaluate("[...document.querySelectorAll('.drawn img')].map(i => i.getBoundingClientRect().width)")
-        assert min(drawn) >= 7.2 * 72.0 * 8.0 / 9.5 * (0.75 if width > 820 else 1.0)
-        page.close()
+        drawn = "[...document.querySelectorAll('.drawn img')].map(i => i.getBoundingClientRect().width)"
+        assert min(report.evaluate(drawn)) >= 7.2 * 72.0 * 8.0 / 9.5 * (0.75 if width > 820 else 1.0)
 
 
 def test_one_slides_through_a_load_path(browser: Any, tmp_path: Path) -> None:
-    from axe_playwright_python.sync_playwright import Axe
-
     path = rodwell.load_path(rodwell.Problem(15.0), until=-113.0, seeds=1)
     write_path_page(tmp_path / PAGE, path)
+    page = browser.new_page()
+    opened(page, tmp_path / PAGE)
     for scheme, width in (("light", 1440), ("dark", 390)):
-        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-        opened(page, tmp_path / PAGE)
+        seen(page, scheme, width)
+        page.locator("#at").focus()
+        page.keyboard.press("Home")
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         assert page.inner_text("#now") == "loading, F = 0 B/L²: straight, stable"
         straight = page.locator(".stage").screenshot()
-        page.locator("#at").focus()
         page.keyboard.press("End")
         assert page.inner_text("#now") == "loading, F = −113 B/L²: sinusoidal, stable"
         assert page.locator(".stage").screenshot() != straight
         page.get_by_role("button", name="the straight rod buckles").click()
         assert page.inner_text("#now") == "loading, F = −111.2 B/L²: straight, stable"
-        found = Axe().run(page).response["violations"]
-        assert [(v["id"], v["nodes"][0]["html"][:90]) for v in found if v["impact"] in ("serious", "critical")] == []
-        page.close()
+        assert serious(page) == []
+    page.close()
 
 
 def test_landmarks_contents_and_links(page: Any, folder: Path) -> None:
-    opened(page, folder / "report.html")
     for landmark in ("header", "nav", "main", "footer"):
         assert page.locator(landmark).count() == 1
     targets = page.evaluate("[...document.querySelectorAll('nav a')].map(a => a.getAttribute('href'))")
@@ -132,22 +147,20 @@ def test_landmarks_contents_and_links(page: Any, folder: Path) -> None:
     assert all(word in text for word in CASE["report"].values())
 
 
-def test_figures_are_dark_where_the_page_is(browser: Any, folder: Path) -> None:
+def test_figures_are_dark_where_the_page_is(report: Any) -> None:
     """The background of the sketch, as the browser paints it."""
     from PIL import Image
 
     for scheme, light in (("light", True), ("dark", False)):
-        page = browser.new_page(viewport={"width": 1440, "height": 900}, color_scheme=scheme)
-        opened(page, folder / "report.html")
-        corner = Image.open(io.BytesIO(page.locator(".case img").screenshot())).convert("L").getpixel((3, 3))
+        seen(report, scheme, WIDTHS[0])
+        corner = Image.open(io.BytesIO(report.locator(".case img").screenshot())).convert("L").getpixel((3, 3))
         assert (corner > 200) == light
-        page.close()
 
 
-def test_the_front_prints_on_one_sheet(page: Any, folder: Path) -> None:
-    opened(page, folder / "report.html")
-    sheets = PdfReader(io.BytesIO(page.pdf(format="Letter", prefer_css_page_size=False))).pages
-    first, second, *_, last = (" ".join(sheet.extract_text().split()) for sheet in sheets)
+def test_the_front_prints_on_one_sheet(page: Any) -> None:
+    printed = io.BytesIO(page.pdf(format="Letter", prefer_css_page_size=False))
+    sheets = [sheet.extract_text() for sheet in PdfReader(printed).pages]
+    first, second, *_, last = (" ".join(sheet.split()) for sheet in sheets)
     assert "numerically converged" in first
     assert "Compression positive" in first
     assert "What the numbers mean" in second[:40]  # after the number of the sheet
@@ -155,12 +168,11 @@ def test_the_front_prints_on_one_sheet(page: Any, folder: Path) -> None:
     assert len(last) > 200  # no sheet for three lines
     heads = page.evaluate("[...document.querySelectorAll('main > section:not(.front) > h2')].map(h => h.textContent)")
     for sheet in sheets:
-        lines = [line for line in sheet.extract_text().splitlines() if line.strip()]
+        lines = [line for line in sheet.splitlines() if line.strip()]
         assert lines[-1].strip() not in heads  # no heading at the foot of a sheet
 
 
-def test_the_rod_is_turned_read_and_set_to_true_scale(page: Any, folder: Path) -> None:
-    opened(page, folder / "report.html")
+def test_the_rod_is_turned_read_and_set_to_true_scale(page: Any) -> None:
     stage = page.locator(".rod-viewer .stage")
     stage.scroll_into_view_if_needed()
     assert "× " in page.inner_text(".rod-viewer .scale")
@@ -179,13 +191,22 @@ def test_the_rod_is_turned_read_and_set_to_true_scale(page: Any, folder: Path) -
     assert "lbf/ft" in page.inner_text(".rod-viewer .reading")  # under the pointer, on the rod
 
 
+@pytest.fixture(scope="module")
+def plain(chromium: Any) -> Iterator[Any]:
+    """A browser without WebGL."""
+    browser = chromium("--no-sandbox", "--disable-gpu", "--disable-3d-apis")
+    yield browser
+    browser.close()
+
+
 @pytest.mark.parametrize("name", ["report.html", "rod-3d.html"])
-def test_a_still_picture_without_webgl_and_without_javascript(chromium: Any, folder: Path, name: str) -> None:
-    for args, script in ((("--no-sandbox", "--disable-gpu", "--disable-3d-apis"), True), (("--no-sandbox",), False)):
-        browser = chromium(*args)
-        page = browser.new_context(java_script_enabled=script).new_page()
-        page.goto((folder / name).as_uri())
-        picture = page.locator(".rod-viewer img.still")
-        assert picture.is_visible()
-        assert picture.bounding_box()["height"] > 100.0
-        browser.close()
+@pytest.mark.parametrize("script", [True, False])
+def test_a_still_picture_without_webgl_and_without_javascript(
+    plain: Any, browser: Any, folder: Path, name: str, script: bool
+) -> None:
+    page = (plain if script else browser).new_page(java_script_enabled=script)
+    page.goto((folder / name).as_uri())
+    picture = page.locator(".rod-viewer img.still")
+    assert picture.is_visible()
+    assert picture.bounding_box()["height"] > 100.0
+    page.close()

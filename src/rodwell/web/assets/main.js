@@ -22,6 +22,7 @@ let asked = 0; // when the newest load was asked for
 const controls = new Map();
 let load = null; // its control
 let settle = 0, stills = 0;
+let unread = ""; // what is wrong with the address; it stands until something is moved
 
 const figure = new Diagram($("diagram"), (to) => go(chosen(to), true));
 const curves = new Curves({ push: $("push"), side: $("side") }, (fraction, text) => {
@@ -66,17 +67,19 @@ function fromAddress() {
   try {
     state = address.read(location.hash, hello);
     if (diagram && !diagram.ordinates.some((each) => each.name === state.y)) state.y = "";
-    say("");
+    unread = "";
   } catch (error) {
     state = address.begun(hello);
     history.replaceState(null, "", location.pathname);
-    say(`The address could not be read: ${error.message}. The page begins with what it begins with.`);
+    unread = `The address could not be read: ${error.message}. The page begins with what it begins with.`;
   }
+  say(unread);
   show();
 }
 
 // Go to another state: done says that it is one to come back to.
 function go(changes, done) {
+  unread = "";
   state = { ...state, ...changes };
   if ("load" in changes && load) load.set(state.load, { field: done });
   show();
@@ -117,6 +120,8 @@ function show() {
     link.ask("diagram", wanted());
     pending = of;
   } else {
+    if (state.load === null) state.load = diagram.suggested; // what an address leaves out
+    state.y ||= diagram.ordinate;
     askState();
     if (state.path && !withPath && !link.newest.path) askPath();
   }
@@ -194,7 +199,7 @@ function haveState({ state: found }) {
   $("headline").textContent = `${found.headline[0].toUpperCase()}${found.headline.slice(1)}. ${found.note}${found.accurate ? "" : " Not every number meets the tolerance."}`;
   $("verdict").textContent = $("headline").textContent;
   const text = found.note && state.branch && found.branch !== state.branch ? found.note : "";
-  say(text);
+  say(unread || text);
   hooks.values = Object.fromEntries(Object.entries(found.values).map(([name, each]) => [name, each.value]));
   hooks.values.load = found.load;
   hooks.values.index = found.index;
