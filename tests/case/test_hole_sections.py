@@ -8,6 +8,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -43,6 +44,47 @@ def test_clearances_are_half_of_what_the_rod_leaves() -> None:
     assert [pair.name for pair in found.pairs] == ["hole.section 2 (liner)", "hole.section 1 (casing)"]
 
 
+def by_depth(
+    hole: dict[str, Any] | None = None, casing: Any = ("1000 ft", "1060 ft"), liner: Any = (None, "1200 ft")
+) -> Case:
+    """The example with sections between measured depths."""
+    parts = [
+        {"length": None, "from": start, "to": end} if start else {"length": None, "to": end}
+        for start, end in (casing, liner)
+    ]
+    return changed(parts[0], parts[1], hole=hole or {})
+
+
+def test_sections_may_be_given_by_measured_depth() -> None:
+    """As of a well: the rod lies from where the first section begins, or where hole.from says; parts are cut there."""
+    assert np.array(by_depth().problem.sections) == pytest.approx(np.array(changed().problem.sections))
+    lower = by_depth({"from": "1030 ft"}).problem
+    assert [section[0] for section in lower.sections] == pytest.approx([0.75, 0.25])
+    assert by_depth({"to": "1150 ft"}).problem == lower
+    within = by_depth({"from": "1070 ft"})
+    assert within.problem.sections == ()
+    assert [pair.name for pair in within.pairs] == []
+    assert within.problem.clearance * 120.0 * 0.3048 == pytest.approx(0.5 * (6.094 - 2.875) * INCH)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"liner": ("1061 ft", "1200 ft")}, "hole.section 2 (liner).from = '1061 ft': is not where the section above "
+         "ends, 323.088 m"),
+        ({"liner": (None, None)}, "hole.section 2 (liner).to: is missing"),
+        ({"liner": (None, "1060 ft")}, "hole.section 2 (liner).to = '1060 ft': must be below where the section begins"),
+        ({"hole": {"from": "1100 ft"}}, "goes from 304.8 to 365.76 m, and the rod lies from 335.28 to 371.856 m"),
+        ({"hole": {"from": "900 ft"}}, "and the rod lies from 274.32"),
+        ({"hole": {"from": "1000 ft", "to": "1100 ft"}}, "hole.from"),
+    ],
+)  # fmt: skip
+def test_depths_that_do_not_fit_are_named(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(CaseError) as told:
+        by_depth(**changes)
+    assert words in str(told.value)
+
+
 def test_one_diameter_all_along_is_a_hole_without_sections() -> None:
     data = copy.deepcopy(DATA)
     data["hole"] = {"diameter": "8.681 in", "angle_from_vertical": "90 deg"}
@@ -74,7 +116,8 @@ def test_sections_of_a_string_and_of_its_hole_part_each_other() -> None:
         ({"liner": {"diameter": ["3 in", "4 in"]}}, "hole.section 2.diameter"),
         ({"liner": {"diameter": "6 in ± 1 in"}}, "cannot have an uncertainty here"),
         ({"liner": {"length": "3"}}, "hole.section 2.length = '3': must be a length"),
-        ({"liner": {"length": None}}, "hole.section 2.length: is missing"),
+        ({"liner": {"length": None}}, "hole.section 2 (liner).length: is missing: give it, or from and to"),
+        ({"liner": {"to": "120 ft"}}, "hole.section 1 (casing).length = '60 ft': contradicts from and to"),
         ({"hole": {"clearance": "1 in"}}, "hole.clearance = '1 in': contradicts [[hole.section]]"),
         ({"hole": {"build": "1 deg/30 m"}}, "hole.build = '1 deg/30 m': cannot stand beside [[hole.section]]"),
         ({"hole": {"section": {"length": "3 m"}}}, "must be sections: write [[hole.section]]"),
@@ -87,9 +130,9 @@ def test_what_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:
 
 
 def test_keys_are_explained() -> None:
-    assert [key.name for key in keys_named("hole.section")] == ["name", "length", "diameter"]
+    assert [key.name for key in keys_named("hole.section")] == ["name", "length", "from", "to", "diameter"]
     (length,) = keys_named("hole.section.length")
-    assert length.required
+    assert not length.required
 
 
 def test_run_says_what_was_computed_and_what_not(tmp_path: Path) -> None:

@@ -60,6 +60,8 @@ def test_examples_suit_their_keys() -> None:
         "hole.to",
         "hole.tortuosity_step",
         "hole.section.length",
+        "hole.section.from",
+        "hole.section.to",
     ):
         assert sizes.pop(along) > 5.0
     assert max(sizes.values()) < 1.0

@@ -61,8 +61,9 @@ def pairs_of(
 
 
 def reference(pairs: Sequence[Pair]) -> float:
-    """The clearance that the others are ratios to, in m: that of the longest piece."""
-    return max(pairs, key=lambda pair: pair.end - pair.start).clearance
+    """The clearance that the others are ratios to, in m: that of the longest piece, the lowest of equals."""
+    longest = max(pair.end - pair.start for pair in pairs)
+    return next(pair.clearance for pair in pairs if pair.end - pair.start >= longest - EQUAL)
 
 
 def stepped(pairs: Sequence[Pair]) -> bool:

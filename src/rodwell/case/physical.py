@@ -15,7 +15,7 @@ from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, fluid_facts, fluids_of, weight_in
 from rodwell.case.hole.lie import Lie, lie_of
 from rodwell.case.hole.schema import Hole
-from rodwell.case.hole.sections import WHOLE, HoleSectionInput, parts_of
+from rodwell.case.hole.sections import WHOLE, HoleSectionInput, by_depth, parts_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.case.sections import PhysicalString, check_length, string_of
 from rodwell.errors import InputError
@@ -84,7 +84,7 @@ def physical(
     for pair in pairs:
         _check_clearance(pair, hole, rod.length)
     radius = None if rod.outer_diameter is None else 0.5 * rod.outer_diameter
-    lie, system = lie_of(hole, rod.length, folder), System(parsed.units or "si")
+    lie, system = lie_of(hole, rod.length, folder, by_depth(hole_parts)), System(parsed.units or "si")
     scales = Scales(rod.length, rod.stiffness, radius, system, load.at == "bottom", lie.height < 0.0)
     problem = _problem(given.ends, rod, hole, scales, weight, pairs, load.twist, string, lie)
     if string is None:

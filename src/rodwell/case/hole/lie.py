@@ -53,20 +53,22 @@ class Lie:
     facts: tuple[Fact, ...] = ()
 
 
-def lie_of(hole: Hole, length: float, folder: Path) -> Lie:
+def lie_of(hole: Hole, length: float, folder: Path, by_depth: bool = False) -> Lie:
     """How the hole of a rod of a length in m lies; files are sought from the folder of the case.
+
+    ``by_depth``: whether sections of the hole are told by measured depth, so that ``from`` and ``to`` need no file.
 
     Raises
     ------
     InputError
         Naming the key that is missing, contradicts another, or does not fit the rod.
     """
-    file = _one_way(hole)
+    file = _one_way(hole, by_depth)
     if file is None:
         return _bent(hole, length)
     name = "from" if hole.from_ is not None else "to"
     path = _named(f"hole.{file}", getattr(hole, file), lambda: _path(hole, file, folder))
-    upper, lower = _depths(hole, path, length)
+    upper, lower = depths_of(hole, length, path.bottom)
     if not path.top - SAME_LENGTH * length <= upper < lower <= path.bottom + SAME_LENGTH * length:
         given = getattr(hole, "from_" if name == "from" else "to")
         raise InputError(
@@ -124,7 +126,7 @@ def _survey_facts(piece: Piece, hole: Hole) -> tuple[Fact, ...]:
     return (*out, Fact("tortuosity, standard deviation in each direction", size, note=text))
 
 
-def _one_way(hole: Hole) -> str | None:
+def _one_way(hole: Hole, by_depth: bool) -> str | None:
     """The key that names a file, or None; refuses what contradicts it, and what needs one."""
     files = [key for key in ("survey", "centerline") if getattr(hole, key) is not None]
     if len(files) == 2:
@@ -136,7 +138,7 @@ def _one_way(hole: Hole) -> str | None:
             if getattr(hole, key) is not None:
                 what = "inclination" if key in ANGLES else "curvature"
                 raise InputError(f"hole.{key}", None, f"is given twice: hole.{file} has the {what}; leave one out")
-    for key in (*(OF_A_FILE if file is None else ()), *(OF_A_SURVEY if file != "survey" else ())):
+    for key in (*(OF_A_FILE if file is None and not by_depth else ()), *(OF_A_SURVEY if file != "survey" else ())):
         if key in given:
             needs = "hole.survey or hole.centerline" if key in OF_A_FILE else "hole.survey"
             raise InputError(f"hole.{key.rstrip('_')}", None, f"needs {needs}: give that too, or leave it out")
@@ -183,8 +185,8 @@ def _named(key: str, value: str, compute: Callable[[], HolePath]) -> HolePath:
         raise InputError(key, value, where + error.reason) from None
 
 
-def _depths(hole: Hole, path: HolePath, length: float) -> tuple[float, float]:
-    """Measured depths of the rod's ends s = 1 and s = 0 in m."""
+def depths_of(hole: Hole, length: float, bottom: float) -> tuple[float, float]:
+    """Measured depths of the rod's ends s = 1 and s = 0 in m; the latter at ``bottom`` if neither is given."""
     if hole.from_ is not None and hole.to is not None:
         if abs(hole.to - hole.from_ - length) > SAME_LENGTH * length:
             raise InputError(
@@ -196,7 +198,7 @@ def _depths(hole: Hole, path: HolePath, length: float) -> tuple[float, float]:
         return hole.from_, hole.to
     if hole.from_ is not None:
         return hole.from_, hole.from_ + length
-    lower = path.bottom if hole.to is None else hole.to
+    lower = bottom if hole.to is None else hole.to
     return lower - length, lower
 
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from pydantic import ConfigDict
+
+from rodwell.case.hole.lie import depths_of
 from rodwell.case.hole.schema import Hole
-from rodwell.case.kinds import REQUIRED, Length, Name, SectionInput, _key
+from rodwell.case.kinds import InnerLength, Length, Name, SectionInput, _key
 from rodwell.errors import InputError
 
 SAME_LENGTH = 1e-6
@@ -20,8 +23,17 @@ WHOLE = "hole"
 class HoleSectionInput(SectionInput):
     """[[hole.section]]: a part of the hole with its own diameter, **from the top (s = 1) down**."""
 
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+
     name: Name | None = _key(None, "for report and messages; its number from the top if not given", "7 in liner")
-    length: Length = _key(REQUIRED, "of the part, as far as the rod lies in it", "12 m", "40 ft")
+    length: Length | None = _key(
+        None, "of the part, as far as the rod lies in it; instead of `from` and `to`", "12 m", "40 ft"
+    )
+    from_: InnerLength | None = _key(
+        None, "measured depth where it begins; that where the one above ends if not given. The rod's end s = 1 lies at "
+        "`hole.from`, or where the first section begins", "1200 m", alias="from",
+    )  # fmt: skip
+    to: Length | None = _key(None, "measured depth where it ends; sections may reach beyond the rod", "1900 m")
     diameter: Length | None = _key(None, "inner diameter; `hole.diameter` if not given", "6.094 in")
 
 
@@ -62,7 +74,8 @@ def parts_of(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> tu
     Raises
     ------
     InputError
-        Where lengths do not add up to the rod's, a diameter is missing, or what stands in [hole] contradicts them.
+        Where lengths do not add up to the rod's, depths leave a gap or end within it, a diameter is missing, or what
+        stands in [hole] contradicts them.
     """
     if not given:
         return (HolePart(WHOLE, 0.0, 1.0, hole.diameter),)
@@ -73,20 +86,64 @@ def parts_of(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> tu
         if getattr(hole, key) is not None:
             raise InputError(f"hole.{key}", getattr(hole, key), "cannot stand beside [[hole.section]]: steps of the "
                              "clearance are computed in straight holes; leave one out")  # fmt: skip
-    total = sum(one.length for one in given)
+    bounds = _by_depth(given, hole, length) if by_depth(given) else _by_length(given, length)
+    out: list[HolePart] = []
+    for number, (one, above, below) in enumerate(zip(given, bounds[:-1], bounds[1:], strict=True), 1):
+        diameter = one.diameter or hole.diameter
+        if diameter is None:
+            raise InputError(f"{called(number, one.name)}.diameter", None, "is missing: give it here or in [hole]")
+        if above > below:
+            out.append(HolePart(called(number, one.name), below, above, diameter))
+    return tuple(out[::-1])
+
+
+def by_depth(given: Sequence[HoleSectionInput]) -> bool:
+    """Whether sections say from which measured depth to which they go, not how long they are."""
+    return any(one.from_ is not None or one.to is not None for one in given)
+
+
+def _by_length(given: Sequence[HoleSectionInput], length: float) -> list[float]:
+    """Where sections of the lengths given begin and end, s/L from 1 down."""
+    lengths = []
+    for number, one in enumerate(given, 1):
+        if one.length is None:
+            what = "is missing: give it, or from and to, measured depths, in all sections"
+            raise InputError(f"{called(number, one.name)}.length", None, what)
+        lengths.append(one.length)
+    total = sum(lengths)
     if abs(total - length) > SAME_LENGTH * length:
-        shown = " + ".join(f"{one.length:.6g}" for one in given)
+        shown = " + ".join(f"{one:.6g}" for one in lengths)
         raise InputError(
             "hole.section", None, f"has lengths {shown} = {total:.6g} m, and the rod is {length:.6g} m long: give its "
             "parts as far as the rod lies in them",
         )  # fmt: skip
-    out: list[HolePart] = []
-    above = 1.0
+    return [1.0, *(sum(lengths[k:]) / total for k in range(1, len(lengths))), 0.0]
+
+
+def _by_depth(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> list[float]:
+    """The same of sections between measured depths, no farther than the rod goes."""
+    depths = [0.0 if given[0].from_ is None else given[0].from_]
     for number, one in enumerate(given, 1):
-        diameter = one.diameter or hole.diameter
-        if diameter is None:
-            raise InputError(f"{called(number, one.name)}.diameter", None, "is missing: give it here or in [hole]")
-        below = 0.0 if number == len(given) else above - one.length / total
-        out.append(HolePart(called(number, one.name), below, above, diameter))
-        above = below
-    return tuple(out[::-1])
+        key = called(number, one.name)
+        if one.length is not None:
+            raise InputError(f"{key}.length", one.length, "contradicts from and to, which sections here have: give one "
+                             "or the other, in all of them")  # fmt: skip
+        if one.from_ is not None and abs(one.from_ - depths[-1]) > SAME_LENGTH * length:
+            what = f"is not where the section above ends, {depths[-1]:.6g} m: sections go from the top down, without "
+            raise InputError(f"{key}.from", one.from_, what + "gap or overlap")
+        if one.to is None:
+            raise InputError(f"{key}.to", None, "is missing: give the measured depth where the section ends")
+        if one.to <= depths[-1]:
+            raise InputError(f"{key}.to", one.to, f"must be below where the section begins, {depths[-1]:.6g} m")
+        depths.append(one.to)
+    top = depths[0]
+    if hole.from_ is not None or hole.to is not None:
+        top, _ = depths_of(hole, length, depths[-1])
+    if top < depths[0] - SAME_LENGTH * length or top + length > depths[-1] + SAME_LENGTH * length:
+        raise InputError(
+            "hole.section", None, f"goes from {depths[0]:.6g} to {depths[-1]:.6g} m, and the rod lies from {top:.6g} "
+            f"to {top + length:.6g} m: a hole must be known all along its rod",
+        )  # fmt: skip
+    places = [min(max(1.0 - (depth - top) / length, 0.0), 1.0) for depth in depths]
+    return [1.0, *(0.0 if place < SAME_LENGTH else 1.0 if place > 1.0 - SAME_LENGTH else place
+                   for place in places[1:-1]), 0.0]  # fmt: skip
