@@ -22,6 +22,7 @@ from rodwell.analysis.path.load_path import LoadPath, load_path
 from rodwell.cli.path import _print_barrier
 from rodwell.errors import InputError
 from rodwell.numerics.stretches.assembly import assemble
+from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
 from rodwell.quantities.value import Value
 
@@ -274,13 +275,32 @@ def test_the_bifurcation_of_a_heavier_rod() -> None:
     assert at_load(snap.state.fine, -214.0).solved.index == 0
 
 
+def test_a_loose_end_is_pressed_to_the_wall_beyond_a_free_stretch() -> None:
+    """Free over 2θ′√(Δ/w) at first, as at a ball joint (theory-2): its end pushes, and rolls round to the top.
+
+    There it is in the vertical plane, until that loses its stability.
+    """
+    path = load_path(rodwell.Problem(weight=15, ends="clamped-loose"), until=-95.0, seeds=1)
+    assert [event.kind for event in path.events] == ["critical", "lift_off", "branch_point"]
+    first = path.legs[0].runs[0][0]
+    (start,) = first.solved.shape.breaks
+    slope = float(sampler(first.solved.shape)(np.array([start]))[1][1, 0])
+    assert 1.0 - start == pytest.approx(2.0 * abs(slope) * np.sqrt(0.01 / 15.0), rel=0.05)
+    for force, angle in ((-50.0, None), (-88.0, np.pi)):
+        state = path.at(force)[0].state
+        assert state.certificate.passed
+        assert [point.kind for point in state.point_forces] == ["end", "tip"]
+        assert min(point.force.value for point in state.point_forces) > 0.0
+        assert angle is None or abs(state.fields(np.array([1.0]))["angle"][0]) == pytest.approx(angle, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("field", "change"),
     [
         ("outside", {"outside": True}),
         ("on_top", {"on_top": True}),
         ("turns", {"turns": 1}),
-        ("ends", {"ends": "loose-clamped"}),
+        ("ends", {"ends": "loose-clamped", "weight": 0.0}),
     ],
 )
 def test_what_has_no_path_is_refused_with_the_reason(field: str, change: dict) -> None:

@@ -56,7 +56,7 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 default="clamped-clamped",
                 show_default=True,
                 help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free; for "
-                "critical loads also ball (joint) or loose, which the wall does not hold.",
+                "critical loads and load paths also ball (joint) or loose, which the wall does not hold.",
             ),
             click.option(
                 "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."

@@ -39,7 +39,7 @@ UNIT = "B/L²"
 
 WHERE = {
     "point": "at a point of contact", "end": "at the end of a stretch in contact",
-    "edge": "at the edge of a narrower part of the hole",
+    "edge": "at the edge of a narrower part of the hole", "tip": "at the loose end",
 }  # fmt: skip
 """Where a point force acts, in words."""
 

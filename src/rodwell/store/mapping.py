@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from rodwell.case.file import CaseText
 from rodwell.case.checks.rigid_wall import warn_if_it_gives_way
+from rodwell.case.file import CaseText
 from rodwell.errors import InputError, checked_whole
 from rodwell.problem.problem import Problem
 from rodwell.store.chunked import (
