@@ -15,10 +15,16 @@ import rodwell
 from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.state import contact_state
+from rodwell.analysis.path.barrier import Barrier, saddle
+from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.cli.path import _print_barrier
 from rodwell.errors import InputError
 from rodwell.numerics.stretches.assembly import assemble
+from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
+from rodwell.quantities.value import Value
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +58,50 @@ def test_the_whole_loop(loop: LoadPath) -> None:
     assert (up.to.kind, abs(up.to.turns), down.to.kind, down.to.turns) == ("helix", 1, "straight", 0)
     assert up.to.agree == up.to.starts == 2
     assert loop.events[2].s == pytest.approx((0.16506, 0.83494), abs=1e-5)
+
+
+def test_the_saddle_is_the_state_that_a_held_shortening_keeps_stable(loop: LoadPath) -> None:
+    """Reference: with the shortening controlled the rod is at F = −126.38730948 at .00100, on the unstable branch."""
+    snap = loop.legs[0].runs[0][-1]
+    found = saddle(snap, -126.38730948, loop.way)
+    assert found.solved.index == 1
+    assert contact_state(found).shortening.value == pytest.approx(1e-3, abs=1e-11)
+    with pytest.raises(InputError, match="does not snap"):
+        loop.barrier(-155.0)
+
+
+def test_the_saddle_rises_from_the_limit_point(loop: LoadPath) -> None:
+    """From a limit point on, shortenings part like the root of the distance in load: ΔE = ⅔ ΔF (u₂ − u₁)."""
+    force, limit = -147.14, loop.first("fold").force.value
+    over, state = contact_state(saddle(loop.legs[0].runs[0][-1], force, loop.way)), loop.at(force)[0].state
+    apart = over.shortening.value - state.shortening.value
+    assert over.energy.value - state.energy.value == pytest.approx(2.0 / 3.0 * (force - limit) * apart, rel=2e-3)
+
+
+def test_the_barrier_before_the_snap(
+    loop: LoadPath, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = loop.barrier(-147.0)
+    assert (found.saddle.stability_index, found.to.kind, abs(found.to.turns)) == (1, "helix", 1)
+    assert found.saddle.certificate.passed
+    assert found.height.value == pytest.approx(found.saddle.energy.value - found.state.energy.value, rel=1e-6)
+    assert 0.0 < found.height.error < 1e-8 * found.height.value
+    monkeypatch.setattr(Barrier, "turn", Value(1.56, 0.05))
+    assert found.as_dict()["turn"] == {"value": 1.56, "error": 0.05}
+    monkeypatch.setattr(LoadPath, "barrier", lambda *_: found)
+    _print_barrier(loop, -147.0, None)
+    told = " ".join(capsys.readouterr().out.split())
+    assert "a helix of 1 turn lies 2.0626533" in told
+    assert "by more than 1.56 rad (± 0.05) about" in told
+
+
+@pytest.mark.parametrize(("force", "least", "most"), [(-127.2, 2.2, 2.8), (-147.0, 1.45, 1.7)])
+def test_a_turn_of_mid_length_that_snaps_the_rod(loop: LoadPath, force: float, least: float, most: float) -> None:
+    """Reference: by about 2.6 rad at −127.2, by 1.56 at −147, for a way to turn the rod and a flow not told."""
+    state = loop.at(force)[0].state.coarse
+    held = held_by(state, loop.way, force)
+    assert comes_back(state, held, least)
+    assert not comes_back(state, held, most)
 
 
 def test_a_path_that_is_given_up_keeps_what_it_has() -> None:
@@ -225,13 +275,32 @@ def test_the_bifurcation_of_a_heavier_rod() -> None:
     assert at_load(snap.state.fine, -214.0).solved.index == 0
 
 
+def test_a_loose_end_is_pressed_to_the_wall_beyond_a_free_stretch() -> None:
+    """Free over 2θ′√(Δ/w) at first, as at a ball joint (theory-2): its end pushes, and rolls round to the top.
+
+    There it is in the vertical plane, until that loses its stability.
+    """
+    path = load_path(rodwell.Problem(weight=15, ends="clamped-loose"), until=-95.0, seeds=1)
+    assert [event.kind for event in path.events] == ["critical", "lift_off", "branch_point"]
+    first = path.legs[0].runs[0][0]
+    (start,) = first.solved.shape.breaks
+    slope = float(sampler(first.solved.shape)(np.array([start]))[1][1, 0])
+    assert 1.0 - start == pytest.approx(2.0 * abs(slope) * np.sqrt(0.01 / 15.0), rel=0.05)
+    for force, angle in ((-50.0, None), (-88.0, np.pi)):
+        state = path.at(force)[0].state
+        assert state.certificate.passed
+        assert [point.kind for point in state.point_forces] == ["end", "tip"]
+        assert min(point.force.value for point in state.point_forces) > 0.0
+        assert angle is None or abs(state.fields(np.array([1.0]))["angle"][0]) == pytest.approx(angle, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("field", "change"),
     [
         ("outside", {"outside": True}),
         ("on_top", {"on_top": True}),
         ("turns", {"turns": 1}),
-        ("ends", {"ends": "loose-clamped"}),
+        ("ends", {"ends": "loose-clamped", "weight": 0.0}),
     ],
 )
 def test_what_has_no_path_is_refused_with_the_reason(field: str, change: dict) -> None:

@@ -10,11 +10,13 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from rodwell import Case, InputError, Problem, answer, load_path
+from rodwell import Case, InputError, Problem, answer, audit, load_path
+from rodwell import map as rodwell_map
 from rodwell.answers.data.beyond import beyond_dict
 from rodwell.answers.result import beyond
 from rodwell.answers.words.meaning import sentences
 from rodwell.cli.main import cli
+from rodwell.errors import InputWarning
 
 STIFF = 1e6
 DIMENSIONLESS = {"dimensionless": {"weight": 15.0, "alpha": 90.0, "wall_stiffness": STIFF}}
@@ -82,3 +84,10 @@ def test_commands_on_the_wall_say_that_they_leave_it_aside(tmp_path: Path) -> No
     done = CliRunner().invoke(cli, ["export", str(file), "--at", "-120", "--to", str(tmp_path / "rod.csv")])
     assert done.exit_code == 0, done.output
     assert "wall_stiffness is left aside" in done.stderr
+
+
+def test_functions_on_the_wall_say_it_too() -> None:
+    with pytest.warns(InputWarning, match="wall_stiffness is left aside"):
+        audit(Case.from_dict(DIMENSIONLESS))
+    with pytest.warns(InputWarning, match="wall_stiffness is left aside"):
+        rodwell_map(DIMENSIONLESS, "critical", over={"dimensionless.weight": [15.0, 16.0]}, halvings=0)

@@ -20,7 +20,7 @@ def run(*arguments: str) -> Any:
 
 
 def test_as_json() -> None:
-    done = run(*COMMON, "--until", "-126", "--at", "-125.41829806,-300", "--json")
+    done = run(*COMMON, "--until", "-126", "--at", "-125.41829806,-300", "--barrier", "-125", "--json")
     assert done.exit_code == 0, done.output
     data = json.loads(done.output)
     assert [event["kind"] for event in data["events"]] == ["critical", "lift_off", "gap_opens"]
@@ -32,6 +32,7 @@ def test_as_json() -> None:
     assert set(state["point_contacts"][0]) >= {"s", "force"}
     assert state["energy"]["value"] == pytest.approx(-0.00145016, abs=1e-8)
     assert missing["reached"] is False
+    assert "does not snap from there" in data["barriers"][0]["why"]
     assert data["reached"]
     assert data["converged"]
     assert "tension positive" in data["convention"]

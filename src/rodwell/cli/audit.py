@@ -13,7 +13,6 @@ from rodwell.cli.listing import print_listing
 from rodwell.cli.options import (
     OutPath,
     check_missed,
-    note_rigid_wall,
     print_json,
     print_written,
     progress_bar,
@@ -89,7 +88,6 @@ def audit(
 
     text = read_case(case)
     read = Case.read(text).in_units(units)
-    note_rigid_wall(read.given)
     folder = results_folder(out, text.name, "-audit")
     check_writable(folder)
     angles = {"build": build_angle, "turn": turn_angle}

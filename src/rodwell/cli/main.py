@@ -16,7 +16,7 @@ import click
 
 from rodwell._version import __version__
 from rodwell.cli.terminal import Terminated, ending_well, never_fail_to_encode
-from rodwell.errors import CacheWarning, InputError, RodwellError
+from rodwell.errors import CacheWarning, InputError, InputWarning, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
 
@@ -101,7 +101,7 @@ _show_warning = warnings.showwarning
 
 def _warned(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
     """Tell a warning of rodwell in one line, without the place in the source; others as Python does."""
-    if issubclass(category, CacheWarning):
+    if issubclass(category, CacheWarning | InputWarning):
         click.echo(f"rodwell: warning: {message}", err=True)
     else:
         _show_warning(message, category, *where, **more)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, json_option, make_problem, note_rigid_wall, print_json, progress_bar
+from rodwell.cli.options import check_missed, json_option, make_problem, print_json, progress_bar
 from rodwell.errors import InputError, NotConvergedError, printable
 
 if TYPE_CHECKING:
@@ -142,7 +142,6 @@ def _asked(case: Path | None, vary: tuple[tuple[str, str], ...], given: dict[str
                 key, given[named[0]], 'belongs to a problem; a case has keys: --vary rod.length "10..20 m in 5"'
             )
         read = read_case(case)
-        note_rigid_wall(read.data)
         return read, dict(vary)
     if vary:
         raise InputError("--vary", vary[0][0], "needs a case file; a problem has --weight, --alpha and so on")

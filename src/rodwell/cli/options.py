@@ -56,7 +56,7 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 default="clamped-clamped",
                 show_default=True,
                 help="End conditions at s = 0 and s = 1: clamped, pinned, guided (slides around the wall) or free; for "
-                "critical loads also ball (joint) or loose, which the wall does not hold.",
+                "critical loads and load paths also ball (joint) or loose, which the wall does not hold.",
             ),
             click.option(
                 "--on-top", is_flag=True, help="The rod lies on top, ξ₂ = π, where its weight helps buckling."
@@ -186,10 +186,10 @@ def note_rigid_wall(sections: Mapping[str, Any]) -> None:
 
     ``sections`` are those of the case file.
     """
-    known = (sections.get(name) for name in ("hole", "dimensionless"))
-    if any(isinstance(keys, Mapping) and "wall_stiffness" in keys for keys in known):
-        what = "wall_stiffness is left aside: the wall is rigid here; it counts in `rodwell run` beyond lift-off and in"
-        click.echo(f"rodwell: {what} `rodwell path CASE`", err=True)
+    from rodwell.case.checks.rigid_wall import LEFT_ASIDE, gives_way  # noqa: PLC0415
+
+    if gives_way(sections):
+        click.echo(f"rodwell: {LEFT_ASIDE}", err=True)
 
 
 def force_at(at: str, case: Case, word: str = "", option: str = "--at") -> float:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.case.case import Case
+    from rodwell.errors import RodwellError
     from rodwell.problem.problem import Problem
     from rodwell.quantities.value import Value
 
@@ -38,7 +39,7 @@ UNIT = "B/L²"
 
 WHERE = {
     "point": "at a point of contact", "end": "at the end of a stretch in contact",
-    "edge": "at the edge of a narrower part of the hole",
+    "edge": "at the edge of a narrower part of the hole", "tip": "at the loose end",
 }  # fmt: skip
 """Where a point force acts, in words."""
 
@@ -53,6 +54,11 @@ WHERE = {
 )
 @click.option("--unload-to", help="End force to unload it to afterwards.")
 @click.option("--at", help="End forces, separated by commas, at which states are shown.")
+@click.option(
+    "--barrier",
+    help="End forces at which it is told how large a disturbance snaps the rod before it must: the energy of the "
+    "saddle in between, and the turn of mid-length about the hole's axis. Takes up to a minute each.",
+)
 @click.option(
     "--control",
     type=click.Choice(["force", "shortening"]),
@@ -76,6 +82,7 @@ def path(
     until: str | None,
     unload_to: str | None,
     at: str | None,
+    barrier: str | None,
     control: str,
     axial_stiffness: float | None,
     spring: float | None,
@@ -98,7 +105,7 @@ def path(
     read = _case(case)
     problem, rtol = (make_problem(given), rtol) if read is None else (read.problem, _tolerance(read, rtol))
     begin, back = _range(problem, read, until, unload_to, control)
-    forces = [_number("--at", part, read, control) for part in at.split(",")] if at else []
+    forces, barriers = _numbers("--at", at, read, control), _numbers("--barrier", barrier, read, control)
     if wall_stiffness is None:
         wall_stiffness = math.inf if read is None else read.wall_stiffness
     if out is not None:
@@ -116,14 +123,14 @@ def path(
     if out is not None:
         from rodwell.report.folders.path import write_path  # noqa: PLC0415
 
-        write_path(result, out, forces, read)
+        write_path(result, out, forces, read, barriers)
     if as_json:
         from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
         convention = "end force F at s = 1, tension positive; places in L, gaps in clearances; "
         print_json(
             {
-                **result.as_dict(forces),
+                **result.as_dict(forces, barriers),
                 "converged": not result.missed,
                 "unit": "B/L^2",
                 **({} if read is None or read.scales is None else {"unit_N": read.scales.factor("force")}),
@@ -136,6 +143,8 @@ def path(
             click.echo(f"1 B/L² is {read.scales.text(1.0, 'force', 6)}, L {read.scales.text(1.0, 'length', 6)}.")
         for force in forces:
             _print_states(result, force)
+        for force in barriers:
+            _print_barrier(result, force, read)
         if out is not None:
             print_written(out)
     check_missed(result.missed, rtol)
@@ -193,6 +202,11 @@ def _number(option: str, text: str, case: Case | None, control: str) -> float:
         raise InputError(option, text, "must be end forces in B/L² (or shortenings in L), plain numbers") from None
 
 
+def _numbers(option: str, text: str | None, case: Case | None, control: str) -> list[float]:
+    """Such numbers, separated by commas."""
+    return [_number(option, part, case, control) for part in text.split(",")] if text else []
+
+
 def _print_states(result: LoadPath, force: float) -> None:
     """The states at an end force, or why there is none: that ends nothing."""
     from rodwell.errors import RodwellError  # noqa: PLC0415
@@ -201,9 +215,36 @@ def _print_states(result: LoadPath, force: float) -> None:
         for state in result.at(force):
             _print_state(state)
     except RodwellError as error:
-        click.echo("")
-        why = error.reason if isinstance(error, InputError) else error
-        wrapped(f"{result.control} {plain(force, 6)}: not reached; {why}")
+        _print_why(f"{result.control} {plain(force, 6)}: not reached", error)
+
+
+def _print_why(what: str, error: RodwellError) -> None:
+    """What is not there, and why."""
+    click.echo("")
+    wrapped(f"{what}; {error.reason if isinstance(error, InputError) else error}")
+
+
+def _print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
+    """The barrier at an end force, or why there is none: that ends nothing."""
+    from rodwell.errors import RodwellError  # noqa: PLC0415
+
+    try:
+        found = result.barrier(force)
+        turn = found.turn
+    except RodwellError as error:
+        _print_why(f"{result.control} {plain(force, 6)}: no barrier told", error)
+        return
+    scales = None if case is None else case.scales
+    work = "" if scales is None else f" ({scales.amount(found.height, 'energy')})"
+    far = "half a turn" if turn is None else f"more than {plain(turn.value, 3)} rad (± {plain(turn.error, 1)})"
+    then = "comes back" if turn is None else "snaps there"
+    click.echo("")
+    wrapped(
+        f"Barrier at F = {signed(found.state.force, 10)}, {found.leg}: the saddle between this state and "
+        f"{found.to.meaning} lies {amount(found.height, 9)} B/L{work} higher. Turned at mid-length by {far} about the "
+        f"hole's axis and let go, in something viscous, the rod {then}. The saddle, unstable:"
+    )
+    print_contacts(found.saddle)
 
 
 def _print(result: LoadPath) -> None:

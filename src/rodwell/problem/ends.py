@@ -30,7 +30,7 @@ def checked_ends(ends: object) -> tuple[str, str]:
     raise InputError(
         "ends",
         ends,
-        f"must be two of {', '.join(ENDS)} (or, for critical loads of the straight rod, {', '.join(OFF_WALL_ENDS)}), "
+        f"must be two of {', '.join(ENDS)} (or, for critical loads and load paths, {', '.join(OFF_WALL_ENDS)}), "
         "that at s = 0 first: for example clamped-pinned",
     )
 

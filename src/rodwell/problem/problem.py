@@ -81,7 +81,7 @@ class Problem:
         End conditions at s = 0 and s = 1: two of "clamped" (y and y' held), "pinned" (y held), "guided" (y' held: the
         end slides around the wall) and "free" (none). A text like "clamped-pinned" will do. These ends are radially
         held: x and x' too. "ball" (x, y held) and "loose" (nothing held) are for critical loads of the straight rod
-        only, since the rod leaves the wall there as soon as it buckles.
+        and for load paths only, since the rod leaves the wall there as soon as it buckles.
     torsion
         C/B as measured, for shafts that are not round rods of one material (braided, coiled, slotted); ``poisson`` then
         has no effect. None: that of ``poisson``.

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from rodwell.case.checks.rigid_wall import warn_if_it_gives_way
 from rodwell.case.file import CaseText
 from rodwell.errors import InputError, checked_whole
 from rodwell.problem.problem import Problem
@@ -93,6 +94,7 @@ def map(  # noqa: A001 - the public name is rodwell.map
         If the workers are gone; what was done is kept in ``out``.
     """
     question = asked(of, quantity, over, Samples(samples, sampling, seed), load=load, rtol=rtol)
+    warn_if_it_gives_way(question.rods.given)
     halvings = checked_whole("halvings", halvings, 0, MOST_HALVINGS)
     tell = progress or (lambda _what, _done: None)
     if out is None and question.size > MOST_IN_MEMORY:

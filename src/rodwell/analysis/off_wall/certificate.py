@@ -94,6 +94,7 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
         else:
             free = max(free, float(np.max(np.abs(np.diff(n, axis=1) - load))))
         ends.append((n[:, 0], n[:, -1]))
+    ends = _with_loads(state, ends)
     for i, (place, outward, _) in enumerate(points):
         jump = ends[i + 1][0] - ends[i][1]
         x, y, _ = position(state, np.array([place]))
@@ -108,6 +109,16 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
         "jumps across the wall's normal": across / scale,
     }
     return ContactCertificate(residuals, _penetration(state), *_least(state))
+
+
+def _with_loads(
+    state: PatternedState, ends: list[tuple[FloatArray, FloatArray]]
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Internal forces at the ends of parts, with those beyond loose ends that touch the wall: N k, the load alone."""
+    tips = [place in state.pattern.edges for place in (0.0, 1.0)]
+    loads = state.load + state.problem.axial_weight * state.problem.rod.lever(np.array([0.0, 1.0]))
+    first, last = ([(np.array([0.0, 0.0, n]),) * 2] * tip for n, tip in zip(loads, tips, strict=True))
+    return [*first, *ends, *last]
 
 
 def _parts(state: PatternedState) -> list[tuple[float, float, bool]]:

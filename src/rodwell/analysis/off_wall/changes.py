@@ -212,13 +212,19 @@ def _grow_at_end(plan: Plan, condition: Condition) -> None:
 
 
 def _release(plan: Plan, condition: Condition) -> None:
-    """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ)."""
+    """A rod that nothing holds radially leaves the wall at its end, over a length of about 2φ′√(Δ/wₗ).
+
+    The end itself stays at the wall, where a ball joint is held there; a loose one is pressed to it, since the radial
+    moment that is missing bends the rod outwards.
+    """
     if 0.0 < condition.s < 1.0:
         release(plan, condition)
         return
     problem = plan.state.model.problem
     weight = max(problem.lateral_weight, 1e-3)
     length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 2e-3, 0.3))
+    if problem.ends[int(condition.s)] == "loose":
+        plan.edges.append(condition.s)
     if condition.number:
         plan.touching.append(False)
         plan.breaks.append(1.0 - length)
@@ -254,7 +260,9 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
             breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         else:
             _close(touching, breaks, i)
-    new = replace(state.pattern, touching=tuple(touching))
+    closed = [end for end, on in zip((0.0, 1.0), (touching[0], touching[-1]), strict=True) if on]
+    edges = tuple(edge for edge in state.pattern.edges if edge not in closed)
+    new = replace(state.pattern, touching=tuple(touching), edges=edges)
     found = solved(state.model, new, np.array(breaks), state.load, sampler(shape))
     if found is None:
         return None

@@ -10,7 +10,8 @@ Where one of them vanishes along a path the pattern of contact changes:
   moment that this takes: else it leaves the wall there; nor where its stiffness has a step,
 * the rod nowhere reaches the wall within a free stretch: else it touches there,
 * ends of stretches and points of contact keep off steps of a string: else they pass them, and elements with them,
-* the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it.
+* the edge of a narrower part of the hole, where the rod touches it, pushes: else the rod leaves it; and so does the
+  wall at a loose end of a free stretch that touches it.
 """
 
 from __future__ import annotations
@@ -116,15 +117,21 @@ class PatternedState:
 
     @cached_property
     def edge_forces(self) -> FloatArray:
-        """Outward forces on the edges that the rod touches, (k,), from s = 0, in the unit of the others."""
+        """Outward forces on edges and on loose ends that touch the wall, (k,), from s = 0; unit as of the others."""
         return np.asarray(-self.solved.out.plain[self.solved.shape.chain.edges, RADIUS])
 
     @property
     def point_forces(self) -> list[tuple[float, float, str]]:
-        """Places and outward forces of concentrated contact, from s = 0: at "end"s of stretches, "point"s, "edge"s."""
+        """Places and outward forces of concentrated contact, from s = 0.
+
+        At "end"s of stretches, "point"s, "edge"s, and loose ends of the rod, "tip"s.
+        """
         kinds = ["point" if self.pattern.is_point(i) else "end" for i in range(self.pattern.breaks)]
         found = list(zip(map(float, self.solved.shape.breaks), map(float, self.solved.forces), kinds, strict=True))
-        found += [(s, float(force), "edge") for s, force in zip(self.pattern.edges, self.edge_forces, strict=True)]
+        found += [
+            (s, float(force), "tip" if s in (0.0, 1.0) else "edge")
+            for s, force in zip(self.pattern.edges, self.edge_forces, strict=True)
+        ]
         return sorted(found)
 
     def elements_of(self, stretch: int) -> range:
@@ -270,7 +277,7 @@ def _apart(state: PatternedState, stretch: int, left: float, right: float) -> Co
 
 def _power(state: PatternedState, stretch: int, last: bool, place: float) -> int:
     """Like which power of the distance the gap opens at an end of a free stretch, or at an edge within it."""
-    if place in state.pattern.edges:
+    if place in state.pattern.edges and 0.0 < place < 1.0:
         shape = state.solved.shape
         node = int(np.searchsorted(shape.places, place))
         own, beyond = shape.chain.radii[[node - 1, node] if last else [node, node - 1]]

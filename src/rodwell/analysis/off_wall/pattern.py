@@ -31,7 +31,8 @@ class Pattern:
     ``turns`` is the angle at s = 1 over 2π where the end holds it. ``planar``: the rod lies in the plane through its
     ends and the hole's axis, and nothing but a disturbance takes it out. ``fixed``: where elements end too, of a rod
     behind a soft wall, which is one free stretch: there its contact ends. ``edges``: steps of the clearance, within
-    free stretches, at which the rod touches the edge of the narrower part: points of contact whose place is known.
+    free stretches, at which the rod touches the edge of the narrower part, and loose ends of it that touch the wall:
+    points of contact whose place is known.
     """
 
     touching: tuple[bool, ...]
@@ -135,8 +136,10 @@ def chain(
     held[edges, RADIAL_SLOPE], values[edges, RADIAL_SLOPE] = False, np.nan
     for node, last in ((0, False), (total, True)):
         free_end = problem.ends[1 if last else 0] == "loose" and not touching[-1 if last else 0]
-        polar[node] = not free_end
+        polar[node] = not free_end or node in edges
         held[node], values[node] = end_held(problem, last, pattern.turns, float(around[node]))
+        if node in edges:
+            held[node, RADIUS], values[node, RADIUS] = True, around[node]
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = around[node], 0.0

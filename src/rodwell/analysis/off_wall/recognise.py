@@ -39,8 +39,9 @@ MOST_DOUBTS, MOST_TRIES = 4, 8
 NARROW = 0.004
 """Gaps behind a soft wall that are narrower than this are not counted."""
 
-NEAR, TINY = 0.02, 1e-3
-"""How far the energies behind soft and hard wall may differ: relative, and absolute in BΔ²/L³."""
+NEAR, NEAR_TIP, TINY = 0.02, 0.06, 1e-3
+"""How far the energies behind soft and hard wall may differ: relative, the same with a loose end that is pressed in,
+which costs as k^(−1/2), and absolute in BΔ²/L³."""
 
 MOST_REPAIRS = 8
 
@@ -83,11 +84,15 @@ def _solved(model: RodInHole, shape: Shape, stiffness: float, energy: float, con
     fields, angle = sample(s)
     depth = np.hypot(fields[0, 0], fields[1, 0]) - 1.0
     turns = int(np.round(angle[0, -1] / (2.0 * np.pi))) if model.problem.ends[1] in HOLD_ANGLE else 0
+    loose = [end for end, kind in zip((0.0, 1.0), model.problem.ends, strict=True) if kind == "loose"]
+    touched = [end for end in loose if depth[int(end) * SAMPLES] > 0.0]
     for tried, (touching, breaks) in enumerate(_readings(_pieces(s, depth > 0.0), stiffness**-0.25)):
         if tried >= MOST_TRIES:
             return None
-        state = _polished(model, Pattern(touching, turns), breaks, shape.load, sample, control)
-        if state is not None and abs(state.solved.out.energy - energy) <= NEAR * abs(energy) + TINY:
+        edges = tuple(end for end in touched if not touching[-int(end)])
+        state = _polished(model, Pattern(touching, turns, edges=edges), breaks, shape.load, sample, control)
+        near = NEAR_TIP if edges else NEAR
+        if state is not None and abs(state.solved.out.energy - energy) <= near * abs(energy) + TINY:
             return state
     return None
 

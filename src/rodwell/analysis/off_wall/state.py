@@ -66,8 +66,8 @@ class Contact:
 class PointForce:
     """A concentrated contact force, from the wall on the rod, in B/L², at a place in L.
 
-    ``kind``: "point", a point of contact with gaps on both sides, "end", an end of a stretch in contact, or "edge", the
-    edge of a narrower part of the hole.
+    ``kind``: "point", a point of contact with gaps on both sides, "end", an end of a stretch in contact, "edge", the
+    edge of a narrower part of the hole, or "tip", a loose end of the rod that touches the wall.
     """
 
     s: Value

@@ -15,6 +15,7 @@ import numpy as np
 
 from rodwell.analysis.off_wall.bumps import Bump, at_step, beside, pressure_at, sides
 from rodwell.analysis.off_wall.conditions import BESIDE_STEP, Condition, PatternedState
+from rodwell.problem.ends import OFF_WALL_ENDS
 
 OVER = 2.0
 """How far beyond a step an end is set, in distances at which it counts as having reached it."""
@@ -55,17 +56,24 @@ class Plan:
 
 
 def closes_with_slope(state: PatternedState, stretch: int) -> bool:
-    """Whether a free stretch is one that a rod opens wherever it has a slope: at a ball joint, at a stiffness step."""
+    """Whether a free stretch is one that a rod opens wherever it has a slope.
+
+    At a ball joint, at a loose end, at a step of the stiffness.
+    """
     problem, (left, right) = state.model.problem, state.bounds[stretch : stretch + 2]
     ends = [end for end, bound in zip(problem.ends, (left == 0.0, right == 1.0), strict=True) if bound]
     steps = problem.rod.stiffness_steps
-    return "ball" in ends or bool(np.any((steps > left) & (steps < right)))
+    return not set(OFF_WALL_ENDS).isdisjoint(ends) or bool(np.any((steps > left) & (steps < right)))
 
 
 def edge_at(state: PatternedState, s: float) -> float | None:
-    """The step of the clearance at a place, None where there is none: the edge of the narrower part of the hole."""
-    steps = state.problem.rod.clearance_steps
-    return next((float(step) for step in steps if abs(step - s) < BESIDE_STEP), None)
+    """The step of the clearance at a place, the edge of the narrower part of the hole, or the loose end there.
+
+    None where there is neither.
+    """
+    problem = state.problem
+    ends = [place for place, end in zip((0.0, 1.0), problem.ends, strict=True) if end == "loose"]
+    return next((float(one) for one in (*problem.rod.clearance_steps, *ends) if abs(one - s) < BESIDE_STEP), None)
 
 
 def open_at(plan: Plan, condition: Condition) -> None:

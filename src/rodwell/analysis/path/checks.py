@@ -41,12 +41,16 @@ def checked_problem(problem: Problem) -> None:
             "whole until the wall stops it: no path is followed through such states; leave twist at 0, or give the "
             "rod some lateral weight",
         )
-    if "loose" in problem.ends:
-        raise InputError("ends", "-".join(problem.ends), "loose ends have no load path yet: take ball or free")
+    if "loose" in problem.ends and problem.lateral_weight == 0.0:
+        raise InputError(
+            "ends", "-".join(problem.ends), "nothing presses the loose end to the wall, where a path begins: "
+            "give the rod some lateral weight, or take ball or free",
+        )  # fmt: skip
 
 
 def checked_bridging(problem: Problem, control: str, unload_to: float | None, mirror: bool) -> None:
     """Raise if a string whose clearance has steps has no load path here, with the reason."""
+    refuse_loose(problem, "where the clearance has steps")
     if problem.lateral_weight == 0.0:
         raise InputError(
             "sections", f"{len(problem.sections)} of them", "have steps of the clearance, and no lateral weight lays "
@@ -63,6 +67,12 @@ def checked_bridging(problem: Problem, control: str, unload_to: float | None, mi
                          "for which the difference counts, are not computed there")  # fmt: skip
 
 
+def refuse_loose(problem: Problem, where: str) -> None:
+    """Raise if a rod has a loose end where none is followed."""
+    if "loose" in problem.ends:
+        raise InputError("ends", "-".join(problem.ends), f"loose ends are not followed {where}: take ball or free")
+
+
 def checked_wall(problem: Problem, stiffness: float) -> float:
     """Return the stiffness of the wall in B/L⁴, infinite for a hard one, or raise."""
     allowed = f"from {SOFTEST_WALL:g} to {STIFFEST_WALL:g} in B/L⁴, or infinite: a hard wall"
@@ -72,6 +82,7 @@ def checked_wall(problem: Problem, stiffness: float) -> float:
         problem.sections,
         "a soft wall is for uniform rods: leave wall_stiffness out, for a hard wall, or take one section",
     )
+    refuse_loose(problem, "behind a soft wall, where ends stand at the clearance")
     if problem.lateral_weight == 0.0:
         raise InputError(
             "wall_stiffness", stiffness, "a soft wall is for rods that weight presses to it: leave it out, for a hard "

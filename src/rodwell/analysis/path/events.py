@@ -46,6 +46,9 @@ MEANING = {
 """Kinds of events, in words."""
 
 
+_ARTICLE = {"sinusoidal": "a ", "helix": "a "}
+
+
 @dataclass(frozen=True)
 class Destination:
     """Where a snap leads: the kind of state, its turns around the hole, its energy relative to the straight rod.
@@ -60,6 +63,14 @@ class Destination:
     force: Value
     starts: int
     agree: int
+
+    @property
+    def meaning(self) -> str:
+        """The state, in words."""
+        if self.kind == STRAIGHT:
+            return "the straight shape"
+        turns = f" of {abs(self.turns)} turn{'s' if abs(self.turns) != 1 else ''}" if self.turns else ""
+        return f"{_ARTICLE.get(self.kind, 'another state of ')}{self.kind}{turns}"
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
@@ -108,8 +119,7 @@ class PathPoint:
             return MEANING[self.kind]
         if self.to.kind == STRAIGHT:
             return "the rod falls back to the straight shape"
-        turns = f" of {abs(self.to.turns)} turn{'s' if abs(self.to.turns) != 1 else ''}" if self.to.turns else ""
-        return f"the rod snaps to {_ARTICLE.get(self.to.kind, 'another state of ')}{self.to.kind}{turns}"
+        return f"the rod snaps to {self.to.meaning}"
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
@@ -117,9 +127,6 @@ class PathPoint:
             "kind": self.kind, "force": plain(self.force), "s": list(self.s), "leg": self.leg,
             "to": None if self.to is None else self.to.as_dict(),
         }  # fmt: skip
-
-
-_ARTICLE = {"sinusoidal": "a ", "helix": "a "}
 
 
 @dataclass(eq=False)
@@ -135,12 +142,23 @@ class Leg:
 
     def near(self, value: float, control: Control) -> list[PatternedState]:
         """Known states on either side of a value of the controlled quantity, the nearer first."""
-        for run in reversed(self.runs):
-            for one, other in pairwise(run):
-                slack, known = ROUND_OFF * abs(value), [control.value(state.solved) for state in (one, other)]
-                if min(known) - slack <= value <= max(known) + slack:
-                    return sorted((one, other), key=lambda state: abs(control.value(state.solved) - value))
-        return []
+        run = self.passing(value, control)
+        pair = None if run is None else _around(self.runs[run], value, control)
+        return sorted(pair or (), key=lambda state: abs(control.value(state.solved) - value))
+
+    def passing(self, value: float, control: Control) -> int | None:
+        """Which run passes a value of the controlled quantity: the last one that does; None if none does."""
+        runs = range(len(self.runs) - 1, -1, -1)
+        return next((i for i in runs if _around(self.runs[i], value, control) is not None), None)
+
+
+def _around(run: list[PatternedState], value: float, control: Control) -> tuple[PatternedState, PatternedState] | None:
+    """The first two states of a run between which a value of the controlled quantity lies."""
+    for one, other in pairwise(run):
+        slack, known = ROUND_OFF * abs(value), [control.value(state.solved) for state in (one, other)]
+        if min(known) - slack <= value <= max(known) + slack:
+            return one, other
+    return None
 
 
 @dataclass(frozen=True, eq=False)

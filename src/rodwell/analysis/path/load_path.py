@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
+from rodwell.analysis.path.barrier import Barrier, barrier
 from rodwell.analysis.path.bridged import bridging, farthest
 from rodwell.analysis.path.checks import (
     checked_bridging,
@@ -27,11 +28,12 @@ from rodwell.analysis.path.checks import (
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.legs import walked
 from rodwell.analysis.path.loading import loaded
+from rodwell.analysis.path.plain import found_or_why
 from rodwell.analysis.path.straightening import How, straight_state
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.state.fields import GRID
 from rodwell.analysis.straight.critical import critical_loads
-from rodwell.errors import InputError, NotConvergedError, RodwellError, checked_whole
+from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -150,6 +152,30 @@ class LoadPath(Shown):
             )
         return tuple(found)
 
+    def barrier(self, value: float, leg: str = LOADING) -> Barrier:
+        """How large a disturbance makes the rod snap before it must: the saddle at a value of what is controlled.
+
+        Parameters
+        ----------
+        value
+            The end force at s = 1 in B/L², tension positive, or the shortening in L; the rod snaps later on the leg.
+        leg
+            "loading" or "unloading".
+
+        Raises
+        ------
+        InputError
+            If the leg does not pass that value, or the rod does not snap after it.
+        NotConvergedError
+            If the saddle was not found, or descent from it did not confirm what it lies between.
+        """
+        value = checked_force(self.control, value)
+        taken = next((one for one in self.legs if one.name == leg), None)
+        if taken is None or not taken.near(value, self.way):
+            raise InputError(self.control, value, f"the {leg} path has no bent state there")
+        state = self._on(taken, value, self.way)
+        return barrier(taken, self.events, state, self.way, value)
+
     @property
     def assumptions(self) -> str:
         """What is assumed, in words."""
@@ -193,11 +219,11 @@ class LoadPath(Shown):
         columns = np.array(rows, dtype=float).reshape(-1, 4).T
         return dict(zip(("force", "shortening", "energy", "run"), columns, strict=True))
 
-    def as_dict(self, at: Sequence[float] = ()) -> dict[str, Any]:
-        """Plain data, for JSON, with the states at the end forces ``at``."""
-        return {
+    def as_dict(self, at: Sequence[float] = (), barriers: Sequence[float] = ()) -> dict[str, Any]:
+        """Plain data, for JSON, with the states at the end forces ``at``, and the barriers at others."""
+        out = {
             "events": [{**one.as_dict(), **self._driven(one)} for one in self.events],
-            "states": [one for force in at for one in self._plain_states(force)],
+            "states": found_or_why(at, lambda value: [one.as_dict() for one in self.at(value)]),
             "reached": self.reached,
             "ended_because": self.ended_because,
             "control": self.control,
@@ -205,6 +231,9 @@ class LoadPath(Shown):
             "assumptions": self.assumptions,
             "wall_stiffness": self.wall_stiffness if math.isfinite(self.wall_stiffness) else None,
         }
+        if barriers:
+            out["barriers"] = found_or_why(barriers, lambda value: [self.barrier(value).as_dict()])
+        return out
 
     def _driven(self, event: PathPoint) -> dict[str, Any]:
         """The controlled shortening at an event, for JSON."""
@@ -219,13 +248,6 @@ class LoadPath(Shown):
         if event.to is not None:
             force = event.to.force
         return Value(own.value - self.compliance * force.value, own.error + self.compliance * force.error)
-
-    def _plain_states(self, force: float) -> list[dict[str, Any]]:
-        """States at an end force as plain data, or why there is none."""
-        try:
-            return [state.as_dict() for state in self.at(force)]
-        except RodwellError as error:
-            return [{"force": force, "reached": False, "why": str(error)}]
 
     def dataset(self, places: int = GRID) -> xr.Dataset:
         """States, what touches in them, and events as an xarray Dataset: see :mod:`rodwell.store.path_arrays`."""

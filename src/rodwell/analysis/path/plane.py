@@ -15,7 +15,8 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.pattern import chain
 from rodwell.numerics.stretches.assembly import bubbles_of
 from rodwell.numerics.stretches.carry import Sampler, sampler
-from rodwell.numerics.stretches.newton import Row, softest, solve
+from rodwell.numerics.stretches.chain import Chain
+from rodwell.numerics.stretches.newton import Row, Solved, softest, solve
 from rodwell.quantities.arrays import FloatArray
 
 ASIDE = 0.1
@@ -33,13 +34,22 @@ def out_of_plane(state: PatternedState) -> PatternedState | None:
     shape, model = state.solved.shape, state.model
     pattern = replace(state.pattern, planar=False)
     links, _ = chain(model.problem, model.given, pattern, state.elements, shape.chain.degree)
-    direction = softest(state.solved).reshape(-1, 4)
-    direction = direction / float(np.max(np.abs(direction[:, :2])))
-    nodes, still = ASIDE * direction, np.zeros_like(shape.breaks)
-    moved = shape.moved(nodes, bubbles_of(state.solved.out, nodes, still, 0.0, 0.0), still, 0.0)
-    aside = Row(direction, still, 0.0, float(np.sum(direction * moved.nodes)))
-    found = solve(model, replace(moved, chain=links), aside)[1]
+    found = displaced(state, links, ASIDE)
     return None if found is None else with_new_elements(PatternedState(pattern, state.elements, found))
+
+
+def displaced(state: PatternedState, links: Chain, aside: float) -> Solved | None:
+    """The equilibrium, at a load that is found, of a state displaced by so much, in Δ, where it is softest.
+
+    On the chain ``links``, which may hold less than that of the state.
+    """
+    shape = state.solved.shape
+    direction = softest(state.solved).reshape(-1, 4) * ~links.unmoved
+    direction = direction / float(np.max(np.abs(direction[:, :2])))
+    nodes, still = aside * direction, np.zeros_like(shape.breaks)
+    moved = shape.moved(nodes, bubbles_of(state.solved.out, nodes, still, 0.0, 0.0), still, 0.0)
+    row = Row(direction, still, 0.0, float(np.sum(direction * moved.nodes)))
+    return solve(state.model, replace(moved, chain=links), row)[1]
 
 
 def back_in_plane(state: PatternedState, sense: float) -> PatternedState | None:

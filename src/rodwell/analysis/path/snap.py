@@ -20,7 +20,7 @@ from rodwell.analysis.off_wall.soft import settled
 from rodwell.numerics.stretches.assembly import bubbles_of
 from rodwell.numerics.stretches.carry import Sampler, fields_at, sampler
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.descent import descended
+from rodwell.numerics.stretches.descent import WANTED, descended
 from rodwell.numerics.stretches.newton import Solved, softest
 from rodwell.quantities.arrays import FloatArray
 
@@ -95,15 +95,15 @@ def _minima(event: PatternedState, seeds: int, control: Control, value: float, n
     minima: list[Solved] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
-            low = _flowed(event, _disturbed(_kicked(event.solved, sign), seed), control, value)
+            low = flowed(event, _disturbed(kicked(event.solved, sign), seed), control, value)
             if low is not None:
                 minima.append(low)
-            if near and len(minima) == 1 and _distance(minima[0], event.solved) < near:
+            if near and len(minima) == 1 and distance(minima[0], event.solved) < near:
                 return []
     return minima
 
 
-def _distance(one: Solved, other: Solved) -> float:
+def distance(one: Solved, other: Solved) -> float:
     """Largest distance between two shapes at the same places along the rod, in Δ."""
     s = np.linspace(0.0, 1.0, SAMPLES)
     first, second = (fields_at(state.shape, s)[0][:, 0] for state in (one, other))
@@ -123,17 +123,29 @@ def _alike(minima: list[Solved], event: Solved, control: Control) -> list[list[S
     return sorted(groups, key=lambda group: (-len(group), energy(group[0])))
 
 
-def _flowed(event: PatternedState, sample: Sampler, control: Control, value: float) -> Solved | None:
+@dataclass(frozen=True)
+class Flow:
+    """How closely the flow is computed: stiffness of its wall, elements in a half-wave, and how wrong a step may be."""
+
+    stiffness: float = STIFFNESS
+    elements: float = ELEMENTS_PER_HALF_WAVE
+    wanted: float = WANTED
+
+
+def flowed(
+    event: PatternedState, sample: Sampler, control: Control, value: float, flow: Flow = Flow()
+) -> Solved | None:
     """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held."""
     model, load = event.model, value if control.by_force else event.load
     pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
-    elements = element_counts(model, nowhere, load, 1.0 / ELEMENTS_PER_HALF_WAVE, FEWEST_ELEMENTS)
+    elements = element_counts(model, nowhere, load, 1.0 / flow.elements, FEWEST_ELEMENTS)
     shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
-    stiffness = 0.0 if model.soft else STIFFNESS  # a soft wall is in the model already
-    return descended(model, shape, stiffness, control.row(shape.chain, value), control.index_at)
+    stiffness = 0.0 if model.soft else flow.stiffness  # a soft wall is in the model already
+    row = control.row(shape.chain, value)
+    return descended(model, shape, stiffness, row, control.index_at, flow.wanted)
 
 
-def _kicked(state: Solved, sign: float) -> Shape:
+def kicked(state: Solved, sign: float) -> Shape:
     """A state displaced along the direction in which it is softest."""
     shape = state.shape
     direction = softest(state).reshape(-1, 4)

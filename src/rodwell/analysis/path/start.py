@@ -21,12 +21,16 @@ from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
 from rodwell.numerics.stretches.chain import RADIUS
 from rodwell.numerics.stretches.newton import Row, solve
+from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 ENOUGH, BENT, MOST = 0.02, 0.04, 0.6
 """Largest angle around the hole, in radians, from which on a buckled state is a start for a chain; and from which on,
 and up to which, a rod that leaves the wall as soon as it buckles is sought beside it."""
+
+HELD_INSTEAD = {"ball": "pinned", "loose": "free"}
+"""Ends that are not radially held, each with the one that is and holds the same besides."""
 
 ARCH = 0.02
 """Height, in clearances, of the first state of a rod that arches away from the wall."""
@@ -108,20 +112,20 @@ def _stable_at(model: RodInHole, branch: Branch, force: float) -> ContactState |
 
 
 def leaving_places(problem: Problem) -> tuple[float, ...]:
-    """Places at which a pressed rod leaves the wall as soon as it buckles: ball joints, and steps of its stiffness."""
+    """Places at which a pressed rod leaves the wall as soon as it buckles: ball joints, loose ends, stiffness steps."""
     if problem.lateral_weight == 0.0:
         return ()
-    ends = [s for end, s in zip(problem.ends, (0.0, 1.0), strict=True) if end == "ball"]
+    ends = [s for end, s in zip(problem.ends, (0.0, 1.0), strict=True) if end in OFF_WALL_ENDS]
     return tuple(sorted([*ends, *map(float, problem.rod.stiffness_steps)]))
 
 
 def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | None:
-    """The first state of a rod that leaves the wall as soon as it buckles: at ball joints, at steps of its stiffness.
+    """The first state of a rod that leaves the wall as soon as it buckles: see :func:`leaving_places`.
 
     From the rod that is radially held there instead, buckled a little. None where no such state was found that is
     stable and from which on the load grows: what follows then is for the descent to find.
     """
-    first, second = ("pinned" if end == "ball" else end for end in problem.ends)
+    first, second = (HELD_INSTEAD.get(end, end) for end in problem.ends)
     model = RodInHole(problem)
     branch = follow(replace(problem, ends=(first, second)), 1, until=None, mirror=mirror, rtol=rtol)
     for i in range(1, len(branch)):

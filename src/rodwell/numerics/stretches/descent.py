@@ -23,8 +23,9 @@ FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9
 
 MOST_EULER_STEPS = 1000
 
-WANTED, MOST = 0.3, 0.9
-"""By which part of itself a step would be corrected if the equations were solved exactly: wanted, and accepted."""
+WANTED, MOST = 0.3, 3.0
+"""By which part of itself a step would be corrected if the equations were solved exactly: wanted, and how many times
+that is accepted."""
 
 AT_REST = 1e-7
 """Steps below this, in coordinates of nodes, are round-off: what corrects them tells nothing."""
@@ -88,11 +89,13 @@ def _mass(shape: Shape) -> FloatArray:
     return out
 
 
-def descended(model: Any, shape: Shape, stiffness: float, row: Row, index: Callable[[Solved], int]) -> Solved | None:
+def descended(
+    model: Any, shape: Shape, stiffness: float, row: Row, index: Callable[[Solved], int], wanted: float = WANTED
+) -> Solved | None:
     """The minimum of the energy behind a rim of this stiffness to which the flow leads from ``shape``, free everywhere.
 
-    ``row`` is what is held on the way, and ``index`` the stability index where it is. None if the flow does not come to
-    rest.
+    ``row`` is what is held on the way, and ``index`` the stability index where it is. The way is followed the closer,
+    the less of itself a step is ``wanted`` to be wrong by. None if the flow does not come to rest.
     """
     rim, rate = SoftRim(model, stiffness), FIRST_RATE
     out, mass = assemble(rim, shape), _mass(shape)
@@ -101,13 +104,13 @@ def descended(model: Any, shape: Shape, stiffness: float, row: Row, index: Calla
         ahead, wrong = None, np.inf
         if index(Solved(rim, pulled)) == 0:
             ahead, wrong = _euler_step(rim, pulled, row, rate * mass)
-        if ahead is None or wrong > MOST:
+        if ahead is None or wrong > MOST * wanted:
             rate *= SLOWER
             if rate > HIGHEST_RATE:
                 return None
             continue
         out = ahead
-        rate *= min(max(wrong / WANTED, FASTER), SLOWER)
+        rate *= min(max(wrong / wanted, FASTER), SLOWER)
         if rate < LOWEST_RATE:
             rest = solve(rim, out.shape, row)[1]
             if rest is not None and index(rest) == 0:

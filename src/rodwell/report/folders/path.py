@@ -21,8 +21,12 @@ from rodwell.store.netcdf import write_load_path
 from rodwell.store.text import write_json
 
 
-def write_path(result: LoadPath, out: Path, at: Sequence[float] = (), case: Case | None = None) -> tuple[str, ...]:
+def write_path(
+    result: LoadPath, out: Path, at: Sequence[float] = (), case: Case | None = None, barriers: Sequence[float] = ()
+) -> tuple[str, ...]:
     """Write figure (PNG, SVG), events, states at the end forces ``at`` (JSON), curve (CSV) and page to ``out``.
+
+    In the JSON file too are ``barriers`` at other end forces.
 
     All states with what touches in them are in ``load-path.nc`` (NetCDF). The page shows the rod in its hole along the
     path, with a slider; of a string that bridges steps of its clearance a picture shows it from the side, at the last
@@ -41,7 +45,7 @@ def write_path(result: LoadPath, out: Path, at: Sequence[float] = (), case: Case
             if result.problem.bridges:
                 last = result.legs[-1].runs[-1][-1]
                 save_figure(plot_bridging(contact_state(last)).figure, folder / "bridging")
-        write_json(result.as_dict(at), folder / "load-path.json")
+        write_json(result.as_dict(at, barriers), folder / "load-path.json")
         write_load_path(result, folder / "load-path.nc")
         if not result.problem.bridges:
             write_path_page(folder / PAGE, result, case)

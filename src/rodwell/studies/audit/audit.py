@@ -10,6 +10,7 @@ from rodwell.answers.comparison.beside import AGAINST, FormulaRow, Other, _known
 from rodwell.answers.comparison.exact_loads import ExactLoad, exact_loads
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
+from rodwell.case.checks.rigid_wall import warn_if_it_gives_way
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.formulas import FORMULAS, FormulaInputs
@@ -115,6 +116,7 @@ def audit(case: Case | Problem, *, extra: Mapping[str, float] | None = None, rto
         raise InputError("case", case, "must be a rodwell.Case or a rodwell.Problem")
     problem, scales, title = case, None, "Audit"
     if isinstance(case, Case):
+        warn_if_it_gives_way(case.given)
         problem, scales, title = case.problem, case.scales, case.title
         rtol = case.rtol if rtol is None else rtol
     assert isinstance(problem, Problem)
