@@ -122,14 +122,22 @@ def test_what_has_no_critical_load_is_refused_or_explained() -> None:
     assert len(tensile_loads(Problem(15.0))) == 0
 
 
-def test_a_load_in_tension_that_lies_behind_many_in_compression_is_found() -> None:
-    """Number 6 of the campaign of random holes; counts of unstable directions on another mesh confirm both loads."""
-    problem = Problem(
-        2.981725097342834, 38.023273027103876, 0.0025673391772026524, ends="pinned-pinned", build=0.10956359363642365
-    )
+@pytest.mark.parametrize(
+    ("problem", "mesh", "within"),
+    [
+        (Problem(2.981725097342834, 38.023273027103876, 0.0025673391772026524, ends="pinned-pinned",
+                 build=0.10956359363642365), 2e3, 1e-9),
+        (Problem(135.757938, 70.134872, 0.0067438764, ends="clamped-pinned", build=0.2672838), 2e5, 1e-7),
+    ],
+)  # fmt: skip
+def test_a_load_in_tension_behind_many_others_or_far_from_the_first_is_found(
+    problem: Problem, mesh: float, within: float
+) -> None:
+    """Number 6 of the campaign of random holes, and loads apart by a factor of 2000; counts of unstable directions
+    on other meshes confirm both."""
     found = tensile_loads(problem, 3)
     assert len(found) == 2
-    pencil = _Pencil(problem, linear_space(problem, (-2e3, 2e3)).refined())
+    pencil = _Pencil(problem, linear_space(problem, (-mesh, mesh)).refined())
     for number, mode in enumerate(found):
-        counts = [pencil.unstable(mode.force * factor) for factor in (1.0 - 1e-9, 1.0 + 1e-9)]
+        counts = [pencil.unstable(mode.force * factor) for factor in (1.0 - within, 1.0 + within)]
         assert counts == [number, number + 1]

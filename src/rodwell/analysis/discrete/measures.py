@@ -70,7 +70,7 @@ MEASURES = {
 }
 """Names of the measured numbers, as in the nomenclature."""
 
-_Positions: Any = namedtuple("_Positions", Measured.__members__)
+_Positions: Any = namedtuple("_Positions", Measured.__members__)  # type: ignore[misc]
 AT = _Positions(*map(int, Measured))
 """The same positions as plain numbers: kernels take no others as indices with Numba below 0.68."""
 

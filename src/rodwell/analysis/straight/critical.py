@@ -199,7 +199,8 @@ def tensile_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> Cr
     """Critical end forces at which a rod that lies along a curved hole is lost in tension; none in a straight hole.
 
     Tension presses the rod to the inside of the curve: one that lies on the outside would have to be pulled to the wall
-    there, see :func:`rodwell.analysis.straight.lying.least_contact`; it has left the wall before.
+    there, see :func:`rodwell.analysis.straight.lying.least_contact`; it has left the wall before. Loads beyond
+    a million times the scale of loads count as none.
 
     Parameters
     ----------

@@ -33,6 +33,12 @@ MOST_HALVINGS = 60
 ENDLESS = 1e6
 """In units of the scale of loads: the rod counts as stable at every force beyond."""
 
+APART = 100.0
+"""Ratio of the distances of loads from a stable force beyond which they are sought one by one."""
+
+SETTLED = 1e-7
+"""Relative change of a load from which on the next one, which squares it, is below round-off."""
+
 LARGEST_LOAD = 1e9
 """In units of the scale of loads: how far a stable force is looked for."""
 
@@ -96,23 +102,34 @@ class _Pencil:
         """How many directions are unstable at an end force."""
         return int(factorise(self.k + force * self.g))
 
-    def softest(self, force: float) -> tuple[int, float]:
-        """How many directions are unstable at an end force, and by which sign of F the softest becomes stiffer."""
-        band = self.k + force * self.g
-        negative = self.unstable(force)
-        if negative == 0:
-            return 0, 0.0
+    def softest(self, force: float, count: int = 1) -> tuple[FloatArray, FloatArray]:
+        """Lowest eigenvalues (count,) of K + F G against (1 + |F|)∫v′², rising, and their vectors (count, n)."""
+        band, size = (
+            self.k + force * self.g,
+            1.0 + abs(force),
+        )  # eigenvalues of about 1: changes are judged against that
         whole, slope = self.factors[0] + force * self.factors[1], np.zeros_like(self.factors[0])
-        slope[1, 1] = 1.0
+        slope[1, 1] = size
 
         def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
             return self.gram(whole, block), self.gram(slope, block)
 
-        below = -1.0
-        while eigen.count_below(band, self.slopes, below) > 0:
-            below *= 2.0
-        _, vectors = eigen.lowest(band, self.slopes, quadrature, 1, below, None)
-        return negative, float(self.gram(self.factors[1], vectors[:1])[0, 0])
+        gram = size * self.slopes
+        values, vectors = eigen.lowest(band, gram, quadrature, count, _below_all(band, gram), None)
+        return values[:count], vectors[:count]
+
+    def along(self, vector: FloatArray) -> tuple[float, float]:
+        """Both forms, vKv and vGv, of one vector (n,)."""
+        k, g = (float(self.gram(factors, vector[None])[0, 0]) for factors in self.factors)
+        return k, g
+
+
+def _below_all(stiffness: FloatArray, gram: FloatArray) -> float:
+    """A negative number below all eigenvalues of K v = λ G v."""
+    below = -1.0
+    while eigen.count_below(stiffness, gram, below) > 0:
+        below *= 2.0
+    return below
 
 
 def stable_force(problem: Problem, space: SplineSpace, scale: float) -> float | None:
@@ -124,9 +141,9 @@ def stable_force(problem: Problem, space: SplineSpace, scale: float) -> float | 
     pencil = _Pencil(problem, space)
     low, high, force = -np.inf, np.inf, 0.5 * problem.hung_weight
     for number in range(MOST_HALVINGS):
-        negative, slope = pencil.softest(force)
-        if negative == 0:
+        if pencil.unstable(force) == 0:
             return _between(pencil, force, scale)
+        slope = pencil.along(pencil.softest(force)[1][0])[1]
         low, high = (force, high) if slope > 0.0 else (low, force)
         if np.isfinite(low) and np.isfinite(high):
             if high - low < 1e-6 * scale:
@@ -185,7 +202,7 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
             "it begins to buckle"
         )
     if tension:
-        count = min(count, _in_tension(problem, space))
+        count = min(count, _Pencil(problem, space).unstable(rest + ENDLESS * scale))
         if count == 0:
             return None
     found = refined_loads(
@@ -207,11 +224,6 @@ def _expected(problem: Problem, number: int) -> float:
     return float(load)
 
 
-def _in_tension(problem: Problem, space: SplineSpace) -> int:
-    """How many loads there are in tension: the negative directions of G."""
-    return int(factorise(_Pencil(problem, space).g.copy()))
-
-
 def _solve(
     problem: Problem,
     space: SplineSpace,
@@ -223,27 +235,64 @@ def _solve(
 ) -> tuple[FloatArray, FloatArray]:
     """End forces, those next to ``rest`` first, and full coefficient vectors (k, size), k ≥ ``count``."""
     pencil = _Pencil(problem, space)
-    sign = 1.0 if tension else -1.0
-    stiff, gram = sign * scale * pencil.g, pencil.k + rest * pencil.g
+    step = scale if tension else -scale
+    away = None if start is None else np.abs(start[0] - rest)
+    try:
+        if away is not None and away[count - 1] > APART * away[0]:
+            return _one_by_one(pencil, rest, step, count)
+        return _in_a_block(pencil, rest, step, count, start)
+    except eigen.EigenError:  # loads of the other sign are nearer to F*, or the first of this one, and drown the rest
+        try:
+            return _one_by_one(pencil, rest, step, count)
+        except eigen.EigenError as error:
+            raise NotConvergedError(f"critical loads: {error}") from None
+
+
+def _in_a_block(
+    pencil: _Pencil, rest: float, step: float, count: int, start: tuple[FloatArray, FloatArray] | None
+) -> tuple[FloatArray, FloatArray]:
+    """Loads on the side of ``step``, all at once, as eigenvalues of the pencil above; and full coefficient vectors."""
+    stiff, gram = step * pencil.g, pencil.k + rest * pencil.g
     whole = pencil.factors[0] + rest * pencil.factors[1]
 
     def quadrature(block: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return sign * scale * pencil.gram(pencil.factors[1], block), pencil.gram(whole, block)
+        return step * pencil.gram(pencil.factors[1], block), pencil.gram(whole, block)
 
-    below = -1.0
-    while eigen.count_below(stiff, gram, below) > 0:
-        below *= 2.0
     guess = None
     if start is not None:
-        guess = -scale / np.abs(start[0] - rest), np.ascontiguousarray(start[1][:, pencil.held.free])
-    try:
-        values, vectors = eigen.lowest(stiff, gram, quadrature, count, below, guess, right=stiff)
-    except eigen.EigenError:  # loads of the other sign are nearer to F* and drown those sought
-        try:
-            values, vectors = eigen.lowest(stiff, gram, quadrature, count, below, guess)
-        except eigen.EigenError as error:
-            raise NotConvergedError(f"critical loads: {error}") from None
-    return rest - sign * scale / values, pencil.full(vectors)
+        guess = -abs(step) / np.abs(start[0] - rest), np.ascontiguousarray(start[1][:, pencil.held.free])
+    values, vectors = eigen.lowest(stiff, gram, quadrature, count, _below_all(stiff, gram), guess, right=stiff)
+    return rest - step / values, pencil.full(vectors)
+
+
+def _one_by_one(pencil: _Pencil, rest: float, step: float, count: int) -> tuple[FloatArray, FloatArray]:
+    """Loads on the side of ``step``, bracketed by counts, however far apart they are; and full coefficient vectors.
+
+    The k-th is where the k-th lowest eigenvalue of K + F G vanishes: Newton's method in F, whose next force is the
+    Rayleigh quotient −vKv/vGv of that direction. The count grows with the distance from a stable force.
+    """
+    forces, vectors = np.empty(count), np.empty((count, pencil.k.shape[0]))
+    inside, outside = 0.0, 1.0
+    for i in range(count):
+        while pencil.unstable(rest + outside * step) <= i:
+            inside, outside = outside, 2.0 * outside
+            if outside > LARGEST_LOAD:
+                raise eigen.EigenError(f"load {i + 1} is beyond {rest + outside * step:.1g} B/L²")
+        low, high = inside, outside
+        place = 0.5 * (low + high)
+        for _ in range(MOST_HALVINGS):
+            values, modes = pencil.softest(rest + place * step, i + 1)
+            low, high = (low, place) if values[i] < 0.0 else (place, high)
+            k, g = pencil.along(modes[i])
+            before, place = place, (-k / g - rest) / step
+            if abs(place - before) <= SETTLED * before:
+                break
+            if not low < place < high:
+                place = 0.5 * (low + high)
+        else:
+            raise eigen.EigenError(f"load {i + 1} did not settle")
+        forces[i], vectors[i] = rest + place * step, modes[i]
+    return forces, pencil.full(vectors)
 
 
 def value_of(found: Found, i: int) -> Value:
