@@ -84,7 +84,7 @@ def test_kinds_units_defaults_and_limits() -> None:
 
 
 def test_limits_in_words_are_those_that_are_checked() -> None:
-    from rodwell.problem.problem import LIMITS
+    from rodwell.problem.checks import LIMITS
     from rodwell.quantities.tolerance import HIGHEST_RTOL, LOWEST_RTOL
 
     key = {key.full_name: key for key in KEYS}

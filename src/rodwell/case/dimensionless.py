@@ -8,8 +8,9 @@ from rodwell.case import schema
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.physical import check_force_words, check_reach
 from rodwell.errors import InputError
+from rodwell.problem.checks import LIMITS
 from rodwell.problem.ends import checked_ends
-from rodwell.problem.problem import LIMITS, Problem
+from rodwell.problem.problem import Problem
 
 
 def check_sections(parsed: schema.CaseFile) -> None:

@@ -19,8 +19,9 @@ from rodwell.case.hole.sections import WHOLE, HoleSectionInput, by_depth, parts_
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.case.sections import PhysicalString, check_length, string_of
 from rodwell.errors import InputError
+from rodwell.problem.checks import SMALLEST_CLEARANCE
 from rodwell.problem.ends import checked_ends
-from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
+from rodwell.problem.problem import Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.units import System
 

@@ -13,6 +13,8 @@ OFF_WALL_ENDS = ("ball", "loose")
 """Ends that can turn, or move, in both directions: a ball joint holds x and y, a loose end nothing. A buckled rod
 leaves the wall there at once, so beyond critical loads they make no sense for a rod that is kept on it."""
 
+KNOWN = ENDS + OFF_WALL_ENDS
+
 HOLD_ANGLE = ("clamped", "pinned", "ball")
 """End conditions that hold y."""
 
@@ -24,8 +26,7 @@ around the cylinder as a whole."""
 def checked_ends(ends: object) -> tuple[str, str]:
     """Return the end conditions at s = 0 and s = 1 from a pair or a text like "clamped-pinned", or raise."""
     parts = tuple(ends.split("-")) if isinstance(ends, str) else ends
-    known = ENDS + OFF_WALL_ENDS
-    if isinstance(parts, list | tuple) and len(parts) == 2 and all(part in known for part in parts):
+    if isinstance(parts, list | tuple) and len(parts) == 2 and parts[0] in KNOWN and parts[1] in KNOWN:
         return str(parts[0]), str(parts[1])
     raise InputError(
         "ends",

@@ -3,42 +3,17 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
-from rodwell.errors import InputError, InputWarning, checked_number
-from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS, checked_ends, refuse_off_wall
-from rodwell.problem.hole import Hole, Points, checked_points
+from rodwell.errors import InputError
+from rodwell.problem.checks import check
+from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
+from rodwell.problem.hole import Hole, Points
 from rodwell.problem.lying import rise_of_lying_rod
-from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, checked_sections
-
-LARGEST_WEIGHT = 1e9
-LARGEST_TWIST = 1e4
-LARGEST_TURNS = 1000
-TURNS_ALLOWED = f"from -{LARGEST_TURNS} to {LARGEST_TURNS} turns of the end s = 1, whole or not"
-SMALLEST_CLEARANCE = 1e-7
-SMALLEST_TORSION, LARGEST_TORSION = 1e-6, 1e6
-
-
-LIMITS = {
-    "weight": (0.0, LARGEST_WEIGHT, f"from 0 to {LARGEST_WEIGHT:g}, γ = mg L³/B"),
-    "alpha": (0.0, 180.0, "from 0 (vertical) over 90 (horizontal) to 180 (s = 1 below), in degrees"),
-    "clearance": (0.0, 1.0, "above 0 and below 1: Δ/L, a part of the length"),
-    "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
-    "torsion": (SMALLEST_TORSION, LARGEST_TORSION, f"from {SMALLEST_TORSION:g} to {LARGEST_TORSION:g}, C/B"),
-    "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
-}
-"""Lowest and highest value of each number, and what is allowed in words."""
-
-
-RADIANS = tuple(math.radians(degrees) for degrees in (15, 30, 45, 60, 75, 80, 85, 89, 90))
-"""Inclinations that are asked back, since they are round in degrees if they are meant in radians."""
-
-STEEP = 1.01 * max(RADIANS)
-"""No angle above is one of them: curves make thousands of problems."""
+from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
@@ -134,101 +109,7 @@ class Problem:
     floats: bool = False
 
     def __post_init__(self) -> None:
-        if isinstance(self.weight, int | float) and self.weight < 0.0:
-            reason = f"must be {LIMITS['weight'][2]}: for a rod that floats give {-self.weight:g} and floats=True"
-            raise InputError("weight", self.weight, reason)
-        for name, (low, high, allowed) in LIMITS.items():
-            value = getattr(self, name)
-            if (type(value) is float and low <= value <= high) or (name == "torsion" and value is None):
-                continue  # mostly: curves make thousands of problems
-            object.__setattr__(self, name, checked_number(name, value, low, high, allowed))
-        turns = checked_number("turns", self.turns, -LARGEST_TURNS, LARGEST_TURNS, TURNS_ALLOWED)
-        object.__setattr__(self, "turns", int(turns) if turns.is_integer() else turns)
-        for flag in ("on_top", "outside", "floats"):
-            if not isinstance(getattr(self, flag), bool):
-                raise InputError(flag, getattr(self, flag), "must be True or False")
-        object.__setattr__(self, "ends", checked_ends(self.ends))
-        object.__setattr__(self, "sections", checked_sections(self.sections))
-        if self.sections:
-            self._take_clearance()
-        if not SMALLEST_CLEARANCE <= self.clearance < 1.0:
-            allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
-            raise InputError("clearance", self.clearance, allowed)
-        if self.poisson == -1.0:
-            raise InputError("poisson", self.poisson, "must be above -1 and at most 0.5")
-        if abs(self.rise) >= 1.0:
-            raise InputError(
-                "turns", self.turns, f"a rod of this length cannot wind around so often at clearance {self.clearance:g}"
-            )
-        self._check_ends()
-        if self.build != 0.0 or self.walk != 0.0 or len(self.axis) > 0:
-            self._check_hole()
-        elif not isinstance(self.axis, tuple):
-            object.__setattr__(self, "axis", ())
-        if self.alpha < STEEP and any(math.isclose(self.alpha, angle, rel_tol=1e-9) for angle in RADIANS):
-            degrees = math.degrees(self.alpha)
-            warnings.warn(
-                f"alpha = {self.alpha:.6g} is taken in degrees, nearly vertical; for {self.alpha:.6g} rad give "
-                f"{degrees:.6g}",
-                InputWarning,
-                stacklevel=3,
-            )
-
-    def _take_clearance(self) -> None:
-        """Take a clearance ratio that all sections share into the clearance, and check those of the others."""
-        ratios = [section[3] for section in self.sections]
-        if min(ratios) == max(ratios) != 1.0:
-            object.__setattr__(self, "clearance", self.clearance * ratios[0])
-            same = [(*section[:3], 1.0, section[4]) for section in self.sections]
-            object.__setattr__(self, "sections", checked_sections(same))
-            return
-        for number, ratio in enumerate(ratios, 1):
-            if not SMALLEST_CLEARANCE <= ratio * self.clearance < 1.0:
-                what = f"makes its clearance {ratio * self.clearance:g} L: must be above 0 and below 1, a part of the "
-                what += f"rod's length (at least {SMALLEST_CLEARANCE:g})"
-                raise InputError(f"section {number}, clearance", ratio, what)
-
-    def _check_ends(self) -> None:
-        """Refuse what the ends cannot hold."""
-        ends = "-".join(self.ends)
-        untwisted = [end for end in self.ends if end in ("free", "loose")]
-        if self.twist != 0.0 and untwisted:
-            reason = f"a {untwisted[0]} end takes no torque: twist must be 0 with ends {ends}"
-            raise InputError("twist", self.twist, reason)
-        if self.turns != 0 and not (self.ends[0] in HOLD_ANGLE and self.ends[1] in HOLD_ANGLE):
-            raise InputError("turns", self.turns, f"ends {ends} let the rod unwind: clamp or pin both")
-        if self.on_top and self.lateral_weight > 0.0 and not self.holds_angle:
-            raise InputError("ends", ends, "nothing keeps the rod on top: clamp or pin at least one end")
-
-    def _check_hole(self) -> None:
-        """Take the axis of a curved hole, and refuse what goes with a straight one only."""
-        if len(self.axis) > 0:
-            if self.build != 0.0 or self.walk != 0.0:
-                name = "build" if self.build != 0.0 else "walk"
-                raise InputError(name, getattr(self, name), "must be left out where axis gives the hole")
-            object.__setattr__(self, "axis", checked_points(self.axis))
-            hole = Hole.through(self.axis)
-            if self.alpha not in (90.0, hole.alpha):
-                reason = f"must be left out: axis has the inclination {hole.alpha:.10g} degrees at mid-length"
-                raise InputError("alpha", self.alpha, reason)
-            object.__setattr__(self, "alpha", hole.alpha)
-        else:
-            hole = Hole.arc(self.alpha, self.build, self.walk)
-            object.__setattr__(self, "build", hole.build)
-            object.__setattr__(self, "walk", hole.walk)
-        hole.check(self.clearance)
-        if hole.straight:
-            return
-        if self.floats:
-            raise InputError(
-                "floats", True, "must be False in a curved hole: rods that float are computed in straight ones"
-            )
-        refuse_off_wall(self.ends, "the states of a rod in a curved hole")
-        if self.turns != 0:
-            raise InputError("turns", self.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-        if self.sections:
-            why = "are computed in straight holes: give a uniform rod, or leave build, walk and axis out"
-            raise InputError("sections", f"{len(self.sections)} of them", why)
+        check(self)
 
     @cached_property
     def hole(self) -> Hole | None:
@@ -388,4 +269,8 @@ class Problem:
 
     def but(self, **changes: Any) -> Problem:
         """Return this problem with some values changed."""
-        return replace(self, **changes)
+        return Problem(**{name: getattr(self, name) for name in NAMES} | changes)
+
+
+NAMES = tuple(field.name for field in fields(Problem))
+"""Names of what makes a problem."""

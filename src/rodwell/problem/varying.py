@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rodwell.errors import InputError, checked_number, unknown_name
-from rodwell.problem.problem import LIMITS, Problem
+from rodwell.problem.checks import LIMITS
+from rodwell.problem.problem import Problem
 
 FORCE = "force"
 """The end force, which a problem does not hold."""

@@ -14,7 +14,8 @@ from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, Lo
 from rodwell.numerics.continuation.location import LocationError
 from rodwell.numerics.continuation.walk import Halt, Stepping, Trace, trace
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
-from rodwell.problem.problem import SMALLEST_CLEARANCE, Problem
+from rodwell.problem.checks import SMALLEST_CLEARANCE
+from rodwell.problem.problem import Problem
 from rodwell.problem.varying import Parameter, limits_of
 
 LARGEST_BRAID_ANGLE = 89.5

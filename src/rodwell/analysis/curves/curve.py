@@ -13,7 +13,8 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.family import TORSIONAL
 from rodwell.errors import InputError, checked_number
 from rodwell.faces import drawn
-from rodwell.problem.problem import LIMITS, SMALLEST_CLEARANCE, Problem, ends_text
+from rodwell.problem.checks import LIMITS, SMALLEST_CLEARANCE
+from rodwell.problem.problem import Problem, ends_text
 from rodwell.problem.varying import (
     FORCE,
     Along,

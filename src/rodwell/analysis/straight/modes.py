@@ -9,7 +9,8 @@ from typing import Any
 
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.physics.exact.horizontal import Switching, pair_loads, switching, switchings
-from rodwell.problem.problem import LIMITS, Problem
+from rodwell.problem.checks import LIMITS
+from rodwell.problem.problem import Problem
 
 MOST_PAIRS = 50
 MOST_WAVES = 200

@@ -14,7 +14,8 @@ from rodwell.answers.comparison.exact_loads import WHERE, critical
 from rodwell.errors import InputError
 from rodwell.formulas import FORMULAS
 from rodwell.formulas.record import Place
-from rodwell.problem.problem import LARGEST_WEIGHT, Problem
+from rodwell.problem.checks import LARGEST_WEIGHT
+from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL
 
