@@ -202,3 +202,16 @@ def test_a_branch_that_comes_back_to_the_straight_rod_ends_there(problem: Proble
     assert abs(met.force - loads[0].force) <= met.error + loads[0].error
     assert not branch[-1].point.fine.c.any()
     assert branch.converged
+
+
+def test_a_change_of_the_index_is_placed_with_the_usual_step() -> None:
+    """Where it is not found in one, a step is repeated with half the length: shorter ones (0.02) put it at −431.367415.
+
+    The problem is number 2718 of the campaign of random branches.
+    """
+    problem = Problem(526.5214399154713, 90.0, 0.020088610341481322, twist=0.013809172470581072, ends="pinned-pinned")
+    branch = follow(problem, 3, until=-450.0)
+    found = [(p.kind, p.index_before, p.index_after) for p in branch.special_points]
+    assert found == [("critical", 2, 2), ("branch_point", 2, 1), ("branch_point", 1, 0), ("end", 0, 0)]
+    assert branch.special_points[2].force == pytest.approx(-431.3674148227, abs=1e-9)
+    assert branch.converged

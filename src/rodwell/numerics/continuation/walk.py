@@ -27,6 +27,9 @@ from rodwell.quantities.arrays import FloatArray
 DOUBTED_STEP = 0.02
 """A step, as a part of the first, past a place where branches come closer to each other than can be told apart."""
 
+SURE = 0.1
+"""A step, as a part of the first, in which a change of the stability index that cannot be placed is let pass."""
+
 FEWEST_OF_A_LOOP = 6
 """Points after which a branch may have come back to its start."""
 
@@ -86,7 +89,8 @@ def trace(
     """Follow the branch from ``start`` along its tangent until something found stops it, or a limit is met.
 
     A step is repeated with half the length if the corrector fails, if the branch turns by more than allowed, if the
-    end strays from where it was predicted, or if an event in it cannot be located; the last two steps are, if
+    end strays from where it was predicted, or if an event in it cannot be located (down to a tenth of the first step
+    if it is where the stability index changes, which is then uncertain); the last two steps are, if
     the stability index changed and changed back within them. If the step falls below
     ``stepping.smallest``, the branch ends and ``Trace.end`` says why. ``leaves`` says that ``start`` is a
     branch point, whose stability index is that of the branch left. ``halt`` looks at the trace at its start and after
@@ -180,6 +184,8 @@ class _Walk:
             found = events_between(
                 new_meshes, base, point, self.events, opening=opening, leaves=leaves, doubted=self.doubted
             )
+            if not (self.doubted or length < SURE * self.stepping.first or all(item.certain for item in found)):
+                return "the place at which the stability index changes is not found in so long a step"
             end = next((i for i, item in enumerate(found) if self.stop(item)), None)
         except LocationError as error:
             self.left = self.left or isinstance(error, LeftTheBranchError)
