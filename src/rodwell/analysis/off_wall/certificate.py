@@ -13,7 +13,6 @@ Complementarity: no penetration, no contact that pulls.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -136,24 +135,21 @@ def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
-    """∫ wₗ i + wₐ k + p d₁ ds between places, (3, m−1)."""
+    """∫ wₗ i + wₐ k + p d₁ ds between places (m,), in order, (3, m−1)."""
     problem = state.model.problem
     points, weights = np.polynomial.legendre.leggauss(ORDER)
-    inner = np.unique(np.concatenate([state.solved.shape.places, state.bounds]))
-    out = np.zeros((3, places.size - 1))
-    for k, (a, b) in enumerate(pairwise(places)):
-        grid = np.concatenate([[a], inner[(inner > a) & (inner < b)], [b]])
-        for left, right in pairwise(grid):
-            for half in (0.0, 0.5):  # two panels of the rule
-                h = 0.5 * (right - left)
-                s = left + half * (right - left) + 0.5 * h * (points + 1.0)
-                x, y, pressure = position(state, s)
-                w, weight = 0.5 * h * weights, problem.rod.weight(s)
-                outward = pressure / np.hypot(x[0], y[0])
-                out[0, k] += w @ (problem.foundation * weight - outward * x[0])
-                out[1, k] += w @ (-outward * y[0])
-                out[2, k] += problem.axial_weight * (w @ weight)
-    return out
+    inner = np.concatenate([state.solved.shape.places, state.bounds])
+    grid = np.union1d(places, inner[(inner > places[0]) & (inner < places[-1])])
+    grid = np.union1d(grid, 0.5 * (grid[1:] + grid[:-1]))  # two panels of the rule between kinks
+    half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
+    s = (middle[:, None] + half[:, None] * points).ravel()
+    x, y, pressure = position(state, s)
+    weight, outward = problem.rod.weight(s), pressure / np.hypot(x[0], y[0])
+    density = np.stack([
+        problem.foundation * weight - outward * x[0], -outward * y[0], problem.axial_weight * weight
+    ])  # fmt: skip
+    panels = density.reshape(3, -1, ORDER) @ weights * half
+    return np.asarray(np.add.reduceat(panels, np.searchsorted(middle, places[:-1]), axis=1))
 
 
 def _penetration(state: PatternedState) -> float:

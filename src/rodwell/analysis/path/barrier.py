@@ -50,13 +50,15 @@ class Barrier:
         negative. Downhill on its one side lies ``state``, which descent has confirmed.
     to
         What lies downhill on its other side; its ``starts`` and ``agree`` are 1.
+    held
+        The state behind the soft wall with which descent was computed.
     """
 
     leg: str
     state: ContactState
     saddle: ContactState
     to: Destination
-    _held: Held
+    held: Held
 
     def __repr__(self) -> str:
         return f"<Barrier {self.height.value:.6g} B/L at F = {self.state.force:.8g} B/L², to {self.to.kind}>"
@@ -67,7 +69,7 @@ class Barrier:
 
         Where the shortening is controlled, without the work of the end force, and with what is stored in series.
         """
-        control, unit = self._held.control, self.state.problem.clearance**2
+        control, unit = self.held.control, self.state.problem.clearance**2
 
         def over(pass_: PatternedState, state: PatternedState) -> float:
             return (control.potential(pass_.solved) - control.potential(state.solved)) * unit
@@ -82,7 +84,7 @@ class Barrier:
         The whole rod is turned, by ψ sin²(πs), and let go; it follows the gradient flow, as in something viscous. The
         least ψ after which it does not come back. The estimate of the error is that of the flow, and coarse.
         """
-        return turned_over(self.state.coarse, self._held)
+        return turned_over(self.state.coarse, self.held)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""

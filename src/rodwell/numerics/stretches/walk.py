@@ -19,6 +19,9 @@ BREAK_SCALE, LOAD_SCALE = 0.1, 0.1
 LOCATED, MOST_OF_STEP = 1e-11, 1e-3
 """Arclength to which a zero is located; but no coarser than to this part of a step."""
 
+MOST_SECANTS = 6
+"""How often a zero that is close by is sought by secants."""
+
 AS_GOOD_AS_ZERO = 1e-7
 """Part of its values at the ends of a step below which a function counts as zero where Newton's method fails."""
 
@@ -158,10 +161,42 @@ def search(
     other = step(model, state, along, first)[1]
     if other is None:
         return None
-    ahead = abs(function(other)) < abs(value) or function(other) * value < 0.0
+    beside = function(other)
+    near = _straight_to(model, state, along, function, (value, beside), first)
+    if near is not None:
+        return near
+    ahead = abs(beside) < abs(value) or beside * value < 0.0
     for sign in (1.0, -1.0) if ahead else (-1.0, 1.0):
         found = _towards(model, state, along.times(sign), function, first, largest)
         if found is not None:
+            return found
+    return None
+
+
+def _straight_to(
+    model: Any,
+    state: Solved,
+    along: Motion,
+    function: Callable[[Solved], float],
+    values: tuple[float, float],
+    size: float,
+) -> Solved | None:
+    """The state where ``function`` vanishes, if secants find it no farther away than ``size``; else None.
+
+    ``values``: at the state, and at that distance from it along the path.
+    """
+    (last, value), here, place = (values[1], values[0]), size, 0.0
+    for _ in range(MOST_SECANTS):
+        rise = value - last
+        ahead = place - value * (place - here) / rise if rise else np.inf
+        if not abs(ahead) <= size:
+            return None
+        here, place, last = place, ahead, value
+        found = step(model, state, along, place)[1]
+        if found is None:
+            return None
+        value = function(found)
+        if abs(place - here) <= LOCATED or value == 0.0:
             return found
     return None
 
