@@ -33,7 +33,6 @@ from strings import BITS, end_determinant, transfer
 from rodwell import Problem, load_path
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.errors import NotConvergedError
-from rodwell.numerics.stretches.chain import RADIAL_SLOPE
 
 HERE = Path(__file__).parent
 SUMMARY, LINES = HERE / "bridged_strings.json", HERE / "bridged_strings.part"
@@ -82,7 +81,10 @@ def misfit(state: ContactState, force: float) -> arb:
 
 def checked(state: ContactState, force: float, error: float) -> dict[str, Any]:
     """A buckling load against transfer matrices."""
-    slope = state.problem.clearance * float(np.max(np.abs(state.fine.solved.shape.nodes[:, RADIAL_SLOPE])))
+    shape = state.fine.solved.shape
+    free = shape.chain.free
+    rising = shape.along(free, np.broadcast_to(np.linspace(0.0, 1.0, 9), (free.size, 9)), 2)[0, 1]
+    slope = state.problem.clearance * float(np.max(np.abs(rising)))
     near = error + SMALL * slope**2 * abs(force) + 1e-9 * abs(force)
     found: dict[str, Any] = {"slope": slope}
     if near > 0.01 * abs(force):
