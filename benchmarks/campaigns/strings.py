@@ -52,19 +52,28 @@ def problem_of(number: int) -> Problem:
     return Problem(weight, 90.0, clearance=clearance, ends=ends, sections=sections)
 
 
-def misfit(problem: Problem, force: float) -> arb:
-    """Determinant that vanishes at critical loads."""
-    whole, load = arb_mat(4, 4, [int(i == j) for i in range(4) for j in range(4)]), arb(force)
-    breaks = [float(s) for s in problem.rod.breaks]
-    for i, (_, b, q, *_) in enumerate(problem.sections or ((1.0, 1.0, 1.0, 1.0, 1.0),)):
-        length = arb(breaks[i + 1]) - arb(breaks[i])
-        foundation = arb(q) * arb(problem.foundation) / arb(problem.clearance)
-        rates = arb_mat(4, 4, [0, 1, 0, 0, 0, 0, 1 / arb(b), 0, 0, load, 0, 1, -foundation, 0, 0, 0])
-        whole = (rates * length).exp() * whole
-    first, last = (HELD[end] for end in problem.ends)
+def transfer(length: float, stiffness: float, bed: float, force: float) -> arb_mat:
+    """The matrix that takes (v, v′, b v″, b v‴ − N v′) along a piece of constant coefficients, in balls."""
+    rates = arb_mat(4, 4, [0, 1, 0, 0, 0, 0, 1 / arb(stiffness), 0, 0, arb(force), 0, 1, -arb(bed), 0, 0, 0])
+    return (rates * arb(length)).exp()
+
+
+def end_determinant(whole: arb_mat, ends: tuple[str, str]) -> arb:
+    """What vanishes where the product of all transfer matrices meets the conditions at both ends."""
+    first, last = (HELD[end] for end in ends)
     free = [i for i in range(4) if i not in first]
     a, b, c, d = (whole[i, j] for i in last for j in free)
     return a * d - b * c
+
+
+def misfit(problem: Problem, force: float) -> arb:
+    """Determinant that vanishes at critical loads."""
+    whole = arb_mat(4, 4, [int(i == j) for i in range(4) for j in range(4)])
+    breaks = [float(s) for s in problem.rod.breaks]
+    for i, (_, b, q, *_) in enumerate(problem.sections or ((1.0, 1.0, 1.0, 1.0, 1.0),)):
+        bed = arb(q) * arb(problem.foundation) / arb(problem.clearance)
+        whole = transfer(arb(breaks[i + 1]) - arb(breaks[i]), b, bed, force) * whole
+    return end_determinant(whole, problem.ends)
 
 
 def trial(number: int) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from rodwell import Case, answer, critical_loads
@@ -73,6 +74,59 @@ def test_a_string_is_the_problem_of_its_sections() -> None:
     assert c1 == pytest.approx(b1, rel=1e-12)
     assert found.problem.ends == ("clamped", "pinned")
     assert found.problem.clearance == pytest.approx(1.5 * inch / 30.0)
+
+
+PIPE = {"pipe": "5 in 19.5 lb/ft drill pipe", "joints": 3, "joint_length": "9 m", "tool_joint_diameter": "6.625 in",
+        "tool_joint_length": "0.5 m", "tool_joint_bore": "3.25 in", "grade": "S-135"}  # fmt: skip
+
+
+def jointed(**changes: Any) -> Case:
+    """Three joints of drill pipe with tool joints in a hole of 8.5 in."""
+    one = {key: value for key, value in (PIPE | changes).items() if value is not None}
+    return Case.from_dict({"string": [one], "hole": {"diameter": "8.5 in", "angle_from_vertical": "90 deg"}})
+
+
+def test_tool_joints_stand_between_bodies_half_of_one_at_either_end() -> None:
+    """By hand: 8.5 m of body of plain-end weight, 0.5 m of tool joint of the same steel, each with its clearance."""
+    found, inch = jointed(), 0.0254
+    assert found.string is not None
+    assert [member.rod.length for member in found.string.members] == [0.25, 8.5, 0.5, 8.5, 0.5, 8.5, 0.25]
+    joint, body = found.string.members[:2]
+    assert body.weight == pytest.approx(17.93 * 4.4482216152605 / 0.3048)
+    area = math.pi / 4.0 * ((6.625 * inch) ** 2 - (3.25 * inch) ** 2)
+    assert joint.weight == pytest.approx(area * 7848.77 * 9.80665, rel=1e-4)
+    stiffness, _, clearance = (np.array(found.problem.sections)[:, k] for k in (1, 2, 3))
+    assert stiffness[0] == pytest.approx((6.625**4 - 3.25**4) / (5.0**4 - 4.276**4))
+    assert clearance[::2] == pytest.approx((8.5 - 6.625) / (8.5 - 5.0))
+    assert found.problem.clearance * 27.0 == pytest.approx(1.75 * inch)
+    assert (body.rod.yield_strength, joint.rod.yield_strength) == (pytest.approx(135000.0 * PSI), None)
+    assert [fact.label for fact in found.facts if "tool joint" in fact.label].count(
+        "string 1 (5 in 19.5 lb/ft drill pipe, tool joint): material"
+    ) == 1
+
+
+def test_a_thousand_joints_are_two_thousand_sections() -> None:
+    assert len(jointed(joints=1000).problem.sections) == 2001
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"tool_joint_length": None}, "tool_joint_length: is missing: tool_joint_diameter needs it"),
+        ({"joints": None, "joint_length": None, "length": "27 m"}, "joints: is missing: tool_joint_diameter needs it"),
+        ({"tool_joint_diameter": "4.5 in"}, "must be above the diameter of the body, 0.127 m"),
+        ({"tool_joint_length": "9.5 m"}, "must be below the length of a joint, 9 m"),
+        (
+            {"tool_joint_bore": "7 in"},
+            "tool_joint_bore = '7 in': must be below tool_joint_diameter, 0.168275 m",
+        ),
+        ({"tool_joint_diameter": "9 in"}, "must be below the hole's diameter of 0.2159 m: the section does not fit"),
+    ],
+)
+def test_what_tool_joints_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        jointed(**changes)
+    assert words in str(caught.value)
 
 
 def test_sections_alike_are_the_uniform_rod() -> None:

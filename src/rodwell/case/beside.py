@@ -78,7 +78,7 @@ def sections_of(pairs: Sequence[Pair], string: PhysicalString | None) -> tuple[S
         return () if string is None else string.sections
     unit, out = reference(pairs), []
     for pair in pairs:
-        one = PLAIN[0] if string is None or pair.member is None else string.sections[pair.member.number - 1]
+        one = PLAIN[0] if string is None or pair.member is None else string.sections[pair.member.place]
         _, stiffness, weight, _, torsion = one
         out.append((pair.end - pair.start, stiffness, weight, pair.clearance / unit, torsion))
     return tuple(out)

@@ -99,6 +99,12 @@ class StringInput(PipeInput):
     name: Name | None = _key(None, "for report and messages; that of the `pipe` if not given", "heavy-weight pipe")
     joints: int | None = _key(None, "how many, instead of `length`", 3, strict=True, ge=1, le=100_000)
     joint_length: Length | None = _key(None, "of one, with `joints`", "9.3 m", "30.5 ft")
+    tool_joint_diameter: Length | None = _key(
+        None, "outer diameter of the tool joints, with `joints`: half of one at either end of each joint; the body has "
+        "its plain-end weight then", "6.625 in",
+    )  # fmt: skip
+    tool_joint_length: Length | None = _key(None, "of one made up, pin and box", "21 in")
+    tool_joint_bore: InnerLength | None = _key(None, "of the tool joints; that of the body if not given", "3.25 in")
 
 
 class Supports(SectionInput):

@@ -13,6 +13,7 @@ from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, fluids_of, weight_in
 from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.case.tool_joints import TOOL_JOINT, body_between_tool_joints, tool_joint_of
 from rodwell.errors import InputError
 from rodwell.problem.rod import Section
 
@@ -25,9 +26,14 @@ BESIDE = ("ends", "length")
 
 @dataclass(frozen=True)
 class Member:
-    """A section of a string: its name, the rod that it is in SI units, and its weight in the fluids in N/m."""
+    """A section of a string: its name, the rod that it is in SI units, and its weight in the fluids in N/m.
+
+    ``number`` is that of its [[string]] from the bottom, from 1, ``place`` its own among all members, from 0: a section
+    with tool joints has a member for each body and each tool joint.
+    """
 
     number: int
+    place: int
     name: str
     rod: PhysicalRod
     weight: float
@@ -103,7 +109,7 @@ class PhysicalString:
         """Where the numbers of each section come from."""
         note = "the longest section; weights are set against their mean"
         out = [Fact("unit of stiffness B", self.longest.key, note=note)]
-        for one in self.members:
+        for one in {member.key: member for member in self.members}.values():
             out += [replace(fact, label=f"{one.key}: {fact.label}") for fact in one.rod.facts]
         return tuple(out)
 
@@ -146,12 +152,16 @@ def string_of(
     InputError
         Naming section and key that is missing, contradicts another, or is not in the catalogue.
     """
-    members, fluids = [], None
+    members: list[Member] = []
+    fluids = None
     for number, one in enumerate(given, 1):
         name = name_of(one, number)
         with _as_section(number, name):
-            rod, fluids, weight = section_rod(one, _length(one), hole.gravity, mud, pressure, catalogue)
-            members.append(Member(number, name, rod, weight))
+            made, fluids = _made_up(one, hole.gravity, mud, pressure, catalogue)
+            members += [
+                Member(number, place, f"{name}{what}", rod, weight)
+                for place, (what, rod, weight) in enumerate(made, len(members))
+            ]
     if fluids is None:
         raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
     string = PhysicalString(tuple(members))
@@ -188,6 +198,26 @@ def check_length(string: PhysicalString, length: float | None) -> None:
         parts = " + ".join(f"{one.rod.length:.6g}" for one in string.members)
         what = f"is not that of the sections, {parts} = {string.length:.6g} m: correct one, or leave rod.length out"
         raise InputError("rod.length", length, what)
+
+
+def _made_up(
+    one: schema.StringInput,
+    gravity: float,
+    mud: schema.Mud | None,
+    pressure: schema.PressureAtEnd | None,
+    catalogue: Catalogue,
+) -> tuple[list[tuple[str, PhysicalRod, float]], Fluids]:
+    """What a section is made up of from the bottom up, each with a word for its name and its weight in N/m."""
+    length, joints, thick = _length(one), one.joints, one.tool_joint_length
+    body = body_between_tool_joints(one, catalogue)
+    if body is None or joints is None or thick is None:
+        rod, fluids, weight = section_rod(one, length, gravity, mud, pressure, catalogue)
+        return [("", rod, weight)], fluids
+    rod, fluids, weight = section_rod(body, length / joints - thick, gravity, mud, pressure, catalogue)
+    joint, _, heavy = section_rod(tool_joint_of(one, rod, catalogue), thick, gravity, mud, pressure, catalogue)
+    half = (TOOL_JOINT, replace(joint, length=0.5 * thick), heavy)
+    between = [("", rod, weight), (TOOL_JOINT, joint, heavy)]
+    return [half, *(joints - 1) * between, ("", rod, weight), half], fluids
 
 
 def _length(one: schema.StringInput) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, print_json, print_written
+from rodwell.cli.options import check_missed, print_json, print_written, progress_bar
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
@@ -21,7 +21,9 @@ def run_bridged(case: Case, folder: Path, *, as_json: bool, quiet: bool, with_pd
     from rodwell.answers.words.bridged import bridged_sentences  # noqa: PLC0415
     from rodwell.report.folders.bridged import write_bridged  # noqa: PLC0415
 
-    found, speaks = bridged_answer(case), not (as_json or quiet)
+    speaks = not (as_json or quiet)
+    with progress_bar(speaks, "how the string lies") as tell:
+        found = bridged_answer(case, tell)
     if speaks:  # before anything is written: where that fails the answer is not lost
         click.echo(case.title)
         for sentence in bridged_sentences(found):

@@ -78,13 +78,7 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
         spots: list[float] = []
         for halved in range(HALVINGS):
             half, contact = size * 0.5**halved, max(2.2 * FIRST_CONTACT * 0.5**halved, SHORTEST_CONTACT)
-            pattern, breaks = state.pattern, list(state.solved.shape.breaks)
-            plan = Plan(state, half, contact, list(pattern.touching), breaks, list(pattern.edges))
-            for condition in sorted(vanished, key=lambda one: -one.s):
-                _EDITS[condition.kind](plan, condition)
-            pattern = replace(pattern, touching=tuple(plan.touching), edges=tuple(sorted(plan.edges)))
-            sample = lowered(sampler(state.solved.shape), plan.bumps)
-            found = solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=plan.fixed)
+            found, plan = _edited(state, vanished, half, contact, hold=True)
             if found is None:
                 continue
             hurt = [one for one in conditions(found) if one.value < 0.0 and not _just_now(one)]
@@ -99,6 +93,25 @@ def changed(state: PatternedState, vanished: list[Condition], part: float = 1.0)
             break
         vanished += following
     return last if first.kind in (GROWS, GROWS_AT_END) else None
+
+
+def _edited(
+    state: PatternedState, conditions: list[Condition], half: float, contact: float, *, hold: bool
+) -> tuple[PatternedState | None, Plan]:
+    """The state of a pattern without the conditions, and the plan; ``hold``: the length that starts, not the load."""
+    pattern = state.pattern
+    plan = Plan(state, half, contact, list(pattern.touching), list(state.solved.shape.breaks), list(pattern.edges))
+    for condition in sorted(conditions, key=lambda one: -one.s):
+        _EDITS[condition.kind](plan, condition)
+    pattern = replace(pattern, touching=tuple(plan.touching), edges=tuple(sorted(plan.edges)))
+    sample = lowered(sampler(state.solved.shape), plan.bumps)
+    fixed = plan.fixed if hold else None
+    return solved(state.model, pattern, np.array(plan.breaks), state.load, sample, fixed=fixed), plan
+
+
+def mended(state: PatternedState, condition: Condition, size: float) -> PatternedState | None:
+    """The state at the same load with a pattern that misses a condition changed; what starts has about this length."""
+    return _edited(state, [condition], size, size, hold=False)[0]
 
 
 def _next(state: PatternedState, vanished: list[Condition], spots: list[float], near: float) -> list[Condition]:

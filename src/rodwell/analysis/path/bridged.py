@@ -13,7 +13,7 @@ from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, FOLD, Followe
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.resolve import resolved_event
 from rodwell.analysis.off_wall.state import ContactState
-from rodwell.analysis.path.bridging import bridged, unstretched
+from rodwell.analysis.path.bridging import at_top, bridged, unstretched
 from rodwell.analysis.path.events import CRITICAL, LOADING, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked
 from rodwell.errors import NotConvergedError
@@ -58,6 +58,11 @@ def bridging(model: RodInHole, until: float, rtol: float, progress: Callable[[fl
     """
     begin = max(unstretched(model.problem), until)
     start = bridged(model, begin)
+    if start is None and (place := at_top(model, begin)) is not None:
+        raise NotConvergedError(
+            f"at F = {begin:.8g} B/L² the string would reach the upper side of the hole, near s = {place:.4g} L: "
+            "contact there is not computed where the clearance has steps"
+        )
     if start is None:
         raise NotConvergedError(
             f"how the string bridges the steps of its clearance at F = {begin:.8g} B/L² was not found: no state whose "

@@ -9,12 +9,22 @@ found there is solved for as any other, with the energy of any slope (:mod:`rodw
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import cholesky_banded, solveh_banded
 
-from rodwell.analysis.off_wall.arrange import solved, wavenumber
-from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.arrange import solved, wavenumbers
+from rodwell.analysis.off_wall.changes import mended
+from rodwell.analysis.off_wall.conditions import (
+    GROWS,
+    GROWS_AT_END,
+    LEAVES_EDGE,
+    LOST,
+    TOUCHES,
+    PatternedState,
+    conditions,
+)
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.basis import tabulate
@@ -25,20 +35,26 @@ from rodwell.quantities.arrays import BoolArray, FloatArray
 FREE_LENGTH = 24.0 / (2.0 * math.sqrt(3.0) - 3.0)
 """a⁴ w/(Bδ): how far from the edge a heavy beam without end force touches the wider part, over a step δ."""
 
-PER_BRIDGE, PER_WAVE, FEWEST = 40, 8.0, 1000
-"""Elements of the beam: in a free length, in a wavelength over 2π of the stretched or bedded beam, and in all."""
+PER_BRIDGE, PER_WAVE, FEWEST = 40, 8.0, 24
+"""Elements of the beam: in a free length, in a wavelength over 2π of the stretched or bedded beam, and in a section;
+stiff ones get no more, since round-off in their moments grows like the third power."""
+
+LIGHTEST = 1e-9
+"""Weight ratio that one without weight is taken for where elements are counted."""
 
 MOST = 40_000
 
-TOUCHING = 1e-5
-"""Part of the smallest step below which a gap counts as contact, and the sag of the springs by as much less."""
+SAG, LEAST_SAG = 1e-8, 1e-12
+"""How far the weight of L would press one spring in, as a part of the smallest step; and at least, in Δ."""
 
-SHORTEST = 0.05
-"""Part of a free length below which a piece of contact is taken for a point."""
+POINTS = (2, 3, 5, 9, 1)
+"""Nodes up to which a piece of contact is taken for a point: the first that gives a state is the one."""
 
-JOINED = 0.25
-"""Part of a free length below which a gap between pieces of contact is one of the springs, which stand apart: under
-weight no gap is that short that begins without a slope and ends without a curvature."""
+MENDS, ORDER = 6, (LOST, LEAVES_EDGE, GROWS_AT_END, GROWS, TOUCHES)
+"""How many changes a pattern found may need, and which condition that is missed is met first."""
+
+SIZES = (3e-3, 1e-3, 2e-4, 1e-2)
+"""Lengths in L with which contact begins that is missed beside an end or at a point: the first that gives a state."""
 
 HARDER, ROUNDS, HALVINGS = 10.0, 60, 30
 """Factor from one stiffness of the springs to the next; rounds of Newton's method with each, halvings of a step."""
@@ -55,12 +71,40 @@ def bridged(model: RodInHole, load: float) -> PatternedState | None:
         places, height = _beam(model, load)
     except np.linalg.LinAlgError:  # it would buckle without walls: there may be several states
         return None
-    for at_ends in (True, False):
-        pattern, breaks = _pattern(model.problem, places, height[::2], at_ends)
+    seen = set()
+    for few in POINTS:
+        pattern, breaks = _pattern(model.problem, places, height[::2], few)
+        if pattern in seen:
+            continue
+        seen.add(pattern)
         found = solved(model, pattern, breaks, load, _sampler(places, height))
-        if found is not None and all(one.value >= 0.0 for one in conditions(found)):
+        if found is not None and (found := _mended(found)) is not None:
             return found
     return None
+
+
+def _mended(state: PatternedState) -> PatternedState | None:
+    """A state near one that may miss conditions on contact, and meets them: contact that pulls goes first."""
+    found = state
+    for _ in range(MENDS):
+        missed = [one for one in conditions(found) if not one.value >= 0.0]
+        if not missed:
+            return found
+        worst = min(missed, key=lambda one: (ORDER.index(one.kind) if one.kind in ORDER else len(ORDER), one.value))
+        tried = (mended(found, worst, size) for size in SIZES)
+        again = next((one for one in tried if one is not None), None)
+        if again is None:
+            return None
+        found = again
+    return None
+
+
+def at_top(model: RodInHole, load: float) -> float | None:
+    """Where the beam reaches the upper side of the hole at a load, which is not computed; None where it does not."""
+    places, height = _beam(model, load)
+    over = height[::2] - _narrowest(model.problem, places)
+    k = int(np.argmax(over))
+    return float(places[k]) if over[k] > 0.0 else None
 
 
 def _steps(problem: Problem) -> FloatArray:
@@ -68,26 +112,22 @@ def _steps(problem: Problem) -> FloatArray:
     return np.abs(np.diff(problem.rod.clearance.coefficients[:, 0]))
 
 
-def free_lengths(problem: Problem) -> FloatArray:
-    """Length, in L, by which a heavy beam without end force bridges each boundary of sections on its wider side.
-
-    Those of the softer and lighter of two sections; 0 where the clearance has no step.
-    """
-    rod = problem.rod
-    stiffness, weight = rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0]
-    softest, lightest = (np.minimum(one[:-1], one[1:]) for one in (stiffness, weight))
-    heaviest = np.maximum(weight[:-1], weight[1:])
-    per_length = problem.lateral_weight * np.where(lightest > 0.0, lightest, heaviest)
-    return np.asarray((FREE_LENGTH * softest * problem.clearance * _steps(problem) / per_length) ** 0.25)
+def _own_lengths(problem: Problem) -> FloatArray:
+    """The length by which a beam of each section alone would bridge the lower of the steps at its ends, (n,), in L."""
+    rod, steps = problem.rod, _steps(problem)
+    lowest = np.fmin(np.append(steps, np.inf), np.append(np.inf, steps))
+    lowest = np.where(lowest > 0.0, lowest, np.max(steps))  # its neighbours lie in the same hole
+    weight = problem.lateral_weight * np.maximum(rod.weight.coefficients[:, 0], LIGHTEST)
+    stiffness = rod.stiffness.coefficients[:, 0]
+    return np.asarray((FREE_LENGTH * stiffness * problem.clearance * lowest / weight) ** 0.25)
 
 
 def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
     """Nodes of a beam (n,), and its height above the hole's axis and slope there in Δ, in turn, (2n,)."""
     problem, breaks = model.problem, model.problem.rod.breaks
-    lengths = free_lengths(problem)
-    finest = min(float(np.min(lengths[lengths > 0.0])) / PER_BRIDGE, 1.0 / (PER_WAVE * wavenumber(model, load)))
-    numbers = np.ceil(np.diff(breaks) / max(finest, 1.0 / MOST)).astype(int)
-    numbers = np.maximum(numbers, np.ceil(FEWEST * np.diff(breaks)).astype(int))
+    per_length = np.maximum(PER_BRIDGE / _own_lengths(problem), PER_WAVE * wavenumbers(model, load))
+    numbers = np.maximum(np.ceil(np.diff(breaks) * per_length), FEWEST)
+    numbers = np.ceil(numbers * min(1.0, MOST / float(np.sum(numbers)))).astype(int)
     parts = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks[:-1], breaks[1:], numbers, strict=True)]
     places = np.append(np.concatenate(parts), 1.0)
     band, force = _assembled(model, load, places)
@@ -95,8 +135,8 @@ def _beam(model: RodInHole, load: float) -> tuple[FloatArray, FloatArray]:
     cholesky_banded(_without_held(band, held), lower=True)
     height = np.zeros(2 * places.size)
     height[::2] = floor
-    size = _sag(problem, places)
-    for stiffness in size * HARDER ** np.arange(-4.0, 1.0):
+    size = _sag(problem)
+    for stiffness in size * HARDER ** np.arange(-6.0, 1.0):
         height = _on_springs(band, force, floor, held, stiffness, height)
     return places, height
 
@@ -115,12 +155,11 @@ def _held(problem: Problem, nodes: int) -> BoolArray:
     return held
 
 
-def _sag(problem: Problem, places: FloatArray) -> float:
-    """Stiffness of a spring at a node that the weight of a free length presses in by far less than a step."""
-    steps, lengths = _steps(problem), free_lengths(problem)
-    bridges = lengths > 0.0
+def _sag(problem: Problem) -> float:
+    """Stiffness of a spring at a node that the heaviest section's weight over L presses in by less than a step."""
+    steps = _steps(problem)
     weight = problem.lateral_weight * float(np.max(problem.rod.weight.coefficients)) / problem.clearance
-    return weight * float(np.max(lengths)) / (0.1 * TOUCHING * float(np.min(steps[bridges])))
+    return weight / max(SAG * float(np.min(steps[steps > 0.0])), LEAST_SAG)
 
 
 def _assembled(model: RodInHole, load: float, places: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -188,46 +227,38 @@ def _on_springs(
     return height
 
 
-def _pattern(problem: Problem, places: FloatArray, height: FloatArray, at_ends: bool) -> tuple[Pattern, FloatArray]:
+def _pattern(problem: Problem, places: FloatArray, height: FloatArray, few: int) -> tuple[Pattern, FloatArray]:
     """Which parts of a beam with this height (n,) at its nodes touch: the pattern, and the ends of its stretches.
 
-    ``at_ends``: whether short contact beside an end counts, where it may be that of the end itself.
+    Between two corners a heavy beam that is nowhere compressed touches along one piece at most: over a gap with flat
+    contact on both sides its moment would be concave, and nowhere negative at the gap's ends. Beside an end that piece
+    begins at the end. One of no more than ``few`` nodes counts as a point, beside an end or an edge that is touched as
+    none: a force between two nodes presses both.
     """
-    steps, lengths = _steps(problem), free_lengths(problem)
-    bridges = lengths > 0.0
-    near = TOUCHING * float(np.min(steps[bridges]))
-    short = SHORTEST * float(np.min(lengths[bridges]))
-    on = height + _narrowest(problem, places) < near
-    corner = np.isin(places, problem.rod.clearance_steps)
-    edges = tuple(map(float, places[on & corner]))
+    pressed = height < -_narrowest(problem, places)
+    steps = problem.rod.clearance_steps
     touching, breaks = [], []
-    flat = np.concatenate([[False], on & ~corner, [False]])
-    starts, stops = np.flatnonzero(flat[1:] & ~flat[:-1]), np.flatnonzero(flat[:-1] & ~flat[1:]) - 1
-    pieces = list(zip(places[starts], places[stops], strict=True))
-    for left, right in _joined(pieces, JOINED * float(np.min(lengths[bridges])), places[corner]):
+    for left, right in pairwise([0.0, *steps, 1.0]):
+        piece = places[pressed & (places > left) & (places < right)]
         at_end = left == 0.0, right == 1.0
-        if right - left < short and not (any(at_end) and at_ends and right > left):
-            if not any(at_end):  # there it is held anyway
+        if piece.size <= few:
+            beside = np.flatnonzero(pressed & (places >= left) & (places <= right)).size > piece.size
+            if piece.size and not any(at_end) and not (beside and _next_to(places, piece, left, right)):
                 touching.append(False)
-                breaks.append(0.5 * (left + right))
+                breaks.append(float(np.mean(piece)))
             continue
         touching += [True] if at_end[0] else [False, True]
-        breaks += [end for end, last in zip((left, right), at_end, strict=True) if not last]
+        breaks += [float(end) for end, last in zip((piece[0], piece[-1]), at_end, strict=True) if not last]
     if len(touching) == len(breaks):  # nothing touches at s = 1
         touching.append(False)
+    edges = tuple(map(float, places[pressed & np.isin(places, steps)]))
     return Pattern(tuple(touching), planar=True, edges=edges), np.array(breaks)
 
 
-def _joined(pieces: list[tuple[float, float]], short: float, corners: FloatArray) -> list[tuple[float, float]]:
-    """Pieces of contact, those joined that have less than ``short`` between them, and no corner."""
-    out: list[tuple[float, float]] = []
-    for left, right in pieces:
-        apart = not out or left - out[-1][1] > short
-        if apart or np.any((corners > out[-1][1]) & (corners < left)):
-            out.append((left, right))
-        else:
-            out[-1] = (out[-1][0], right)
-    return out
+def _next_to(places: FloatArray, piece: FloatArray, left: float, right: float) -> bool:
+    """Whether nodes of a piece are next to the corner at either side of them."""
+    first, last = np.searchsorted(places, piece[[0, -1]])
+    return bool(places[first - 1] == left or places[last + 1] == right)
 
 
 def _sampler(places: FloatArray, height: FloatArray) -> Sampler:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.bridged import farthest
 from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
 from rodwell.analysis.path.load_path import LoadPath, load_path
 from rodwell.answers.result.beyond import PATIENCE, StateBeyond
@@ -62,8 +64,10 @@ class Bridged:
         return (top - load.force) / (top - self.buckling[0].force.value)
 
 
-def bridged_answer(case: Case) -> Bridged:
+def bridged_answer(case: Case, tell: Callable[[str, float], None] = lambda _what, _done: None) -> Bridged:
     """Follow the string of a case until it buckles sideways, and find it under the loads that act.
+
+    ``tell`` is called with what is being done, and how much of the range of loads has been passed.
 
     Raises
     ------
@@ -72,9 +76,10 @@ def bridged_answer(case: Case) -> Bridged:
     NotConvergedError
         If it was not found how the string lies under its weight.
     """
-    begun, section = time.process_time(), rod_section(case)
+    begun, section, far = time.process_time(), rod_section(case), abs(farthest(case.problem))
 
-    def progress(_leg: str, _force: float) -> str | None:
+    def progress(leg: str, force: float) -> str | None:
+        tell(f"{leg}, F = {force:.4g} B/L²", min(abs(force) / far, 1.0))
         if time.process_time() - begun <= PATIENCE:
             return None
         return f"it takes longer than {PATIENCE:g} s of processor time; `rodwell path` follows it farther"

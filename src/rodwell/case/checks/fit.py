@@ -9,6 +9,7 @@ from dataclasses import replace
 from rodwell.case import schema
 from rodwell.case.hole.schema import Hole
 from rodwell.case.physical import Physical
+from rodwell.case.tool_joints import TOOL_JOINT
 from rodwell.quantities.text import minus, plain
 
 Misfit = tuple[str, str]
@@ -46,7 +47,10 @@ def misfits(parsed: schema.CaseFile, load: schema.LoadInput, found: Physical) ->
     """Key and what is wrong with it, for values that do not go together."""
     assert parsed.hole is not None
     if found.string is not None:
-        for one, member in zip(parsed.string or (), found.string.members, strict=True):
+        for member in {one.key: one for one in found.string.members}.values():
+            one = (parsed.string or ())[member.number - 1]
+            if member.name.endswith(TOOL_JOINT):
+                continue  # of the body's material, with diameters that have been checked
             for key, what in _of_rod(one, parsed.hole, replace(found, rod=member.rod)):
                 mine = key.startswith("rod.")
                 yield (

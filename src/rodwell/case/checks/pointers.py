@@ -34,8 +34,8 @@ SECTIONS_ELSEWHERE = {
 
 _MASS = 'is not taken: give the weight instead, weight_per_length = "19.5 lbf/ft" (a force per length), or density'
 _TOOL_JOINT = (
-    "is not yet taken in this version: the body of the pipe lies on the wall; give weight_per_length with the tool "
-    "joints in it, and hole.clearance where the joints keep the pipe off the wall"
+    "belongs into [[string]], beside joints and joint_length: tool_joint_diameter, tool_joint_length. Here the body of "
+    "the pipe lies on the wall; give weight_per_length with the tool joints in it"
 )
 _FRICTION = "is out of scope in this version: the wall is frictionless; leave it out"
 _FORCE = "is not known; the end force is `applied`, tension positive, compression with a minus sign"

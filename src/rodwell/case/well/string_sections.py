@@ -11,6 +11,7 @@ from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.schema import Mud, PressureAtEnd, StringInput
 from rodwell.case.sections import name_of, section_rod
+from rodwell.case.tool_joints import KEYS
 from rodwell.errors import InputError
 
 MOST_SECTIONS = 200
@@ -49,6 +50,10 @@ def string_sections(
         raise InputError("string", len(parts), f"has more than {MOST_SECTIONS} sections: join those that are alike")
     out = []
     for i, part in enumerate(parts):
+        for key in KEYS:
+            if getattr(part, key) is not None:
+                what = "is not taken by torque and drag: give weight_per_length with the tool joints in it instead"
+                raise InputError(key_of_part(i, key), getattr(part, key), what)
         length = _length(part, i, last=i == len(parts) - 1)
         try:
             rod, fluids, weight = section_rod(part, length, gravity, mud, pressure, catalogue)

@@ -251,8 +251,11 @@ def solve(
     scale = np.maximum(1.0, np.max(np.abs(shape.nodes), axis=0))
     before = np.inf
     for step in range(1, most + 1):
-        with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-            out = assemble(model, shape)
+        try:
+            with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+                out = assemble(model, shape)
+        except np.linalg.LinAlgError:  # no numbers within an element
+            return Outcome.OUT_OF_RANGE, None, step
         if not np.isfinite(out.energy):
             return Outcome.OUT_OF_RANGE, None, step
         try:
