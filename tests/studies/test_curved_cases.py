@@ -40,6 +40,26 @@ def test_formulas_take_the_curvature_of_the_hole_and_are_held_against_its_exact_
     assert FORMULAS["he_kyllingstad"].takes
 
 
+def test_of_a_long_string_in_a_surveyed_well_only_the_lower_end_matters(tmp_path: Path) -> None:
+    """120 joints, 1,164 m, and the lowest 30 of them buckle at the same compression at the lower end.
+
+    The inclination at stations 30 m apart wavers about 60°, so the curvature of the hole changes its sign some twenty
+    times along the string; what is above the buckled part does not matter.
+    """
+    rows = [f"{30 * i},{60.0 + 0.2 * math.sin(1.7 * i):.4f},40" for i in range(101)]
+    (tmp_path / "well.csv").write_text("MD [m],Inc [deg],Azi [deg]\n" + "\n".join(rows), encoding="utf-8")
+    lower = []
+    for joints in (120, 30):
+        string = {"pipe": "5 in 19.5 lb/ft drill pipe", "joints": joints, "joint_length": "9.7 m"}
+        hole = {"diameter": "8.5 in", "survey": "well.csv", "to": "2990 m"}
+        data = {"string": [string], "rod": {"ends": "clamped-clamped"}, "hole": hole, "mud": {"density": "10 lb/gal"}}
+        found = Case.from_dict(data, folder=tmp_path).problem
+        mode = critical(found)
+        assert mode.error < 1e-7 * abs(mode.force)
+        lower.append((found.hung_weight - mode.force) / joints**2)
+    assert lower[0] == pytest.approx(lower[1], rel=1e-6)
+
+
 @pytest.mark.parametrize(("option", "key"), [("--build", "hole.build"), ("--turn", "hole.walk")])
 def test_the_old_meaning_of_build_and_turn_is_refused_with_the_remedy(tmp_path: Path, option: str, key: str) -> None:
     case = tmp_path / "case.toml"

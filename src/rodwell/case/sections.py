@@ -63,8 +63,9 @@ class PhysicalString:
 
     @cached_property
     def weight(self) -> float:
-        """Mean weight per length in the fluids in N/m."""
-        return sum(member.weight * member.rod.length for member in self.members) / self.length
+        """Mean weight per length in the fluids in N/m; of sections that are alike exactly theirs."""
+        first = self.members[0].weight
+        return first + sum((one.weight - first) * one.rod.length for one in self.members) / self.length
 
     @cached_property
     def longest(self) -> Member:

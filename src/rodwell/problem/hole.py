@@ -161,6 +161,11 @@ class Hole:
         return self._axis.error if self.axis else 0.0
 
     @property
+    def breaks(self) -> FloatArray:
+        """Arclengths S, rising, between which the axis is smooth; of an arc none, it is smooth throughout."""
+        return self._axis.breaks if self.axis else np.empty(0)
+
+    @property
     def length(self) -> float:
         """Length of the axis that was given, in L."""
         return self._axis.length if self.axis else 1.0

@@ -28,11 +28,14 @@ from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
 PIECES = 64
-"""Pieces of the rod in each of which the hole is a polynomial: to round-off for curvatures up to several radians a
-length, and for points some pieces apart."""
+"""Pieces of the rod, at least, in each of which the hole is a polynomial: to round-off for curvatures up to several
+radians a length. An axis through points is smooth between its breaks only, and pieces end there too."""
 
 PIECES_PER_RADIAN = 12.0
 """More pieces where the hole turns more."""
+
+NO_PIECE = 1e-9
+"""Breaks of the axis nearer to an end of the rod, in L, make no piece of their own."""
 
 PLACES = 257
 
@@ -166,10 +169,19 @@ def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
     return PiecewisePolynomial.of(breaks, rate).integral_above()
 
 
+@lru_cache(maxsize=64)
 def _breaks(problem: Problem) -> FloatArray:
+    """Ends of the pieces of the rod, rising from 0 to 1: beside breaks of the axis, and no piece long."""
     hole = _hole(problem)
     count = max(PIECES, 2 * int(np.ceil(0.5 * PIECES_PER_RADIAN * hole.turning)))
-    return np.linspace(0.0, 1.0, count + 1)
+    ends = np.array([0.0, 1.0])
+    if hole.breaks.size:
+        beside = np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)
+        ends = np.concatenate([[0.0], beside[(beside > NO_PIECE) & (beside < 1.0 - NO_PIECE)], [1.0]])
+    parts = np.maximum(1, np.ceil(np.diff(ends) * count - 1e-9)).astype(int)
+    steps = np.repeat(np.diff(ends) / parts, parts)
+    within = np.concatenate([np.arange(n) for n in parts])
+    return np.append(np.repeat(ends[:-1], parts) + within * steps, 1.0)
 
 
 def _hole(problem: Problem) -> Hole:

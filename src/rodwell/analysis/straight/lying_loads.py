@@ -199,7 +199,7 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
             return None
         raise NotConvergedError(
             "the rod that lies along this hole is unstable on the wall at every end force: there is no load at which "
-            "it begins to buckle"
+            "it begins to buckle. Of a string that hangs through a build in tension, take the part below the build"
         )
     if tension:
         count = min(count, _Pencil(problem, space).unstable(rest + ENDLESS * scale))
