@@ -193,6 +193,20 @@ def test_what_is_copied_runs_and_gives_the_state(plain: Engine, capsys: pytest.C
     assert command.params["until"] == pytest.approx(-data["range"][1])
 
 
+def test_the_command_that_is_copied_leaves_out_nothing_of_the_problem() -> None:
+    from rodwell.cli.main import cli
+    from rodwell.cli.options import make_problem
+
+    given = {"weight": -12.0, "alpha": 60.0, "clearance": 0.02, "ends": "pinned-clamped"}
+    for torsion in ({"poisson": 0.4}, {"torsion": 1.5}):
+        engine = Engine(
+            {"dimensionless": given | torsion, "load": {"twist": 0.5, "until": -100.0}, "analysis": {"modes": 1}}
+        )
+        words = ask(engine, "copy", load=60.0, branch="straight")["texts"]["command"].split()
+        command = cli.commands[words[1]].make_context(words[1], words[2:])
+        assert make_problem(command.params) == engine.case.problem
+
+
 def test_what_is_copied_leaves_out_nothing_of_the_problem() -> None:
     for values in (
         {"weight": 10.0, "alpha": 60.0, "build": 0.2, "walk": 0.1},
