@@ -193,6 +193,20 @@ def test_what_is_copied_runs_and_gives_the_state(plain: Engine, capsys: pytest.C
     assert command.params["until"] == pytest.approx(-data["range"][1])
 
 
+def test_the_command_that_is_copied_leaves_out_nothing_of_the_problem() -> None:
+    from rodwell.cli.main import cli
+    from rodwell.cli.options import make_problem
+
+    given = {"weight": -12.0, "alpha": 60.0, "clearance": 0.02, "ends": "pinned-clamped"}
+    for torsion in ({"poisson": 0.4}, {"torsion": 1.5}):
+        engine = Engine(
+            {"dimensionless": given | torsion, "load": {"twist": 0.5, "until": -100.0}, "analysis": {"modes": 1}}
+        )
+        words = ask(engine, "copy", load=60.0, branch="straight")["texts"]["command"].split()
+        command = cli.commands[words[1]].make_context(words[1], words[2:])
+        assert make_problem(command.params) == engine.case.problem
+
+
 def test_what_is_copied_leaves_out_nothing_of_the_problem() -> None:
     for values in (
         {"weight": 10.0, "alpha": 60.0, "build": 0.2, "walk": 0.1},
@@ -226,8 +240,10 @@ def test_farther_than_was_followed(plain: Engine) -> None:
 
 def test_loads_keep_their_unit_while_inputs_move() -> None:
     engine = Engine(tomllib.loads((EXAMPLES / "drill-string.toml").read_text(encoding="utf-8")))
-    units = [ask(engine, "diagram", inputs=i)["diagram"]["axis"]["unit"] for i in ({"rod.length": 55.0}, {})]
-    assert units[0] == units[1] == "kN"
+    shown = [ask(engine, "diagram", inputs=i)["diagram"] for i in ({"rod.length": 55.0}, {})]
+    assert [each["axis"]["unit"] for each in shown] == ["kN", "kN"]
+    for each in shown:  # B/L² is another force for another length
+        assert each["buckles"]["load"] == pytest.approx(float(each["buckles"]["text"].split()[0]), rel=1e-3)
 
 
 def test_what_can_be_moved_stands_in_the_words_of_the_case(field: Engine) -> None:

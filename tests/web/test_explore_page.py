@@ -184,6 +184,20 @@ def test_no_number_is_shown_for_other_inputs(page: Any) -> None:
     assert moving
     assert not any(buckles in text for texts in moving for text in texts[1:])
     assert any(texts[1] == "…" for texts in moving)
+    drawn_again = page.evaluate(  # the way back to other inputs, and a diagram that is drawn anew meanwhile
+        """async () => {
+        const y = window.__rodwell.state.y, diagram = document.getElementById('diagram');
+        history.replaceState(null, '', `#dimensionless.weight=18&load=118&y=${y}`);
+        dispatchEvent(new PopStateEvent('popstate'));
+        const texts = [diagram.textContent];
+        diagram.style.width = '300px';
+        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+        if (document.body.classList.contains('updating')) texts.push(diagram.textContent);
+        diagram.style.width = '';
+        return texts.join('');
+    }"""
+    )
+    assert drawn_again == ""
 
 
 def test_keys_move_load_branch_and_special_point(page: Any) -> None:
@@ -318,6 +332,15 @@ def test_files_are_saved(page: Any) -> None:
         assert content.startswith(start)
     assert b"<script src" not in content
     assert b"data:image/png;base64" in content
+    for name, start in (("svg", b"<svg"), ("png", b"\x89PNG")):
+        with page.expect_download() as saved:
+            page.locator(f"[data-diagram={name}]").click()
+        content = saved.value.path().read_bytes()
+        assert content.startswith(start)
+        if name == "svg":  # stands alone: colours and dashes are its own
+            assert b'stroke-dasharray="5px, 3px"' in content
+            assert "end compression −F at s = 1".encode() in content
+    assert len(content) > 10_000
 
 
 class SilentDesk:

@@ -28,6 +28,8 @@ PARAMETERS = (
     "alpha",
     "clearance",
     "twist",
+    "poisson",
+    "torsion",
     "ends",
     "on_top",
     "outside",
@@ -51,6 +53,8 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
             ),
             click.option("--clearance", default=0.01, show_default=True, help="Δ/L, distance between the axes."),
             click.option("--twist", default=0.0, show_default=True, help="End twisting moment T₁ in B/L."),
+            click.option("--poisson", type=float, help="Poisson's ratio ν; C/B = 1/(1 + ν).  [default: 0.3]"),
+            click.option("--torsion", type=float, help="C/B as measured, instead of --poisson."),
             click.option(
                 "--ends",
                 default="clamped-clamped",

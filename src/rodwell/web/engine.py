@@ -17,7 +17,7 @@ from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit
 from rodwell.report.reports.texts import KINDS as LABELS
 from rodwell.web import files, off_wall, state, words
-from rodwell.web.explored import STRAIGHT, Explored, explore
+from rodwell.web.explored import STRAIGHT, Explored, explore, newtons
 from rodwell.web.inputs import DEFAULT, ENDS, MOST_MODES, controls, moved
 
 KEPT = 6
@@ -121,7 +121,7 @@ class Engine:
 
         def reached(so_far: Explored, last: bool) -> None:
             if self._unit is None:
-                self._unit = so_far.load_unit
+                self._unit = so_far.kept_unit
             check()
             if send is not None and not last:
                 send({"kind": "diagram", "diagram": so_far.plain(), "whole": False})
@@ -160,7 +160,7 @@ class Engine:
             raise InputError("until", shown, f"must be below {LARGEST_LOAD:g} in size")
         assert self._unit is not None
         less = case.problem.axial_weight if data.get("load", {}).get("at") == "bottom" else 0.0
-        end = (less if case.scales is not None else 0.0) - shown / self._unit[0]
+        end = (less if case.scales is not None else 0.0) - shown / (self._unit[0] * newtons(case))
         load = {**data.get("load", {}), "until": files.force_text(case, end - less)}
         load.pop("applied", None)
         if "pressure" in data:

@@ -53,8 +53,8 @@ class Explored:
     unexplored
         Why branch points were left without their secondary branch.
     unit
-        Factor from B/L² to the unit of loads on the page, and that unit: that of the case to begin with, so that it
-        stays while inputs move. None: the one that suits these branches.
+        Factor from newtons (of a dimensionless case: from B/L²) to the unit of loads on the page, and that unit: that
+        of the case to begin with, so that it stays while inputs move. None: the one that suits these branches.
     path, no_path
         The load path beyond lift-off where it was asked for; or why there is none.
     """
@@ -80,7 +80,14 @@ class Explored:
     @cached_property
     def load_unit(self) -> tuple[float, str]:
         """Factor from B/L² to the unit of loads on the page, and that unit."""
-        return self.unit or axis("force", self.case.scales, max(float(np.max(np.abs(b.force))) for b in self.branches))
+        if self.unit is None:
+            return axis("force", self.case.scales, max(float(np.max(np.abs(b.force))) for b in self.branches))
+        return self.unit[0] * newtons(self.case), self.unit[1]
+
+    @property
+    def kept_unit(self) -> tuple[float, str]:
+        """The unit of loads, for other inputs: B/L² moves with them, newtons do not."""
+        return self.load_unit[0] / newtons(self.case), self.load_unit[1]
 
     def shown(self, force: float) -> float:
         """The compression at the end shown, in the unit of loads, of an end force F in B/L²."""
@@ -248,6 +255,11 @@ class Explored:
             "s": list(point.s),
             "converged": branch.meets_tolerance(point),
         }
+
+
+def newtons(case: Case) -> float:
+    """B/L² in newtons; 1 for a dimensionless case."""
+    return 1.0 if case.scales is None else case.scales.factor("force")
 
 
 def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:

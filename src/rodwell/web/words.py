@@ -82,6 +82,8 @@ def as_command(explored: Explored, solution: Shown) -> str:
         return "rodwell run case.toml    # case.toml: the button of that name saves it"
     options = [f"--weight {problem.weight!r}", f"--alpha {problem.alpha!r}", f"--clearance {problem.clearance!r}"]
     options += [f"--twist {problem.twist!r}"] if problem.twist else []
+    options += [f"--poisson {problem.poisson!r}"] if problem.poisson != Problem.poisson else []
+    options += [f"--torsion {problem.torsion!r}"] if problem.torsion is not None else []
     options += ["--floats"] if problem.floats else []
     options += [f"--ends {'-'.join(problem.ends)}"] if problem.ends != ("clamped", "clamped") else []
     if explored.path is not None and isinstance(solution, ContactState):

@@ -12,7 +12,15 @@ export class Diagram {
     this.data = data;
     this.ordinate = ordinate;
     this.state = state;
+    this.pale = false;
     this.draw();
+  }
+
+  // Other inputs are computed: lines stay, what can be read of them goes, however often they are drawn again.
+  fade() {
+    this.pale = true;
+    this.box.querySelectorAll("text, title").forEach((each) => each.remove());
+    this.box.querySelectorAll(".special, .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); });
   }
 
   point(state) {
@@ -69,6 +77,7 @@ export class Diagram {
     this.dot = element("circle", { class: "shown", r: 7 });
     at.svg.append(this.dot);
     this.box.replaceChildren(at.svg);
+    if (this.pale) this.fade();
     this.point(this.state);
     if (focused) this.box.querySelector(`[data-key="${focused}"]`)?.focus();
   }

@@ -7,7 +7,7 @@ import { keys } from "./keys.js";
 import { Link } from "./link.js";
 import { Player } from "./play.js";
 import { clear } from "./stale.js";
-import { copy, save, saveBlob, showDetails, showNumbers, snapshot } from "./panel.js";
+import { copy, pixels, save, saveBlob, showDetails, showNumbers, snapshot, standalone } from "./panel.js";
 
 const $ = (id) => document.getElementById(id);
 const hooks = (window.__rodwell = { ready: false, state: null, updates: 0, values: null, times: [], drawn: () => 0, widest: () => 0 });
@@ -144,6 +144,7 @@ function stale() {
   shown = null;
   diagramOf = "";
   withPath = false;
+  figure.fade();
   figure.point(null);
   curves.data = null;
 }
@@ -255,6 +256,14 @@ document.querySelectorAll("[data-save]").forEach((button) => {
   };
 });
 
+document.querySelectorAll("[data-diagram]").forEach((button) => {
+  button.onclick = async () => {
+    if (!shown) return; // its numbers are those of other inputs, or gone
+    const drawing = standalone(figure.at.svg), kind = button.dataset.diagram;
+    saveBlob(`diagram.${kind}`, kind === "svg" ? drawing : await pixels(drawing, figure.at.svg));
+  };
+});
+
 function haveFile({ suffix, type, content }) {
   if (stills && suffix === "png" && saving !== "png") {
     const still = document.querySelector("#rod .still");
@@ -303,7 +312,7 @@ $("modes").onchange = () => {
   else $("modes").value = state.inputs.modes;
 };
 $("branch").onchange = () => go(chosen({ branch: $("branch").value, load: null }), true);
-$("ordinate").onchange = () => { go({ y: $("ordinate").value }, true); figure.show(diagram, state.y, shown); };
+$("ordinate").onchange = () => { go({ y: $("ordinate").value }, true); if (diagramOf) figure.show(diagram, state.y, shown); };
 $("true-scale").addEventListener("change", () => go({ scale: $("true-scale").checked ? "true" : "" }, true));
 $("reset").onclick = () => go({ ...address.begun(hello), y: state.y }, true);
 addEventListener("popstate", () => {
@@ -311,6 +320,6 @@ addEventListener("popstate", () => {
   play(false);
   fromAddress();
   if (rod && $("true-scale").checked !== (state.scale === "true")) { $("true-scale").checked = state.scale === "true"; $("true-scale").onchange?.(); }
-  if (diagram && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
+  if (diagram && diagramOf && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
 });
 keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!player.since), beyond, step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });

@@ -46,6 +46,36 @@ export function saveBlob(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family", "font-size"];
+
+// A drawing of the page as a file of its own: what the style sheet says of it is written into it.
+export function standalone(svg) {
+  const out = svg.cloneNode(true), { width, height } = svg.getBoundingClientRect();
+  const from = [svg, ...svg.querySelectorAll("*")], to = [out, ...out.querySelectorAll("*")];
+  from.forEach((each, i) => {
+    const style = getComputedStyle(each);
+    for (const name of DRAWN) to[i].setAttribute(name, style.getPropertyValue(name));
+  });
+  out.querySelectorAll(".hit, [hidden]").forEach((each) => each.remove());
+  const paper = document.createElementNS(out.namespaceURI, "rect");
+  for (const [name, value] of [["width", width], ["height", height], ["fill", getComputedStyle(document.body).backgroundColor]]) paper.setAttribute(name, value);
+  out.prepend(paper);
+  out.setAttribute("width", width);
+  out.setAttribute("height", height);
+  return new Blob([new XMLSerializer().serializeToString(out)], { type: "image/svg+xml" });
+}
+
+// The same in pixels, two for each of the page.
+export async function pixels(drawing, svg) {
+  const { width, height } = svg.getBoundingClientRect(), image = new Image();
+  image.src = URL.createObjectURL(drawing);
+  await image.decode();
+  const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height });
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  URL.revokeObjectURL(image.src);
+  return new Promise((done) => { canvas.toBlob(done); });
+}
+
 export async function copy(text, what) {
   try {
     await navigator.clipboard.writeText(text);

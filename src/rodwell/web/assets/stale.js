@@ -9,8 +9,7 @@ export function clear() {
   $("busy").textContent = "updating …";
   for (const id of ["buckles", "lifts-off", "snaps", "now", "headline", "verdict"]) $(id).textContent = "…";
   showNumbers(null);
-  document.querySelectorAll("#diagram text, #push text, #side text").forEach((text) => text.remove());
-  document.querySelectorAll("#diagram .special, #diagram .hit").forEach((each) => { each.removeAttribute("tabindex"); each.setAttribute("aria-label", "updating"); each.querySelector("title")?.remove(); });
+  document.querySelectorAll("#push text, #side text").forEach((text) => text.remove());
   for (const id of ["bar-first", "bar-last"]) $(id).textContent = "";
   $("cursor").textContent = "";
   $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
