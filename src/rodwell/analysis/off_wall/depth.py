@@ -18,6 +18,9 @@ PER_ELEMENT = 12
 CLOSE = 1e-14
 """How closely ends of pieces are located, in L."""
 
+SHALLOW = 1e-9
+"""Distance from the wall in Δ, in the middle of a piece, that counts as none: events are located no better."""
+
 
 class Piece(NamedTuple):
     """A piece of the rod, in contact or not, from where to where."""
@@ -37,6 +40,11 @@ def depth(shape: Shape, s: FloatArray) -> FloatArray:
     return np.asarray(np.hypot(x, y) - 1.0)
 
 
+def _shallow(shape: Shape, left: float, right: float) -> bool:
+    """Whether the rod is as good as at the wall between two places at which it is just there."""
+    return right - left <= CLOSE or abs(float(depth(shape, np.array([0.5 * (left + right)]))[0])) <= SHALLOW
+
+
 def contact_pieces(shape: Shape) -> list[Piece]:
     """Contact and gaps in turn, from s = 0."""
     from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
@@ -47,8 +55,8 @@ def contact_pieces(shape: Shape) -> list[Piece]:
     bounds = [0.0]
     for i in np.flatnonzero(on[1:] != on[:-1]):
         end = float(brentq(lambda t: float(depth(shape, np.array([t]))[0]), inner[i], inner[i + 1], xtol=CLOSE))
-        if end - bounds[-1] <= CLOSE:
-            bounds.pop()  # right where a piece appears it has no length
+        if len(bounds) > 1 and _shallow(shape, bounds[-1], end):
+            bounds.pop()  # right where a piece appears it is none
         else:
             bounds.append(end)
     bounds.append(1.0)
