@@ -41,6 +41,17 @@ def test_listing_fits_and_keeps_cells_whole(width: int, notes: bool) -> None:
         assert " ".join(words) == "for a rod without any weight"
 
 
+@pytest.mark.parametrize("notes", [False, True])
+def test_where_there_is_no_room_no_number_is_cut(notes: bool) -> None:
+    out = io.StringIO()
+    rows = [row if isinstance(row, str) or notes else row[:3] for row in ROWS]
+    console = Console(file=out, width=20, highlight=False)
+    print_listing(console, ["formula", ">load", ">error", *(["remark"] if notes else [])], rows, notes=notes)
+    assert all(cell in out.getvalue() for row in ROWS[1:] for cell in row[1:3])
+    assert "…" not in out.getvalue()
+    assert console.width == 20
+
+
 def test_prose_is_broken_between_words() -> None:
     done = CliRunner().invoke(cli, ["modes", "--weight", "15"], env={"COLUMNS": "60"})
     lines = done.output.splitlines()

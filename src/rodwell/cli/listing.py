@@ -53,6 +53,8 @@ def print_listing(
     remark = (min(widths[-1], NARROWEST_NOTE) + GAP) if notes else 0
     beside = room - remark >= widths[0] or not notes
     label = min(widths[0], max(room - remark, INDENT)) if beside else INDENT
+    needed = label + GAP + sum(widths[i] + GAP for i in middle) + remark
+    narrow, console.width = console.width, max(console.width, needed)  # terminals break lines; no number is cut
 
     def line(cells: Sequence[str | Text], style: str = "") -> None:
         grid = Table.grid(padding=(0, GAP, 0, 0))
@@ -76,3 +78,4 @@ def print_listing(
             console.print(name)
             name = Text("")
         line([name, *rest])
+    console.width = narrow
