@@ -76,7 +76,7 @@ _HOME = {
     "save_branch": "rodwell.store.restart",
     "screen": "rodwell.studies.well.screening",
     "sensitivities": "rodwell.analysis.loads.sensitivity",
-    "load_path": "rodwell.analysis.path.load_path",
+    "load_path": "rodwell.analysis.path.follow",
     "load_branch": "rodwell.store.restart",
     "lying_rod": "rodwell.analysis.loads.lying_rod",
     "loads_without_wall": "rodwell.analysis.straight.without_wall",
@@ -117,7 +117,8 @@ if TYPE_CHECKING:
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
-    from rodwell.analysis.path.load_path import LoadPath, load_path
+    from rodwell.analysis.path.follow import load_path
+    from rodwell.analysis.path.load_path import LoadPath
     from rodwell.analysis.proof.certify import CertifiedLoads, certify
     from rodwell.analysis.proof.paper_values import paper_values
     from rodwell.analysis.state.certificate import Certificate

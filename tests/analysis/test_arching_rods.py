@@ -14,7 +14,8 @@ from scipy.optimize import brentq, fsolve
 from scipy.special import ellipk
 
 import rodwell
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.errors import InputError
 
 

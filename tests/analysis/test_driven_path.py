@@ -14,7 +14,8 @@ import pytest
 
 import rodwell
 from rodwell.analysis.off_wall.control import Control, shortening
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.errors import InputError
 from rodwell.numerics.stretches.walk import step, tangent_in_load
 

@@ -18,7 +18,8 @@ from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path.barrier import Barrier, saddle
 from rodwell.analysis.path.disturbance import comes_back, held_by
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.cli.path import _print_barrier
 from rodwell.errors import InputError
 from rodwell.numerics.stretches.assembly import assemble

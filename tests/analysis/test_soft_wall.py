@@ -24,7 +24,8 @@ from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.soft import aligned, sunk
 from rodwell.analysis.off_wall.state import ContactState, contact_state
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.errors import InputError
 from rodwell.numerics.stretches.carry import angle_of, sampler
 

@@ -12,7 +12,8 @@ import rodwell
 from rodwell.analysis.off_wall.bumps import step_gap_sizes
 from rodwell.analysis.off_wall.measured import position
 from rodwell.analysis.off_wall.state import ContactState
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 
 TWO = rodwell.Problem(weight=15, sections=((0.6, 1.0, 1.0), (0.4, 0.5, 0.8)))
 

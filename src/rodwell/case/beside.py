@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rodwell.case.hole.schema import Hole
 from rodwell.case.hole.sections import WHOLE, HolePart
 from rodwell.case.pipe import PhysicalRod
-from rodwell.case.sections import Member, PhysicalString
+from rodwell.case.string.sections import Member, PhysicalString
 from rodwell.errors import InputError
 from rodwell.problem.rod import PLAIN, Section
 

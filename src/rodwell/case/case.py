@@ -28,7 +28,7 @@ from rodwell.case.hole.sections import HoleSectionInput
 from rodwell.case.parts import CaseError, load_of, load_problems, named, split_hole, string_rod_of
 from rodwell.case.physical import Physical, physical
 from rodwell.case.pipe import PhysicalRod
-from rodwell.case.sections import PhysicalString, check_beside
+from rodwell.case.string.sections import PhysicalString, check_beside
 from rodwell.case.uncertain import Moved, UncertainInput, split
 from rodwell.errors import InputError
 from rodwell.faces import Shown

@@ -17,7 +17,7 @@ from rodwell.case.hole.lie import Lie, lie_of
 from rodwell.case.hole.schema import Hole
 from rodwell.case.hole.sections import WHOLE, HoleSectionInput, by_depth, parts_of
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.sections import PhysicalString, check_length, string_of
+from rodwell.case.string.sections import PhysicalString, check_length, string_of
 from rodwell.errors import InputError
 from rodwell.problem.checks import SMALLEST_CLEARANCE
 from rodwell.problem.ends import checked_ends

@@ -30,7 +30,7 @@ def first_buckling(problem: Problem, rtol: float) -> LoadPath:
     NotConvergedError
         If it does not, as far as it was followed.
     """
-    from rodwell.analysis.path.load_path import load_path  # noqa: PLC0415
+    from rodwell.analysis.path.follow import load_path  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
 
     path = load_path(problem, rtol=rtol)

@@ -100,7 +100,7 @@ def path(
     back. The rod may leave the wall; frictionless and without inertia. End force at s = 1 in B/L², tension positive;
     places in parts of the length, gaps in parts of the clearance.
     """
-    from rodwell.analysis.path.load_path import load_path  # noqa: PLC0415
+    from rodwell.analysis.path.follow import load_path  # noqa: PLC0415
 
     read = _case(case)
     problem, rtol = (make_problem(given), rtol) if read is None else (read.problem, _tolerance(read, rtol))

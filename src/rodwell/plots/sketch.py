@@ -13,7 +13,7 @@ from matplotlib.patches import Arc, Circle, Polygon
 
 from rodwell.answers.words.wording import bend_text
 from rodwell.case.case import Case
-from rodwell.case.sections import PhysicalString
+from rodwell.case.string.sections import PhysicalString
 from rodwell.plots.style import ACTS, BORE, BUCKLES, GREY, INK, RC, ROD
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.text import plain

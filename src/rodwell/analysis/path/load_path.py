@@ -3,41 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodwell.analysis.discrete import first_run
 from rodwell.analysis.off_wall.conditions import conditions
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
-from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
 from rodwell.analysis.path.barrier import Barrier, barrier
-from rodwell.analysis.path.bridged import bridging, farthest
-from rodwell.analysis.path.checks import (
-    checked_bridging,
-    checked_control,
-    checked_problem,
-    checked_range,
-    checked_wall,
-)
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
-from rodwell.analysis.path.legs import walked
-from rodwell.analysis.path.loading import loaded
 from rodwell.analysis.path.plain import found_or_why
-from rodwell.analysis.path.straightening import How, straight_state
+from rodwell.analysis.path.straightening import straight_state
 from rodwell.analysis.path.words import sentences
 from rodwell.analysis.state.fields import GRID
-from rodwell.analysis.straight.critical import critical_loads
-from rodwell.errors import InputError, NotConvergedError, checked_whole
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
+from rodwell.quantities.tolerance import checked_force
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -45,13 +32,8 @@ if TYPE_CHECKING:
 
     from rodwell.faces import Axes
 
-SEEDS = 3
-"""Random disturbances with which a rod that gives way is sent downhill, either way along its softest direction."""
-
 HARD = "hard wall"
 ASSUMPTIONS = f"quasi-static, frictionless and without inertia; {HARD}"
-
-Progress = Callable[[str, float], str | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,97 +249,3 @@ def _straight(leg: Leg, value: float, control: Control) -> bool:
 
 def _passes(leg: Leg, value: float, control: Control) -> bool:
     return _straight(leg, value, control) or bool(leg.near(value, control))
-
-
-def load_path(
-    problem: Problem,
-    *,
-    until: float | None = None,
-    unload_to: float | None = None,
-    control: str = "force",
-    axial_stiffness: float | None = None,
-    spring: float | None = None,
-    wall_stiffness: float = math.inf,
-    mirror: bool = False,
-    seeds: int = SEEDS,
-    rtol: float = RTOL,
-    progress: Progress | None = None,
-) -> LoadPath:
-    """Load a rod in a hole quasi-statically, let it buckle, lift off, and snap where it must, and unload it.
-
-    Parameters
-    ----------
-    problem
-        The rod; it may leave the wall.
-    until
-        End force at s = 1 in B/L², tension positive, to which the compression grows. It may be left out where the
-        clearance has steps: the path ends there where the string buckles.
-    unload_to
-        End force to which it is taken back; None: not at all.
-    control
-        "force": the end force is a dead load; or "shortening": the approach of the ends is prescribed, as by a stiff
-        machine. Then ``until`` and ``unload_to`` are shortenings in L, the load may pass extrema, and the stability
-        index is that of the rod so held.
-    axial_stiffness, spring
-        EA of the rod in B/L², and stiffness k in B/L³ of a spring through which it is driven, where the shortening is
-        controlled; None: rigid. Then ``until`` and ``unload_to`` are those of the driven end, u − F/EA − F/k with the
-        shortening u of the shape, counted from the straight rod without end force. What the strain F/EA changes in the
-        shape is left out.
-    wall_stiffness
-        Stiffness k L⁴/B of a wall that gives way: it pushes by k times the depth, per length, where the rod's axis is
-        farther from the hole's than Δ. Infinite: a hard wall.
-    mirror
-        The other of the two arms of the buckling mode: with twist they differ.
-    seeds
-        How many random disturbances, each either way along the softest direction, are tried where the rod gives way.
-    rtol
-        Relative tolerance of every load reported.
-    progress
-        Called with the leg and the end force of each new state. A text that it returns ends the path there, as the
-        reason, with all that was found.
-
-    Notes
-    -----
-    Where the clearance has steps (``problem.sections``) the string bridges them, off the wall. It is followed in the
-    vertical plane, from where it is stretched everywhere: its ``critical`` event is the first load at which a
-    disturbance out of the plane grows. States beyond are not computed, nor are twist and unloading taken. A step is
-    taken at its place along the rod: that the rod is pushed along the hole by its shortening is left out.
-
-    Raises
-    ------
-    InputError
-        For a rod outside the cylinder or on top of it, for loads out of range or order.
-    NotConvergedError
-        If the straight rod's critical load, or the path's first state, could not be computed.
-    """
-    checked_problem(problem)
-    model = RodInHole(problem, checked_wall(problem, wall_stiffness))
-    rtol, way = checked_rtol(rtol), checked_control(problem, control, axial_stiffness, spring)
-    if problem.bridges:
-        checked_bridging(problem, control, unload_to, mirror)
-    if until is None:
-        if not problem.bridges:
-            raise InputError("until", None, "is missing: give the end force to which the rod is loaded")
-        until = farthest(problem)
-    until, unload_to = checked_range(way, until, unload_to)
-    seeds = checked_whole("seeds", seeds, 1, 100)
-
-    def told(leg: str) -> Callable[[float], str | None] | None:
-        return None if progress is None else lambda force: progress(leg, force)
-
-    if problem.bridges:
-        walks = [bridging(model, until, rtol, told(LOADING))]
-    else:
-        first_run.begin(problem)
-        mode = critical_loads(problem, 1, rtol=rtol)[0]
-        walks = [loaded(model, until, mirror, How(way, rtol, seeds, mode, told(LOADING)))]
-        if walks[0].ended == END and unload_to is not None:
-            how = How(way, rtol, seeds, mode, told(UNLOADING))
-            walks.append(walked(walks[0].last, model, until, unload_to, Leg(UNLOADING), how))
-    ended = next((walk.ended for walk in walks if walk.ended != END), "")
-    events = tuple(event for walk in walks for event in walk.events)
-    legs = tuple(walk.leg for walk in walks)
-    return LoadPath(
-        problem, until, unload_to, events, legs, not ended, ended, rtol, mirror, way.name, way.compliance,
-        model.stiffness,
-    )  # fmt: skip

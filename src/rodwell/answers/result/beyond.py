@@ -9,7 +9,8 @@ import numpy as np
 
 from rodwell.analysis.off_wall.state import ContactState, PointForce, contact_state
 from rodwell.analysis.path.events import LOADING, SNAP, PathPoint
-from rodwell.analysis.path.load_path import LoadPath, Progress, load_path
+from rodwell.analysis.path.follow import Progress, load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.answers.result.computed import Computed
 from rodwell.case.applied import AppliedLoad
 from rodwell.errors import NotConvergedError, RodwellError

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.bridged import farthest
 from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
-from rodwell.analysis.path.load_path import LoadPath, load_path
+from rodwell.analysis.path.follow import load_path
+from rodwell.analysis.path.load_path import LoadPath
 from rodwell.answers.result.beyond import PATIENCE, StateBeyond
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case

@@ -9,7 +9,7 @@ from dataclasses import replace
 from rodwell.case import schema
 from rodwell.case.hole.schema import Hole
 from rodwell.case.physical import Physical
-from rodwell.case.tool_joints import TOOL_JOINT
+from rodwell.case.string.tool_joints import TOOL_JOINT
 from rodwell.quantities.text import minus, plain
 
 Misfit = tuple[str, str]

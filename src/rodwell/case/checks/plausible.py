@@ -13,7 +13,7 @@ from typing import Any
 from rodwell.case import schema
 from rodwell.case.checks.fit import misfits
 from rodwell.case.physical import Physical
-from rodwell.case.sections import called
+from rodwell.case.string.sections import called
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import KINDS, in_unit_of, to_si
 from rodwell.quantities.written import direction, number_and_rest

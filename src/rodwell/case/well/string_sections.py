@@ -10,8 +10,8 @@ from rodwell.case.catalogue import Catalogue
 from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.schema import Mud, PressureAtEnd, StringInput
-from rodwell.case.sections import name_of, section_rod
-from rodwell.case.tool_joints import KEYS
+from rodwell.case.string.sections import name_of, section_rod
+from rodwell.case.string.tool_joints import KEYS
 from rodwell.errors import InputError
 
 MOST_SECTIONS = 200

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rodwell.answers.result.assessment import Assessment
-from rodwell.case.sections import Member
+from rodwell.case.string.sections import Member
 from rodwell.quantities.text import amount
 from rodwell.quantities.units import System
 from rodwell.report.reports.content import Block, Grid, Picture, ReportSection, Words

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
-from rodwell.case.sections import check_beside
+from rodwell.case.string.sections import check_beside
 from rodwell.errors import InputError
 from rodwell.studies.labels import label
 from rodwell.studies.varied import Place, Varied, checked, is_varied, varied_list, varied_range

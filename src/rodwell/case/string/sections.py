@@ -13,7 +13,7 @@ from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, fluids_of, weight_in
 from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
-from rodwell.case.tool_joints import TOOL_JOINT, body_between_tool_joints, tool_joint_of
+from rodwell.case.string.tool_joints import TOOL_JOINT, body_between_tool_joints, tool_joint_of
 from rodwell.errors import InputError
 from rodwell.problem.rod import Section
 
