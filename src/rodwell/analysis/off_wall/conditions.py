@@ -28,6 +28,7 @@ from rodwell.analysis.off_wall.depth import Piece, contact_pieces
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Elements, Pattern
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS
+from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
@@ -38,9 +39,6 @@ UNHELD, CROSSES, LEAVES_EDGE = "unheld", "crosses", "leaves_edge"
 
 PER_ELEMENT = 12
 """Places in an element at which pressure and gap are looked at first."""
-
-CLOSER, ZOOMS = 9, 4
-"""Places of each closer look at a minimum, and how many looks: the last are some thousandths of an element apart."""
 
 NOISE = 1e-10
 """A gap, over the polynomial with which it opens, is not known better than this: it is round-off over that."""
@@ -288,25 +286,6 @@ def _power(state: PatternedState, stretch: int, last: bool, place: float) -> int
         return 3 if touching[neighbour] else 2
     held = state.solved.shape.chain.held[-1 if last else 0]
     return 2 if held[0] and held[2] else (1 if held[0] else 0)
-
-
-def lowest(function: Callable[[FloatArray], FloatArray], xi: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Least values (m,) of smooth functions over samples (m, n), looked at more closely, and where.
-
-    A row for each function; a parabola is the last step.
-    """
-    rows = np.arange(xi.shape[0])
-    for zoom in range(ZOOMS):
-        values = function(xi)
-        k = np.argmin(values, axis=1)
-        low, high = np.maximum(k - 1, 0), np.minimum(k + 1, xi.shape[1] - 1)
-        if zoom < ZOOMS - 1:
-            xi = np.linspace(xi[rows, low], xi[rows, high], CLOSER, axis=1)
-    a, b, c = values[rows, low], values[rows, k], values[rows, high]
-    bend, tilt = a - 2.0 * b + c, 0.5 * (c - a)
-    within = (high - low == 2) & (bend > 0.0)
-    shift = np.where(within, tilt, 0.0) / np.where(within, bend, 1.0)
-    return b - 0.5 * tilt * shift, xi[rows, k] - shift * (xi[rows, k] - xi[rows, low])
 
 
 def watched(condition: Condition, state: PatternedState) -> float:

@@ -7,11 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import PatternedState, lowest, pressure_on
+from rodwell.analysis.off_wall.conditions import PatternedState, pressure_on
 from rodwell.analysis.off_wall.depth import depth
 from rodwell.numerics.stretches.basis import reference_element
 from rodwell.numerics.stretches.carry import elements_at, fields_at
 from rodwell.numerics.stretches.chain import Shape
+from rodwell.numerics.stretches.minima import lowest
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 SAMPLES = 16

@@ -13,13 +13,14 @@ from itertools import pairwise
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import solved
-from rodwell.analysis.off_wall.conditions import PatternedState, lowest
+from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.depth import Piece, depth
 from rodwell.analysis.off_wall.happening import Followed, PathEvent
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.numerics.stretches.carry import angle_of, sampler
 from rodwell.numerics.stretches.chain import Shape
+from rodwell.numerics.stretches.minima import lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.numerics.stretches.walk import between, locate, tangent
 from rodwell.quantities.arrays import FloatArray
