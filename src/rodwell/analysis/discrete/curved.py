@@ -29,7 +29,15 @@ from rodwell.quantities.arrays import FloatArray
 
 PIECES = 64
 """Pieces of the rod, at least, in each of which the hole is a polynomial: to round-off for curvatures up to several
-radians a length. An axis through points is smooth between its breaks only, and pieces end there too."""
+radians a length."""
+
+RESOLVED = 1e-6
+"""Part of the largest curvature to which even pieces must have that of an axis through points. Such an axis is smooth
+between its points only: at each the rate of the curvature jumps, by little where points are many, which would ask for a
+concentrated force on the wall. Even pieces round that off; where they miss the curvature, pieces end at the points."""
+
+BESIDE_NODES = np.array([0.03, 0.21, 0.37, 0.52, 0.68, 0.83, 0.97])
+"""Places in a piece at which that is looked at."""
 
 PIECES_PER_RADIAN = 12.0
 """More pieces where the hole turns more."""
@@ -171,17 +179,31 @@ def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
 
 @lru_cache(maxsize=64)
 def _breaks(problem: Problem) -> FloatArray:
-    """Ends of the pieces of the rod, rising from 0 to 1: beside breaks of the axis, and no piece long."""
+    """Ends of the pieces of the rod, rising from 0 to 1: even ones, or beside breaks of the axis, and no piece long."""
     hole = _hole(problem)
     count = max(PIECES, 2 * int(np.ceil(0.5 * PIECES_PER_RADIAN * hole.turning)))
-    ends = np.array([0.0, 1.0])
-    if hole.breaks.size:
-        beside = np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)
-        ends = np.concatenate([[0.0], beside[(beside > NO_PIECE) & (beside < 1.0 - NO_PIECE)], [1.0]])
+    even = np.linspace(0.0, 1.0, count + 1)
+    if not hole.breaks.size or _resolves(even, problem):
+        return even
+    beside = np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)
+    ends = np.concatenate([[0.0], beside[(beside > NO_PIECE) & (beside < 1.0 - NO_PIECE)], [1.0]])
     parts = np.maximum(1, np.ceil(np.diff(ends) * count - 1e-9)).astype(int)
     steps = np.repeat(np.diff(ends) / parts, parts)
     within = np.concatenate([np.arange(n) for n in parts])
     return np.append(np.repeat(ends[:-1], parts) + within * steps, 1.0)
+
+
+def _resolves(breaks: FloatArray, problem: Problem) -> bool:
+    """Whether polynomials between ``breaks`` have the curvature of the hole along the undeformed rod."""
+    s = (breaks[:-1, None] + np.diff(breaks)[:, None] * BESIDE_NODES).ravel()
+    exact = _hole(problem).curvatures(undeformed_place(problem, s))
+    for i, curvature in enumerate(exact.T):
+        pieces = PiecewisePolynomial.of(
+            breaks, lambda t, i=i: _hole(problem).curvatures(undeformed_place(problem, t))[:, i]
+        )
+        if np.max(np.abs(pieces(s) - curvature)) > RESOLVED * np.max(np.abs(exact)):
+            return False
+    return True
 
 
 def _hole(problem: Problem) -> Hole:
