@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -195,15 +195,14 @@ def _breaks(problem: Problem) -> FloatArray:
 
 def _resolves(breaks: FloatArray, problem: Problem) -> bool:
     """Whether polynomials between ``breaks`` have the curvature of the hole along the undeformed rod."""
+
+    def curvature(which: int, s: FloatArray) -> FloatArray:
+        return _hole(problem).curvatures(undeformed_place(problem, s))[:, which]
+
     s = (breaks[:-1, None] + np.diff(breaks)[:, None] * BESIDE_NODES).ravel()
-    exact = _hole(problem).curvatures(undeformed_place(problem, s))
-    for i, curvature in enumerate(exact.T):
-        pieces = PiecewisePolynomial.of(
-            breaks, lambda t, i=i: _hole(problem).curvatures(undeformed_place(problem, t))[:, i]
-        )
-        if np.max(np.abs(pieces(s) - curvature)) > RESOLVED * np.max(np.abs(exact)):
-            return False
-    return True
+    exact = np.stack([curvature(which, s) for which in (0, 1)])
+    pieces = [PiecewisePolynomial.of(breaks, partial(curvature, which))(s) for which in (0, 1)]
+    return bool(np.max(np.abs(np.stack(pieces) - exact)) <= RESOLVED * np.max(np.abs(exact)))
 
 
 def _hole(problem: Problem) -> Hole:
