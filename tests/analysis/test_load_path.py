@@ -21,7 +21,7 @@ from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.cli.path import _print_barrier
-from rodwell.errors import InputError
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.assembly import assemble
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
@@ -94,6 +94,18 @@ def test_the_barrier_before_the_snap(
     told = " ".join(capsys.readouterr().out.split())
     assert "a helix of 1 turn lies 2.0626533" in told
     assert "by more than 1.56 rad (± 0.05) about" in told
+
+    def failing(_barrier: Barrier) -> None:
+        raise NotConvergedError("it did not come to rest")
+
+    monkeypatch.setattr(Barrier, "turn", property(failing))
+    data = found.as_dict()
+    assert (data["turn"], data["why_no_turn"]) == (None, "it did not come to rest")
+    assert data["height"]["value"] == found.height.value
+    _print_barrier(loop, -147.0, None)
+    told = " ".join(capsys.readouterr().out.split())
+    assert "2.0626533" in told
+    assert "is not told: it did not come to rest." in told
 
 
 @pytest.mark.parametrize(("force", "least", "most"), [(-127.2, 2.2, 2.8), (-147.0, 1.45, 1.7)])

@@ -104,3 +104,10 @@ def test_steps_of_the_clearance(tmp_path: Path) -> None:
     assert [point["kind"] for point in data["bridged"]["point_contacts"]] == ["end", "edge", "end"]
     assert all(one["load"]["value"] < load for one in data["one_clearance"])
     assert isinstance(run("liftoff", *steps).exception, InputError)
+
+
+@pytest.mark.parametrize("given", ["", "nan", "-147,inf"])
+def test_loads_of_barriers_are_finite_numbers(given: str) -> None:
+    done = run(*COMMON, "--until", "-126", "--barrier", given)
+    assert isinstance(done.exception, InputError)
+    assert done.exception.field == "--barrier"

@@ -204,7 +204,10 @@ def _number(option: str, text: str, case: Case | None, control: str) -> float:
 
 def _numbers(option: str, text: str | None, case: Case | None, control: str) -> list[float]:
     """Such numbers, separated by commas."""
-    return [_number(option, part, case, control) for part in text.split(",")] if text else []
+    numbers = [] if text is None else [_number(option, part, case, control) for part in text.split(",")]
+    if not all(map(math.isfinite, numbers)):
+        raise InputError(option, text, "must be finite numbers, separated by commas")
+    return numbers
 
 
 def _print_states(result: LoadPath, force: float) -> None:
@@ -230,19 +233,21 @@ def _print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
 
     try:
         found = result.barrier(force)
-        turn = found.turn
     except RodwellError as error:
         _print_why(f"{result.control} {plain(force, 6)}: no barrier told", error)
         return
+    turn, why = found.turn_or_why()
     scales = None if case is None else case.scales
     work = "" if scales is None else f" ({scales.amount(found.height, 'energy')})"
     far = "half a turn" if turn is None else f"more than {plain(turn.value, 3)} rad (± {plain(turn.error, 1)})"
     then = "comes back" if turn is None else "snaps there"
+    turned = f"Turned at mid-length by {far} about the hole's axis and let go, in something viscous, the rod {then}."
+    if why:
+        turned = f"By how much the rod must be turned at mid-length to snap there is not told: {why}."
     click.echo("")
     wrapped(
         f"Barrier at F = {signed(found.state.force, 10)}, {found.leg}: the saddle between this state and "
-        f"{found.to.meaning} lies {amount(found.height, 9)} B/L{work} higher. Turned at mid-length by {far} about the "
-        f"hole's axis and let go, in something viscous, the rod {then}. The saddle, unstable:"
+        f"{found.to.meaning} lies {amount(found.height, 9)} B/L{work} higher. {turned} The saddle, unstable:"
     )
     print_contacts(found.saddle)
 

@@ -86,12 +86,20 @@ class Barrier:
         """
         return turned_over(self.state.coarse, self.held)
 
+    def turn_or_why(self) -> tuple[Value | None, str]:
+        """:attr:`turn`, and "" or why it could not be told: height and saddle stand without it."""
+        try:
+            return self.turn, ""
+        except NotConvergedError as error:
+            return None, str(error)
+
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
+        turn, why = self.turn_or_why()
         return {
             "leg": self.leg, "force": self.state.force, "height": plain(self.height),
-            "turn": None if self.turn is None else plain(self.turn), "to": self.to.as_dict(),
-            "saddle": self.saddle.as_dict(),
+            "turn": None if turn is None else plain(turn), **({"why_no_turn": why} if why else {}),
+            "to": self.to.as_dict(), "saddle": self.saddle.as_dict(),
         }  # fmt: skip
 
 

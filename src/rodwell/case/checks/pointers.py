@@ -34,8 +34,8 @@ SECTIONS_ELSEWHERE = {
 
 _MASS = 'is not taken: give the weight instead, weight_per_length = "19.5 lbf/ft" (a force per length), or density'
 _TOOL_JOINT = (
-    "belongs into [[string]], beside joints and joint_length: tool_joint_diameter, tool_joint_length. Here the body of "
-    "the pipe lies on the wall; give weight_per_length with the tool joints in it"
+    "belongs into [[string]], which takes joints, joint_length, tool_joint_diameter and tool_joint_length. A pipe in "
+    "[rod] lies on the wall all along; on its tool joints it buckles at less"
 )
 _FRICTION = "is out of scope in this version: the wall is frictionless; leave it out"
 _FORCE = "is not known; the end force is `applied`, tension positive, compression with a minus sign"
