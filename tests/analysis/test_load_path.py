@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.state import contact_state
+from rodwell.analysis.path import disturbance
 from rodwell.analysis.path.barrier import Barrier, saddle
 from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.follow import load_path
@@ -106,6 +107,16 @@ def test_the_barrier_before_the_snap(
     told = " ".join(capsys.readouterr().out.split())
     assert "2.0626533" in told
     assert "is not told: it did not come to rest." in told
+
+
+def test_a_rod_that_lingers_beside_the_saddle_counts_as_one_that_snaps() -> None:
+    def comes_back(angle: float) -> bool:
+        if 1.52 < angle < 1.66:
+            raise NotConvergedError("it lingers")
+        return angle <= 1.52
+
+    assert disturbance._threshold(comes_back, 0.0, np.pi) == pytest.approx(1.52, abs=0.02)
+    assert disturbance._threshold_near(comes_back, 1.6) == pytest.approx(1.52, abs=0.02)
 
 
 @pytest.mark.parametrize(("force", "least", "most"), [(-127.2, 2.2, 2.8), (-147.0, 1.45, 1.7)])

@@ -104,19 +104,27 @@ def comes_back(state: PatternedState, held: Held, angle: float) -> bool:
     return held.near(low)
 
 
+def _surely(comes_back: Callable[[float], bool], angle: float) -> bool:
+    """Whether a rod comes back. One that lingers beside the saddle does not surely: so rather a lesser turn is told."""
+    try:
+        return comes_back(angle)
+    except NotConvergedError:
+        return False
+
+
 def _threshold(comes_back: Callable[[float], bool], low: float, high: float) -> float:
     """The angle from which on a rod does not come back, between one from which it does and one from which not."""
     while high - low > BRACKET:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if comes_back(middle) else (low, middle)
+        low, high = (middle, high) if _surely(comes_back, middle) else (low, middle)
     return 0.5 * (low + high)
 
 
 def _threshold_near(comes_back: Callable[[float], bool], guess: float) -> float:
     """The same near a guess; 0 and half a turn stand for themselves."""
-    back = comes_back(guess)
+    back = _surely(comes_back, guess)
     step = ASIDE if back else -ASIDE
-    while 0.0 < guess + step < math.pi and comes_back(guess + step) == back:
+    while 0.0 < guess + step < math.pi and _surely(comes_back, guess + step) == back:
         guess += step
     return _threshold(comes_back, *sorted((guess, guess + step)))
 
