@@ -12,12 +12,11 @@ from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
 from rodwell.report.folders.beside import beside, drawing
-from rodwell.report.pages.pdf import PDF, check_pdf, write_report
+from rodwell.report.pages.pdf import PDF, report_folder, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
 from rodwell.report.reports.case import case_report
 from rodwell.report.reports.front import LOGO
-from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_answer
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
@@ -45,9 +44,7 @@ def write_results(
     InputError
         If ``out`` cannot be written, or what makes the PDF is not installed.
     """
-    if with_pdf:
-        check_pdf()
-    with whole_folder(Path(out)) as folder:
+    with report_folder(out, with_pdf=with_pdf) as folder:
         with ExitStack() as stack:
             drawn = drawn or stack.enter_context(beside(drawing))(answer)
             followed = _beyond(answer, folder) if path else {}

@@ -7,9 +7,8 @@ from pathlib import Path
 from rodwell.plots.wells.drag import plot_calibration, plot_forces, plot_operation, plot_road_map
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.folders.pictures import kept
-from rodwell.report.pages.pdf import check_pdf, write_report
+from rodwell.report.pages.pdf import report_folder, write_report
 from rodwell.report.reports.drag import drag_report, picture_of
-from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 from rodwell.studies.drag.calibration import Calibration
@@ -30,9 +29,7 @@ def write_drag(
     InputError
         If ``out`` cannot be written, or what makes the PDF is not installed.
     """
-    if with_pdf:
-        check_pdf()
-    with whole_folder(Path(out)) as folder:
+    with report_folder(out, with_pdf=with_pdf) as folder:
         figures = {"forces": plot_forces(found)}
         figures |= {picture_of(i): plot_operation(found, one) for i, one in enumerate(found.operations)}
         tables = {"operations": operations_table(found)}

@@ -11,9 +11,8 @@ from rodwell.case.about import About
 from rodwell.quantities.table import Table
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.folders.pictures import kept
-from rodwell.report.pages.pdf import PDF, check_pdf, write_report
+from rodwell.report.pages.pdf import PDF, report_folder, write_report
 from rodwell.report.reports.content import Report
-from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
@@ -57,9 +56,7 @@ def write_points(points: Points, out: str | Path, *, with_pdf: bool = False) -> 
     InputError
         If ``out`` cannot be written, or what makes the PDF is not installed.
     """
-    if with_pdf:
-        check_pdf()
-    with whole_folder(Path(out)) as folder:
+    with report_folder(out, with_pdf=with_pdf) as folder:
         save_figure(points.draw(), folder / "curves")
         write_csv(points.table, folder / "points.csv")
         write_xlsx([points.table], folder / "points.xlsx")

@@ -13,9 +13,8 @@ from rodwell.plots.style import RC
 from rodwell.quantities.table import Table
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.folders.pictures import kept
-from rodwell.report.pages.pdf import check_pdf, write_report
+from rodwell.report.pages.pdf import report_folder, write_report
 from rodwell.report.reports.content import Report
-from rodwell.store.folder import whole_folder
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.store.text import write_json
 
@@ -40,9 +39,7 @@ def write_single(
     InputError
         If ``out`` cannot be written, or what makes the PDF is not installed.
     """
-    if with_pdf:
-        check_pdf()
-    with whole_folder(Path(out)) as folder:
+    with report_folder(out, with_pdf=with_pdf) as folder:
         with mpl.rc_context(RC):
             save_figure(picture[1](), folder / picture[0])
         write_report(report, kept(folder, (picture[0],), case.about), folder, with_pdf=with_pdf)

@@ -11,6 +11,8 @@ import importlib.util
 import json
 import shutil
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from rodwell.report.pages.page import Pictures, render
 from rodwell.report.pages.templates import HERE
 from rodwell.report.pages.viewer import Viewer
 from rodwell.report.reports.content import Report
+from rodwell.store.folder import whole_folder
 
 PDF = "report.pdf"
 """Name of the file in a results folder."""
@@ -36,6 +39,21 @@ def check_pdf(option: str = "--pdf") -> None:
     """
     if importlib.util.find_spec("typst") is None:
         raise InputError(option, None, "needs the package typst: pip install 'rodwell[pdf]'; report.html needs nothing")
+
+
+@contextmanager
+def report_folder(out: str | Path, *, with_pdf: bool) -> Iterator[Path]:
+    """Give the folder in which the files of ``out`` are made; all appear there at the end, or none.
+
+    Raises
+    ------
+    InputError
+        If ``out`` cannot be written, or what makes the PDF, if it is wanted, is not installed.
+    """
+    if with_pdf:
+        check_pdf()
+    with whole_folder(Path(out)) as folder:
+        yield folder
 
 
 def write_report(
