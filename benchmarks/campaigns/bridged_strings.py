@@ -15,9 +15,6 @@ change its sign, proved, within the error of the load and what small slopes leav
 
 from __future__ import annotations
 
-import argparse
-import datetime
-import json
 import random
 import time
 from collections import Counter
@@ -27,7 +24,7 @@ from typing import Any
 
 import numpy as np
 from flint import arb, arb_mat, ctx
-from resumable import finished, machine
+from resumable import campaign
 from strings import BITS, end_determinant, transfer
 
 from rodwell import Problem, load_path
@@ -129,24 +126,19 @@ def kind(ended: str) -> str:
     return " ".join(words)[:90]
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--workers", type=int, default=1)
-    given = parser.parse_args()
-    results = finished(trial, given.count, LINES, given.workers, 4)
-    faults = [result for result in results if result["fault"]]
-    summary = {
-        "campaign": "bridged_strings", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),
-        "machine": machine(),
+def told(results: list[dict[str, Any]]) -> dict[str, Any]:
+    """What the summary says of the trials."""
+    return {
         "critical_loads": sum("critical" in result for result in results),
         "met": sum(result.get("met", False) for result in results),
         "checked": sum("checked" in result for result in results),
         "ended": dict(Counter(kind(result.get("ended", "")) for result in results).most_common(15)),
-        "faults": len(faults), "faulty": faults[:50],
-    }  # fmt: skip
-    SUMMARY.write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    print(f"{len(results)} strings, {summary['critical_loads']} buckle, {len(faults)} faults")
+    }
+
+
+def main() -> None:
+    results, data = campaign(__doc__ or "", trial, SEED, LINES, SUMMARY, told)
+    print(f"{len(results)} strings, {data['critical_loads']} buckle, {data['faults']} faults")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
+import datetime
 import json
 import os
 import platform
@@ -29,6 +31,24 @@ def finished(trial: Trial, count: int, lines: Path, workers: int, chunk: int) ->
             file.write(json.dumps(result) + "\n")
             file.flush()
     return [found[number] for number in range(count)]
+
+
+def campaign(
+    about: str, trial: Trial, seed: int, lines: Path, summary: Path, told: Callable[[list[Result]], Result]
+) -> tuple[list[Result], Result]:
+    """Run a campaign from the command line; results, and the summary that is written: ``told`` says what is in it."""
+    parser = argparse.ArgumentParser(description=about.splitlines()[0])
+    parser.add_argument("--count", type=int, default=1000)
+    parser.add_argument("--workers", type=int, default=1)
+    given = parser.parse_args()
+    results = finished(trial, given.count, lines, given.workers, 4)
+    faults = [result for result in results if result["fault"]]
+    data = {
+        "campaign": summary.stem, "seed": seed, "count": given.count, "date": datetime.date.today().isoformat(),
+        "machine": machine(), **told(results), "faults": len(faults), "faulty": faults[:50],
+    }  # fmt: skip
+    summary.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    return results, data
 
 
 def _done(lines: Path) -> dict[int, Result]:

@@ -14,9 +14,6 @@ ended (``strings.part``).
 
 from __future__ import annotations
 
-import argparse
-import datetime
-import json
 import random
 import time
 from collections import Counter
@@ -24,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from flint import arb, arb_mat, ctx
-from resumable import finished, machine
+from resumable import campaign
 
 from rodwell import Problem, critical_loads, follow
 from rodwell.errors import NotConvergedError
@@ -112,26 +109,21 @@ def followed(problem: Problem) -> dict[str, Any]:
     return found
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=1000)
-    parser.add_argument("--workers", type=int, default=1)
-    given = parser.parse_args()
-    results = finished(trial, given.count, LINES, given.workers, 4)
-    faults = [result for result in results if result["fault"]]
-    summary = {
-        "campaign": "strings", "seed": SEED, "count": given.count, "date": datetime.date.today().isoformat(),
-        "machine": machine(),
+def told(results: list[dict[str, Any]]) -> dict[str, Any]:
+    """What the summary says of the trials."""
+    return {
         "critical_loads": sum("largest_error" in result for result in results),
         "largest_relative_error": max(result.get("largest_error", 0.0) for result in results),
         "double": sum("double" in result for result in results),
         "lift_off": sum(result.get("lift_off", False) for result in results),
         "converged": sum(result.get("converged", False) for result in results),
         "ended": dict(Counter(result.get("ended", "")[:60] for result in results).most_common(15)),
-        "faults": len(faults), "faulty": faults[:50],
-    }  # fmt: skip
-    SUMMARY.write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    print(f"{len(results)} strings, {summary['converged']} states converged, {len(faults)} faults")
+    }
+
+
+def main() -> None:
+    results, data = campaign(__doc__ or "", trial, SEED, LINES, SUMMARY, told)
+    print(f"{len(results)} strings, {data['converged']} states converged, {data['faults']} faults")
 
 
 if __name__ == "__main__":
