@@ -102,6 +102,14 @@ BAD_OPTIONS = [
     pytest.param("critical --weight 5 --alpha 90 --rtol nan", ("rtol = nan", "from 1e-11"), id="rtol-nan"),
     pytest.param("critical --weight 5 --alpha 90 --clearance 0", ("clearance = 0", "above 0"), id="clearance-zero"),
     pytest.param("critical --wieght 5 --alpha 90", ("--wieght", "--weight"), id="option-misspelt"),
+    pytest.param(
+        "twist --weight 5 --alpha 90 --poisson .4 --torsion .6", ("--poisson = 0.4", "--torsion"), id="both-torsions"
+    ),
+    pytest.param(
+        "map --quantity critical --weight 5 --alpha 90 --poisson .4 --torsion .6 --out m",
+        ("--poisson", "give one"),
+        id="map-both",
+    ),
     pytest.param("critical --weight 5 --alpha 90 more", ("unexpected extra argument", "more"), id="extra-argument"),
     pytest.param("liftoff --weight 15 --alpha 195", ("alpha = 195.0", "to 180 (s = 1 below)"), id="alpha-195"),
     pytest.param("liftoff --weight 15 --alpha -1", ("alpha = -1.0", "from 0 (vertical)"), id="alpha-negative"),

@@ -37,7 +37,7 @@ def test_the_paper() -> None:
 def test_one_problem() -> None:
     """γ = 15, horizontal: loads of the paper's Fig. 3(c), rounded; proofs named."""
     text = run("certify --weight 15 --alpha 90 --modes 2 --digits 20")
-    assert "-111.2334401619984454" in text
+    assert "−111.2334401619984454" in text
     assert "mode  2" in text
     assert "1 above; (77) changes sign" in text
     data = run_json("certify --weight 60 --alpha 35 --ends clamped-free --modes 1 --digits 15")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,6 +9,7 @@ import click
 from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_bridged
 from rodwell.cli.critical_in_hole import lying_numbers, show_lying
 from rodwell.cli.keep import keep, keep_options, take_keep
+from rodwell.cli.listing import wrapped
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
 from rodwell.quantities.value import Value
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from rodwell.report.folders.numbers import Numbers
 
 UNIT = "B/L²"
-COLUMNS = 80
 
 
 @click.command()
@@ -122,13 +121,13 @@ def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
 
     problem, alone = free.problem, free.modes[0]
     if problem.twist != 0.0:
-        _say(
+        wrapped(
             f"Twist does not enter while weight keeps the rod on the wall. Without the wall's help it does: the rod "
             f"would buckle at {plain(alone.force, 6)} {UNIT}."
         )
     if problem.lateral_weight > 0.0 and not problem.pressed:
-        _say("Weight pulls this rod off the wall: the loads below are those of a rod that is kept on it.")
-    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+        wrapped("Weight pulls this rod off the wall: the loads below are those of a rod that is kept on it.")
+    wrapped(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     for mode in loads:
         symmetry = {1: "even", -1: "odd", 0: "no symmetry"}[mode.parity]
         number = "0   the rod turns as a rigid body" if mode.rigid else f"{with_error(mode.load)}"
@@ -142,7 +141,7 @@ def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
             f"The rod buckles under its own weight unless it is held in tension of {plain(first.force, 6)} {UNIT}."
         )
     else:
-        click.echo(f"The straight rod is stable up to a compression of {plain(-first.force, 6)} {UNIT} at s = 1.")
+        wrapped(f"The straight rod is stable up to a compression of {plain(-first.force, 6)} {UNIT} at s = 1.")
 
 
 def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
@@ -152,11 +151,11 @@ def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
     problem, touch = free.problem, free.at_wall
     assert touch is not None
     at = "without any end force" if abs(touch.force) <= touch.error else f"at {plain(touch.force, 6)} {UNIT}"
-    _say(
+    wrapped(
         f"Nothing presses this rod to the wall, so twist counts: the rod buckles {at}, not at "
         f"{plain(loads[0].force, 6)} like a rod that is kept on the wall."
     )
-    click.echo(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    wrapped(f"Critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(_line("with the wall's help", touch))
     click.echo(_line("without the wall's help", free.modes[0]))
     for mode in loads:
@@ -165,20 +164,16 @@ def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
         click.echo("The mode moves inwards only: the wall does not help.")
     else:
         places = ", ".join(plain(a, 3) if a == b else f"{plain(a, 3)} to {plain(b, 3)}" for a, b in touch.contacts)
-        _say(f"The mode needs the wall, at s/L = {places}.")
+        wrapped(f"The mode needs the wall, at s/L = {places}.")
     if abs(touch.force) <= touch.error:
         click.echo("The straight rod bears no compression.")
     elif touch.force > 0.0:
-        click.echo(f"The rod buckles unless it is held in tension of {plain(touch.force, 6)} {UNIT}.")
+        wrapped(f"The rod buckles unless it is held in tension of {plain(touch.force, 6)} {UNIT}.")
     else:
-        click.echo(f"The straight rod is stable up to a compression of {plain(-touch.force, 6)} {UNIT} at s = 1.")
+        wrapped(f"The straight rod is stable up to a compression of {plain(-touch.force, 6)} {UNIT} at s = 1.")
 
 
 def _line(name: str, mode: SpatialMode) -> str:
     if mode.rigid:
         return f"  {name}  0   the rod moves as a rigid body"
     return f"  {name:<24}  {with_error(Value(mode.force, mode.error))}"
-
-
-def _say(text: str) -> None:
-    click.echo(fill(text, COLUMNS, break_on_hyphens=False))

@@ -10,11 +10,12 @@ from rodwell.cli.keep import Keep, keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import json_option, make_problem, print_json, problem_options
 from rodwell.errors import InputError
-from rodwell.quantities.text import minus, plain, with_error
+from rodwell.quantities.text import minus, plain, separated, with_error
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.proof.certify import CertifiedLoads
+    from rodwell.analysis.proof.enclosures import Enclosure
     from rodwell.analysis.straight.modes import ModePair
     from rodwell.physics.exact.horizontal import Switching
     from rodwell.report.folders.numbers import Numbers
@@ -59,14 +60,20 @@ def _print_certified(loads: CertifiedLoads) -> None:
     problem = loads[0].problem
     wrapped(f"Certified critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     for load in loads:
-        value, radius = load.force.text(loads.shown)
+        value = _enclosed(load.force, loads.shown)
         closed = f"; {load.closed_form} changes sign" if load.closed_form else ""
         several = "" if load.multiplicity == 1 else f"; {load.multiplicity} loads agree to these digits"
-        click.echo(f"  mode {load.number:>2}  {value} ± {radius}   {load.number - 1} above{several}{closed}")
+        click.echo(f"  mode {load.number:>2}  {value}   {load.number - 1} above{several}{closed}")
     wrapped(
         "Proved for each: that it exists, that no other load lies within its bounds, and how many lie above it. "
         "Weight, angle and clearance are taken as the decimals given."
     )
+
+
+def _enclosed(found: Enclosure, digits: int) -> str:
+    """A number with the bound of its error."""
+    value, radius = found.text(digits)
+    return f"{separated(minus(value))} ± {plain(float(radius), 2)}"
 
 
 def _was_given(context: click.Context, name: str) -> bool:
@@ -92,10 +99,10 @@ def _paper(digits: int, as_json: bool, where: Keep) -> None:
         return
     wrapped("Closed-form values of the paper, enclosed; B = L = 1, Δ/L = 0.01, γ = mg L³/B, F at s = 1:")
     for value in values:
-        text, radius = value.value.text(digits)
         verdict = "as printed" if value.agrees else "NOT as printed"
         click.echo(f"  {value.equation}: {value.quantity}")
-        click.echo(f"    {text} ± {radius}   printed {value.printed}: {verdict}   [{value.proof}]")
+        enclosed = _enclosed(value.value, digits)
+        click.echo(f"    {enclosed}   printed {minus(str(value.printed))}: {verdict}   [{value.proof}]")
     wrong = sum(not value.agrees for value in values)
     click.echo(f"{len(values)} values, {len(values) - wrong} of them as printed.")
 
@@ -144,7 +151,7 @@ def _print_modes(weight: float | None, clearance: float, found: list[ModePair], 
         _print_pair(pair)
     if rows:
         table = rows[-1].m
-        click.echo(f"Weights at which modes switch, m ≤ {table}, Δ/L = {plain(clearance, 10)}; both loads are F_c:")
+        wrapped(f"Weights at which modes switch, m ≤ {table}, Δ/L = {plain(clearance, 10)}; both loads are F_c:")
         click.echo("    n    m          γ_c          F_c   modes")
         for row in rows:
             both = f"{2 * row.pair - 1}, {2 * row.pair}"

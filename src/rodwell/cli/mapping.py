@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, json_option, make_problem, print_json, progress_bar
+from rodwell.cli.options import check_missed, check_torsion, json_option, make_problem, print_json, progress_bar
 from rodwell.errors import InputError, NotConvergedError, printable
 
 if TYPE_CHECKING:
@@ -145,6 +145,7 @@ def _asked(case: Path | None, vary: tuple[tuple[str, str], ...], given: dict[str
         return read, dict(vary)
     if vary:
         raise InputError("--vary", vary[0][0], "needs a case file; a problem has --weight, --alpha and so on")
+    check_torsion(given)
     over = {name: given[name] if name == "ends" else _number(given[name]) for name in PARAMETERS if given[name]}
     for name in ("weight", "alpha"):
         if name not in over:

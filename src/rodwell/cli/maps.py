@@ -121,7 +121,7 @@ def _print_diagram(result: Diagram) -> None:
     from rodwell.report.reports.texts import KINDS  # noqa: PLC0415
 
     widest = max((len(KINDS[p.kind]) for branch in result for p in branch.special_points), default=0)
-    click.echo(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
+    wrapped(f"End force at s = 1 in B/L² (tension positive), {ends_text(result.problem)}; index under dead loads.")
     if result.problem.twist != 0.0 and result.problem.untouched:
         wrapped(KEPT)
     first = next((p for branch in result for p in branch.special_points if p.kind in ("lift_off", "end")), None)
@@ -146,7 +146,8 @@ def _print_diagram(result: Diagram) -> None:
             click.echo(f"  ended: {branch.ended_because}")
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
-    click.echo(f"\nSearched: {'; '.join(result.searched)}. There may be other branches.")
+    click.echo()
+    wrapped(f"Searched: {'; '.join(result.searched)}. There may be other branches.")
     if not result.converged:
         click.echo("Not every number meets the tolerance.")
 
@@ -270,7 +271,7 @@ def _print_curves(curves: Sequence[Curve]) -> None:
     from rodwell.quantities.value import Value  # noqa: PLC0415
 
     first = curves[0]
-    click.echo(f"{first.kind} over {words_for(first.over)}: {convention(first.problem, first.quantity)}")
+    wrapped(f"{first.kind} over {words_for(first.over)}: {convention(first.problem, first.quantity)}")
     for item in curves:
         click.echo(f"\n{item.name}: {len(item)} points")
         step = max(1, (len(item) - 1) // (SHOWN - 1))

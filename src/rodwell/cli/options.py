@@ -115,13 +115,26 @@ units_option = click.option(
 
 
 def make_problem(given: dict[str, Any]) -> Problem:
-    """Return the problem that the options describe; what is not given keeps its default."""
+    """Return the problem that the options describe; what is not given keeps its default.
+
+    Raises
+    ------
+    InputError
+        If it is no problem, or two options say the same thing.
+    """
     from rodwell.problem.problem import Problem  # noqa: PLC0415
 
     values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
+    check_torsion(values)
     if "sections" in values:
         values["sections"] = _sections(values["sections"])
     return Problem(**{"weight": 0.0, **values})
+
+
+def check_torsion(given: Mapping[str, Any]) -> None:
+    """Refuse Poisson's ratio beside the torsional stiffness that it would set."""
+    if given.get("poisson") is not None and given.get("torsion") is not None:
+        raise InputError("--poisson", given["poisson"], "has no effect beside --torsion, C/B as measured: give one")
 
 
 def _sections(text: str) -> list[list[float]]:

@@ -104,7 +104,7 @@ def _print_liftoff(
 
     problem, buckling, (load, own) = branch.problem, branch.mode, loads
     assert buckling is not None
-    click.echo(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
+    wrapped(f"End force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")
     click.echo(f"  buckling of mode {buckling.number}  {with_error(buckling.load)}")
     click.echo(f"  lift-off            {with_error(load)}{places_text(places)}")
     if own is not None:
@@ -114,7 +114,7 @@ def _print_liftoff(
         )
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
-        click.echo("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
+        wrapped("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
     note = steps_note(lift.solution.step_loads)
     if note:
         wrapped(note)
@@ -204,9 +204,7 @@ def _print_sensitivities(loads: tuple[Sensitivity, ...]) -> None:
 
     for load in loads:
         problem = load.problem
-        click.echo(
-            f"{load.name}: F = {signed(load.force, 10)} {UNIT} at s = 1 (tension positive), {ends_text(problem)}"
-        )
+        wrapped(f"{load.name}: F = {signed(load.force, 10)} {UNIT} at s = 1 (tension positive), {ends_text(problem)}")
         for name, slope in load.derivatives.items():
             click.echo(f"  dF per {_PER[name]:<13} {with_error(slope)}")
         if load.force != 0.0:
@@ -216,7 +214,7 @@ def _print_sensitivities(loads: tuple[Sensitivity, ...]) -> None:
             for name, slope in section.items():
                 click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {with_error(slope)}")
         if load.note:
-            click.echo(f"  {load.note}")
+            wrapped(load.note, "  ")
 
 
 def _sensitivity_numbers(data: dict[str, Any], loads: tuple[Sensitivity, ...]) -> Numbers:
@@ -284,11 +282,11 @@ def _print_twist(result: Torsion, mode: int) -> None:
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     lift = result.prepared
-    click.echo(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
+    wrapped(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")
     click.echo(f"  prepared at lift-off of mode {mode}  F = {with_error(lift.load)}")
     for s, rate, error in zip(lift.s, result.rates, result.rate_errors, strict=True):
         click.echo(f"  at s/L = {plain(s, 6)}  dp/dT₁ = {with_error(Value(rate, error), 6)} 1/L²")
-    click.echo(result.meaning)
+    wrapped(result.meaning)
 
 
 def _twist_numbers(result: Torsion) -> Numbers:

@@ -14,7 +14,9 @@ from rodwell.analysis.loads.pressure import pressure_rates
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem, ends_text
+from rodwell.quantities.text import plain, with_error
 from rodwell.quantities.tolerance import RTOL, checked_rtol
+from rodwell.quantities.value import Value
 
 LARGEST_TWIST = 200.0
 """Twist in B/L up to which a second lift-off is sought."""
@@ -61,7 +63,7 @@ class Torsion:
     @property
     def meaning(self) -> str:
         """The outcome in words."""
-        places = " and ".join(f"s = {s:.4g}" for s in self.prepared.s)
+        places = " and ".join(f"s = {plain(s)}" for s in self.prepared.s)
         if self.sense == 0 and len(self.rates) > 1:
             return (
                 f"Twist of either sign makes the rod lift off at once: it is about to at {places}, and what presses "
@@ -76,9 +78,10 @@ class Torsion:
         text = f"Twist T₁ {sign} 0 presses the rod to the wall at {places}; the other sense lifts it off at once."
         if self.again is None:
             assert self.branch is not None
-            return text + f" No second lift-off was found up to T₁ = {self.branch.values[-1]:.4g} B/L."
-        again = " and ".join(f"s = {s:.4g}" for s in self.again.s)
-        return text + f" It lifts off again at T₁ = {self.again.value:.8g} ± {self.again.error:.1e} B/L, at {again}."
+            return text + f" No second lift-off was found up to T₁ = {plain(float(self.branch.values[-1]))} B/L."
+        again = " and ".join(f"s = {plain(s)}" for s in self.again.s)
+        moment = with_error(Value(self.again.value, self.again.error), 8)
+        return text + f" It lifts off again at T₁ = {moment} B/L, at {again}."
 
     def as_dict(self) -> dict[str, Any]:
         """Return the outcome as plain data, for JSON."""

@@ -34,7 +34,7 @@ ROAD_MAP = ("well", "road_map")
 
 _ELSEWHERE = {
     "rod": "is not taken in the file of a well: the string stands in [[string]], a section for each pipe, from the bit "
-    "up",
+    "up; `rodwell run` takes the file of one rod",
     "load": "is not taken in the file of a well: forces at the bit stand with each operation, well.operation.bit_force",
     "dimensionless": "is not taken in the file of a well: give [[string]] and [hole] with a survey",
     "analysis": "is not taken in the file of a well: leave it out",
