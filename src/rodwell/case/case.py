@@ -222,11 +222,6 @@ def _uncertain(
     return UncertainInput(f"{section}.{key}", str(data[section][key]), *sides)
 
 
-def _given(data: Mapping[str, Any]) -> dict[str, Any]:
-    """The sections as they were written."""
-    return {name: values for name, values in data.items() if name in SECTIONS}
-
-
 def _assemble(
     parsed: schema.CaseFile,
     data: Mapping[str, Any],
@@ -253,14 +248,16 @@ def _assemble(
         "modes": parsed.analysis.modes,
         "rtol": named("analysis.rtol", lambda: checked_rtol(parsed.analysis.rtol)),
         "off_wall": parsed.analysis.off_wall,
-        "given": _given(data),
+        "given": {name: values for name, values in data.items() if name in SECTIONS},  # as they were written
         "source": source,
         "text": text,
     }
     if isinstance(load, schema.LoadInput):
         found = _plausible(parsed, load, catalogue, data, source, string_rod, folder, hole_parts)
         check_loads(parsed.load, found.problem, found.applied)
-        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=_cylinder(parsed),
+        wall, hole = parsed.cylinder, parsed.hole
+        cylinder = None if wall is None or hole is None else cylinder_of(wall, hole)
+        case = Case(problem=found.problem, scales=found.scales, until=found.until, cylinder=cylinder,
                     rod=found.rod, fluids=found.fluids, facts=(*found.facts, *gauge_facts(data)), applied=found.applied,
                     supports=parsed.supports, gravity=found.gravity, string=found.string, pairs=found.pairs,
                     wall_stiffness=found.wall_stiffness, **common)  # fmt: skip
@@ -299,7 +296,3 @@ def _plausible(
     if odd:
         raise CaseError(source, odd)
     return found
-
-
-def _cylinder(parsed: schema.CaseFile) -> Cylinder | None:
-    return None if parsed.cylinder is None or parsed.hole is None else cylinder_of(parsed.cylinder, parsed.hole)

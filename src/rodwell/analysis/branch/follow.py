@@ -25,7 +25,7 @@ from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
-from rodwell.analysis.straight.lying import least_contact
+from rodwell.analysis.straight.lying import check_pressed
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.numerics.continuation.closing import CLOSED
 from rodwell.numerics.continuation.events import Leaving
@@ -148,7 +148,7 @@ def _from_straight(
         raise InputError("until", None, "must be given: the rod is not pressed to the wall, so there is no lift-off")
     first = _mode(problem, mode, how.rtol)
     if until is None:
-        _check_pressed(problem, first)
+        check_pressed(problem, first.force)
     if until is not None and until >= first.force:
         raise InputError(
             "until",
@@ -181,20 +181,6 @@ def _from_straight(
     name = first.name + (", mirror arm" if mirror else "")
     origin = Origin(name, None if first.mixed else first, switched=True, mirror=mirror, error=first.error)
     return how.watched.seen(made(problem, origin, result, reached, result.end))
-
-
-def _check_pressed(problem: Problem, mode: Mode) -> None:
-    """Raise where a rod has left the wall of a curved hole before it buckles: there is no lift-off to be sought."""
-    if problem.hole is None:
-        return
-    least = least_contact(problem, mode.force)
-    if least.value <= 0.0:
-        raise InputError(
-            "until",
-            None,
-            f"must be given: at its critical load {mode.force:.8g} B/L² the wall would have to pull the rod at "
-            f"s/L = {least.s:.4g}, so that it has left the wall before, and there is no lift-off of the buckled rod",
-        )
 
 
 def from_state(

@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family
 from rodwell.analysis.discrete.measures import measured_meshes
@@ -23,7 +24,7 @@ from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
-from rodwell.problem.varying import Parameter, ParameterPath, limits_of, throughout
+from rodwell.problem.varying import Parameter, ParameterPath, limits_of
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import checked_force
 
@@ -65,20 +66,6 @@ def at_critical(problem: Problem, mode: Mode, until: float | None, mirror: bool,
 def _wavenumber(problem: Problem, state: State) -> float:
     """√(∫y''²/∫y'²) of a state; of a helix, that of its turns."""
     return max(state.space.wavenumber(state.c + problem.rise * state.space.greville), 2.0 * np.pi * abs(problem.turns))
-
-
-def kept_parity(problem: Problem, parity: int, *parameters: Parameter) -> int:
-    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of parameters.
-
-    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only, in a hole that leaves the
-    vertical plane the upper one.
-    """
-    along = throughout(problem, *parameters)
-    if not all(one.symmetric for one in along):
-        return 0
-    if parity < 0 and any(one.hole is not None and not one.hole.planar for one in along):
-        return 0
-    return 0 if parity > 0 and any(one.twist != 0.0 for one in along) else parity
 
 
 def checked_end(problem: Problem, parameter: Parameter, until: float) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import Parameter, throughout
 from rodwell.quantities.arrays import FloatArray
 
 
@@ -70,6 +71,20 @@ def reflections(problem: Problem) -> tuple[Reflection, ...]:
     if turnable:
         found.append(TURNED_MIRROR)
     return tuple(found)
+
+
+def kept_parity(problem: Problem, parity: int, *parameters: Parameter) -> int:
+    """Parity of a state that all of its branch has: a reflection that the problem has, for any value of parameters.
+
+    Equal ends without axial weight: y(s) → ±y(1 − s); with twist the lower sign only, in a hole that leaves the
+    vertical plane the upper one.
+    """
+    along = throughout(problem, *parameters)
+    if not all(one.symmetric for one in along):
+        return 0
+    if parity < 0 and any(one.hole is not None and not one.hole.planar for one in along):
+        return 0
+    return 0 if parity > 0 and any(one.twist != 0.0 for one in along) else parity
 
 
 def arms_alike(problem: Problem, parity: int) -> bool:

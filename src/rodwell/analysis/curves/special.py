@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from rodwell.analysis.branch.functionals import Number
 from rodwell.analysis.branch.special import BRANCH_POINT, EQUAL_ENERGY, FOLD, LIFT_OFF, TOUCH_DOWN, SpecialPoint
-from rodwell.analysis.branch.starts import beside, kept_parity
+from rodwell.analysis.branch.starts import beside
+from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.curves.curve import OVER, TURN, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.curves.points import CurveLostError, CurveStart, Zero
 from rodwell.analysis.curves.tracing import trace_curve

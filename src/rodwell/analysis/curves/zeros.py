@@ -9,7 +9,7 @@ import numpy as np
 
 from rodwell.analysis.branch.functionals import Number, value_on
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.branch.starts import kept_parity
+from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.curves.points import (
     CurveLostError,
     CurveStart,

@@ -78,8 +78,20 @@ def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
         return braid.EndForce(shear, moment, angle, float(np.sin(eta)))
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
     stiffness = float(problem.sections[-1][1]) if problem.sections else 1.0
-    moment, reaction = family.end_reactions(state)
+    moment, reaction = _end_reactions(family, state)
     return braid.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), stiffness)
+
+
+def _end_reactions(family: Family, state: State) -> tuple[float, float]:
+    """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
+
+    The gradient with respect to the two held coefficients there is the work of these terms on the last two
+    basis functions, whose values at the end are 0 and 1 and whose slopes are ∓p/h. The error is
+    of the order of the energy's, 2(p − 1), not of the derivatives'.
+    """
+    _, gradient, _ = family.assemble(state.c, state.lam)
+    slope = state.space.degree / (state.space.breaks[-1] - state.space.breaks[-2])
+    return float(-gradient[-2] / slope), float(gradient[-1] + gradient[-2])
 
 
 def pressure_at(rod: Rod, parameters: FloatArray, s: FloatArray, u: FloatArray) -> FloatArray:

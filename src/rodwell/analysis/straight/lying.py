@@ -109,6 +109,23 @@ def least_contact(problem: Problem, force: float) -> Peak:
     return Peak(here[0], 64.0 * np.finfo(float).eps * (size + abs(force)), here[1])
 
 
+def check_pressed(problem: Problem, buckling: float) -> None:
+    """Raise where a rod has left the wall of a curved hole before it buckles, at the end force ``buckling``.
+
+    There is then no lift-off of the buckled rod to be sought.
+    """
+    if problem.hole is None:
+        return
+    least = least_contact(problem, buckling)
+    if least.value <= 0.0:
+        raise InputError(
+            "until",
+            None,
+            f"must be given: at its critical load {buckling:.8g} B/L² the wall would have to pull the rod at "
+            f"s/L = {least.s:.4g}, so that it has left the wall before, and there is no lift-off of the buckled rod",
+        )
+
+
 def lies_between(problem: Problem) -> tuple[Peak | None, Peak | None]:
     """Lowest and highest end force at which the wall need not pull the lying rod, each with where it lifts off first.
 

@@ -210,17 +210,6 @@ class Family:
         energy, _ = _assemble(self.mesh, np.ascontiguousarray(c), *on_path(self.path, lam), gradient, mixed, band)
         return energy, gradient, band
 
-    def end_reactions(self, state: State) -> tuple[float, float]:
-        """Natural boundary terms at s = 1 from virtual work: ∂e/∂y″, and ∂e/∂y′ − (∂e/∂y″)′.
-
-        The gradient with respect to the two held coefficients there is the work of these terms on the last two
-        basis functions, whose values at the end are 0 and 1 and whose slopes are ∓p/h. The error is
-        of the order of the energy's, 2(p − 1), not of the derivatives'.
-        """
-        _, gradient, _ = self.assemble(state.c, state.lam)
-        slope = self.space.degree / (self.space.breaks[-1] - self.space.breaks[-2])
-        return float(-gradient[-2] / slope), float(gradient[-1] + gradient[-2])
-
     def nearest_curvature(self, state: State, vector: FloatArray, iterations: int) -> tuple[float, float]:
         """Eigenvalue of H v = μ G v (G: ∫v'²) nearest to zero, by inverse iteration from ``vector`` (n,); its noise.
 
