@@ -29,22 +29,22 @@ from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
 
 
-def density(u: Any, parameters: Any, rates: Any, *potential: Any) -> Any:
-    """½u'² − λV with its derivatives, from V, V', V''; λ is the only parameter."""
-    v, v1, v2 = potential
-    (lam, rate), none = (parameters[0], rates[0]), (0.0, 0.0, 0.0)
-    hessian = (-lam * v2, 0.0, 0.0), (0.0, 1.0, 0.0), none
-    return 0.5 * u[1] ** 2 - lam * v, -rate * v, (-lam * v1, u[1], 0.0), (-rate * v1, 0.0, 0.0), hessian
+class Toy(NamedTuple):
+    """½u'² − λV, V = a(1 − cos u) + b(u + u³/3), with its derivatives; the parameters are λ, a and b.
 
-
-class Pendulum(NamedTuple):
-    """V = 1 − cos u."""
+    One class for both models: kernels are compiled once.
+    """
 
     u: int = 0
 
     @staticmethod
     def density(_: Any, u: Any, __: Any, parameters: Any, rates: Any) -> Any:
-        return density(u, parameters, rates, 1.0 - np.cos(u[0]), np.sin(u[0]), np.cos(u[0]))
+        (lam, a, b), rate, none = (parameters[i] for i in range(3)), rates[0], (0.0, 0.0, 0.0)
+        v = a * (1.0 - np.cos(u[0])) + b * (u[0] + u[0] ** 3 / 3.0)
+        v1 = a * np.sin(u[0]) + b * (1.0 + u[0] ** 2)
+        v2 = a * np.cos(u[0]) + b * 2.0 * u[0]
+        hessian = (-lam * v2, 0.0, 0.0), (0.0, 1.0, 0.0), none
+        return 0.5 * u[1] ** 2 - lam * v, -rate * v, (-lam * v1, u[1], 0.0), (-rate * v1, 0.0, 0.0), hessian
 
     @staticmethod
     def given() -> tuple[str, ...]:
@@ -55,19 +55,8 @@ class Pendulum(NamedTuple):
         return u[0]
 
 
-class Folding(NamedTuple):
-    """V = u + u³/3."""
-
-    u: int = 0
-
-    @staticmethod
-    def given() -> tuple[str, ...]:
-        return ()
-
-    @staticmethod
-    def density(_: Any, u: Any, __: Any, parameters: Any, rates: Any) -> Any:
-        return density(u, parameters, rates, u[0] + u[0] ** 3 / 3.0, 1.0 + u[0] ** 2, 2.0 * u[0])
-
+PENDULUM, FOLDING = (1.0, 0.0), (0.0, 1.0)
+"""a and b of the two."""
 
 MIDDLE, SLOPE, ENERGY = range(3)
 """What is measured: u(½), u'(0), and the energy."""
@@ -87,11 +76,12 @@ def measure(_: Family, state: State) -> FloatArray:
     return np.array([[u[1], slope[0], state.energy], [1.0] * 3, [0.0] * 3])
 
 
-def meshes_of(model: Any, parity: int, degree: int = DEGREE, elements: int = ELEMENTS) -> TwoMeshes:
-    """Equilibria in λ, the only parameter; u' = π and λ = 10 count as one unit of arclength."""
+def meshes_of(shares: tuple[float, float], parity: int, degree: int = DEGREE, elements: int = ELEMENTS) -> TwoMeshes:
+    """Equilibria in λ, with a and b as given; u' = π and λ = 10 count as one unit of arclength."""
     space = SplineSpace(np.linspace(0.0, 1.0, elements + 1), degree, degree + 1)
-    path = np.array([[0.0], [1.0], [0.0], [0.0]])
-    return TwoMeshes(Family(model, path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
+    path = np.zeros((4, 3))
+    path[0, 1:], path[1, 0] = shares, 1.0
+    return TwoMeshes(Family(Toy(), path, space, Ends((1, 1)), parity, 1.0, np.pi, 10.0), measure, rtol=1e-9)
 
 
 def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, leaves: Leaving | None = None) -> Trace:
@@ -114,7 +104,7 @@ def followed(meshes: TwoMeshes, start: MeshedState, loads: Sequence[float], *, l
 @pytest.fixture(scope="module")
 def straight() -> Trace:
     """The straight state, from λ = 1 past four pitchforks."""
-    meshes = meshes_of(Pendulum(), 0)
+    meshes = meshes_of(PENDULUM, 0)
     zeros = [(family, np.zeros(family.space.size)) for family in (meshes.coarse, meshes.fine)]
     return followed(meshes, meshes.point(*(f.state(zero, 1.0, zero, 1.0, 0) for f, zero in zeros)), (0.0, 170.0))
 
@@ -218,7 +208,7 @@ def from_nothing(meshes: TwoMeshes) -> MeshedState:
 @pytest.fixture(scope="module", params=[1, 0], ids=["kept even", "free"])
 def folding(request: pytest.FixtureRequest) -> Trace:
     """The branch from λ = 0 over the fold and back to λ = 1."""
-    meshes = meshes_of(Folding(), request.param)
+    meshes = meshes_of(FOLDING, request.param)
     return followed(meshes, from_nothing(meshes), (1.0, 10.0))
 
 
@@ -255,7 +245,7 @@ def test_both_arms_of_the_fold(folding: Trace) -> None:
 @pytest.mark.parametrize("elements", [16, 32])
 def test_order_of_the_load_at_the_fold(elements: int) -> None:
     """It is that of the energy, twice the degree: halving the elements takes off a factor of 2⁶."""
-    meshes = meshes_of(Folding(), 1, degree=3, elements=elements)
+    meshes = meshes_of(FOLDING, 1, degree=3, elements=elements)
     meshes.rtol = 1.0  # the meshes stay as they are
     (fold,) = (f.point for f in followed(meshes, from_nothing(meshes), (4.0, 10.0)).found if f.fold)
     order = np.log2((fold.coarse.lam - FOLD_LOAD) / (fold.fine.lam - FOLD_LOAD))
@@ -264,5 +254,5 @@ def test_order_of_the_load_at_the_fold(elements: int) -> None:
 
 def test_machine_code_of_these_models_is_not_left_on_disk() -> None:
     folder = newton.stats.cache_path
-    name = Pendulum.__module__.rpartition(".")[2].encode()
+    name = Toy.__module__.rpartition(".")[2].encode()
     assert folder is None or not any(name in file.read_bytes() for file in Path(folder).glob("*.nbi"))
