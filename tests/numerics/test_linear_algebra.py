@@ -56,7 +56,7 @@ def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float,
     return energy, gradient, mixed, dense(band)
 
 
-@pytest.mark.parametrize(("degree", "per_element"), [(6, None), (4, 3), (5, 2), (7, 7), (9, 6)])
+@pytest.mark.parametrize(("degree", "per_element"), [(4, 3), (7, None), (9, 6), (10, 9)])
 def test_gradient_and_hessian_of_the_rod_agree_with_finite_differences(degree: int, per_element: int | None) -> None:
     space = SplineSpace(np.array([0.0, 0.2, 0.45, 0.5, 0.9, 1.0]), degree, per_element)
     rng = np.random.default_rng(3)
