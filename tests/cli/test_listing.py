@@ -52,8 +52,16 @@ def test_where_there_is_no_room_no_number_is_cut(notes: bool) -> None:
     assert console.width == 20
 
 
-def test_prose_is_broken_between_words() -> None:
-    done = CliRunner().invoke(cli, ["modes", "--weight", "15"], env={"COLUMNS": "60"})
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("modes --weight 15", "next at γ = 62.34181826"),  # (78), n = 2, m = 4
+        ("critical --weight 15 --alpha 90 --modes 1", "(tension positive), both ends clamped"),
+        ("liftoff --weight 15 --alpha 90", "(tension positive), both ends clamped"),
+    ],
+)
+def test_prose_is_broken_between_words(line: str, words: str) -> None:
+    done = CliRunner().invoke(cli, line.split(), env={"COLUMNS": "60"})
     lines = done.output.splitlines()
-    assert max(len(line) for line in lines) <= 60
-    assert "next at γ = 62.34181826" in " ".join(line.strip() for line in lines)  # (78), n = 2, m = 4
+    assert max(cell_len(text) for text in lines if "±" not in text) <= 60
+    assert words in " ".join(text.strip() for text in lines)

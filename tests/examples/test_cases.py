@@ -77,9 +77,14 @@ COMMANDS = (
     "screen well-survey.csv --case well-string.toml --out {out}",
     "map --quantity critical --weight '5..20 in 2' --alpha '30..90 in 2' --workers 1 --out {out}.zarr",
     "critical --weight 16.5 --alpha 60",
+    "critical --weight 0 --alpha 0 --twist 5 --modes 1",
     "liftoff --weight 16.5 --alpha 90",
-    "modes --weight 16.5",
+    "modes --weight 16.5 --table 3",
     "sensitivity --weight 16.5 --alpha 90",
+    "twist --weight 15 --alpha 90",
+    "certify --weight 15000 --alpha 90 --modes 1 --clearance 1e-4",
+    "diagram --weight 15 --alpha 90 --until -124 --modes 1 --out {out}",
+    "curve critical --alpha 90 --over weight --from 1 --to 3 --out {out}",
 )
 
 
