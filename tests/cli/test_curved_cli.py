@@ -41,7 +41,9 @@ def test_critical_as_json() -> None:
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (("critical", "--walk", "0.2"), "bends the hole sideways"),
+        (("diagram", "--walk", "0.2"), "bends the hole sideways"),
+        (("liftoff", "--walk", "0.2", "--mode", "2"), "has no modes"),
+        (("liftoff", "--walk", "0.2", "--mirror"), "has no modes"),
         (("critical", "--build", "150"), "must be above the clearance"),
         (("critical", "--build", "7"), "makes the hole run into itself"),
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
@@ -68,4 +70,25 @@ def test_lift_off_with_and_without_own_places() -> None:
     assert code == 0
     own = data["lift_off_own_places"]
     assert abs(own["value"] - data["lift_off"]["force"]) < 1e-2
+    assert own["error"] < 1e-6
+
+
+def test_out_of_the_vertical_plane_and_its_mirror_image() -> None:
+    """A hole that walks to the right and one that walks to the left are images of each other: so are their rods."""
+    code, text = run("critical", "--weight", "15", "--alpha", "80", "--build", "0.2", "--walk", "0.3")
+    text = " ".join(text.split())
+    assert code == 0
+    assert "build 0.2/L, walk 0.3/L, α = 80° at mid-length" in text
+    assert "below it leaves the wall highest" in text
+    code, image = run("liftoff", "--weight", "15", "--alpha", "80", "--build", "0.2", "--walk=-0.3", "--json")
+    data = json.loads(image)
+    assert code == 0
+    assert data["critical_load"] is None
+    lift = data["lift_off"]
+    assert f"lowest −{-lift['force']:.7f}" in text
+    assert f"at s/L = {lift['s'][0]:.6f} below" in text
+    assert data["lying"]["lowest_force"]["ends_by"] == "lift_off"
+    assert data["lying"]["lowest_force"]["value"] == lift["force"]
+    own = data["lift_off_own_places"]
+    assert abs(own["value"] - lift["force"]) < 1e-2
     assert own["error"] < 1e-6

@@ -10,6 +10,7 @@ from rodwell.cli.critical_bridged import bridged_numbers, first_buckling, show_b
 from rodwell.cli.critical_in_hole import lying_numbers, show_lying
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
+from rodwell.cli.lying_in_space import critical_in_space, leaves_the_plane
 from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
 from rodwell.quantities.value import Value
@@ -35,8 +36,9 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
     End force at s = 1 in B/L², tension positive, in the order in which they are met as compression grows: with the
     wall's help, and without. Twist does not enter as long as lateral weight presses the rod to the wall; where nothing
     does, and without the wall's help, it makes the rod buckle earlier. In a curved hole (--build): loads of both signs,
-    and where the wall would have to pull the rod that lies along it. Where --sections have several clearances: the
-    first load at which the string that bridges their steps buckles sideways.
+    and where the wall would have to pull the rod that lies along it. In one that leaves the vertical plane (--walk) the
+    rod moves with the load: between which forces it lies on the wall, stable, and what ends that. Where --sections have
+    several clearances: the first load at which the string that bridges their steps buckles sideways.
     """
     from rodwell.analysis.straight.critical import critical_loads, tensile_loads  # noqa: PLC0415
     from rodwell.analysis.straight.without_wall import loads_without_wall  # noqa: PLC0415
@@ -46,6 +48,9 @@ def critical(modes: int, rtol: float, as_json: bool, **given: Any) -> None:
         path = first_buckling(problem, rtol)
         keep(where, lambda: bridged_numbers(path), quiet=as_json)
         show_bridged(path, rtol, as_json)
+        return
+    if leaves_the_plane(problem):
+        critical_in_space(problem, rtol, where, as_json)
         return
     loads = critical_loads(problem, modes, rtol=rtol)
     if problem.hole is not None:

@@ -8,6 +8,7 @@ import click
 
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
+from rodwell.cli.lying_in_space import leaves_the_plane, lift_off_in_space, only_first_mode
 from rodwell.cli.options import (
     check_missed,
     json_option,
@@ -40,7 +41,8 @@ UNIT = "B/L²"
 def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -> None:
     """Load at which the buckled rod lifts off the wall, and where.
 
-    End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0.
+    End force at s = 1 in B/L², tension positive; places as parts of the length from s = 0. In a hole that leaves the
+    vertical plane (--walk): of the rod as it lies, or buckled where it buckles before.
     """
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
@@ -52,6 +54,10 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.problem.problem import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
+    if leaves_the_plane(problem):
+        only_first_mode(mode, mirror)
+        lift_off_in_space(problem, rtol, where, as_json)
+        return
     branch = follow(problem, mode, mirror=mirror, rtol=rtol)
     differ = branch.mode is not None and arms_differ(problem, branch.mode.parity)
     other = follow(problem, mode, mirror=not mirror, rtol=rtol) if differ else None

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import FIRST_STEP_ON, LARGEST_STEP, Following, branch_off
@@ -99,6 +100,25 @@ class LyingRod:
     def branches(self) -> tuple[Branch, ...]:
         """The branch that buckles, where there is one, then ``pressed`` and ``pulled``."""
         return (*(() if self.buckled is None else (self.buckled,)), self.pressed, self.pulled)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return how far it lies, both ways, and what ends that, as plain data, for JSON."""
+        ends = {
+            "lowest_force": (self.lowest, self.end, self.pressed),
+            "highest_force": (self.highest, self.end_in_tension, self.pulled),
+        }
+        return {
+            "side": None,
+            "rest_force": self.rest.force,
+            **{
+                name: {
+                    "value": load.value, "error": load.error, "s": None if end is None or not end.s else end.s[0],
+                    "ends_by": None if end is None else end.kind, "followed_because": branch.ending,
+                }
+                for name, (load, end, branch) in ends.items()
+            },
+            "buckles": self.buckled is not None,
+        }  # fmt: skip
 
     def settles(self, force: float) -> bool:
         """Whether it is known what becomes of the rod at an end force: it lies there, or its way ends before."""

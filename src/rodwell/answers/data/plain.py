@@ -7,7 +7,6 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.data.beyond import beyond_dict
@@ -198,8 +197,9 @@ def _critical_loads(answer: Answer) -> dict[str, Any]:
 
 def _lying(answer: Answer) -> dict[str, Any]:
     """Between which end forces the rod lies on the wall of a curved hole by itself, and what is not told there."""
+    rest = {"leaves_before_buckling": answer.left_before is not None, "left_out": left_out(answer)}
     if answer.lying is not None:
-        return _lying_in_space(answer, answer.lying)
+        return {**answer.lying.as_dict(), **rest}
     low, high = lies_between(answer.case.problem)
     ends = {"lowest_force": low, "highest_force": high}
     return {
@@ -208,31 +208,8 @@ def _lying(answer: Answer) -> dict[str, Any]:
             name: None if one is None else {"value": one.value, "error": one.error, "s": one.s}
             for name, one in ends.items()
         },
-        "leaves_before_buckling": answer.left_before is not None,
-        "left_out": left_out(answer),
+        **rest,
     }
-
-
-def _lying_in_space(answer: Answer, lying: LyingRod) -> dict[str, Any]:
-    """The same of a hole out of the vertical plane: how far the rod was followed as it lies, and what ends that."""
-    ends = {
-        "lowest_force": (lying.lowest, lying.end, lying.pressed),
-        "highest_force": (lying.highest, lying.end_in_tension, lying.pulled),
-    }
-    return {
-        "side": None,
-        "rest_force": lying.rest.force,
-        **{
-            name: {
-                "value": load.value, "error": load.error, "s": None if end is None or not end.s else end.s[0],
-                "ends_by": None if end is None else end.kind, "followed_because": branch.ending,
-            }
-            for name, (load, end, branch) in ends.items()
-        },
-        "buckles": lying.buckled is not None,
-        "leaves_before_buckling": answer.left_before is not None,
-        "left_out": left_out(answer),
-    }  # fmt: skip
 
 
 def _other_arm(answer: Answer) -> dict[str, Any] | None:
