@@ -64,11 +64,7 @@ class Axis:
         piece = np.searchsorted(self.breaks[1:-1], inside, side="right")
         low, high = self.breaks[piece], self.breaks[piece + 1]
         local = 2.0 * (inside - low) / (high - low) - 1.0
-        table = chebyshev.chebvander(local, DEGREE)
-        values = np.empty((places.size, self.coefficients.shape[2]))
-        order = np.argsort(piece, kind="stable")
-        for members in np.split(order, np.flatnonzero(np.diff(piece[order])) + 1):  # those of one piece at a time
-            values[members] = table[members] @ self.coefficients[:, piece[members[0]]]
+        values = self._values(piece, np.ascontiguousarray(chebyshev.chebvander(local, DEGREE)))
         curvatures, frames, points = values[:, :2], values[:, 2:11].reshape(-1, 3, 3), values[:, 11:]
         for beyond, end in ((places < 0.0, 0.0), (places > self.length, self.length)):
             if beyond.any():
@@ -76,6 +72,29 @@ class Axis:
                 ahead = places[beyond] - end
                 frames[beyond], points[beyond] = circle(curvatures[first], frames[first], points[first], ahead)
         return curvatures, frames, points
+
+    def _values(self, piece: FloatArray, table: FloatArray) -> FloatArray:
+        """What is tabulated, (n, 14), from the numbers of pieces (n,) and the polynomials there, (n, DEGREE + 1)."""
+        order = None
+        if np.any(np.diff(piece) < 0):  # places come in order mostly: then nothing is moved
+            order = np.argsort(piece, kind="stable")
+            piece, table = piece[order], table[order]
+        values = np.empty((piece.size, self.coefficients.shape[2]))
+        ends = [*(np.flatnonzero(np.diff(piece)) + 1).tolist(), piece.size]
+        begin, pieces = 0, self._by_piece
+        for end in ends:
+            np.matmul(table[begin:end], pieces[piece[begin]], out=values[begin:end])
+            begin = end
+        if order is None:
+            return values
+        moved = np.empty_like(values)
+        moved[order] = values
+        return moved
+
+    @cached_property
+    def _by_piece(self) -> FloatArray:
+        """The coefficients with those of a piece side by side, (m, DEGREE + 1, 14)."""
+        return np.ascontiguousarray(np.swapaxes(self.coefficients, 0, 1))
 
     def turned(self, angle: float) -> Axis:
         """The same axis with N1, N2 turned by ``angle`` around T, from N1 towards N2."""

@@ -95,11 +95,16 @@ class PiecewisePolynomial:
     @classmethod
     def of(cls, breaks: FloatArray, function: Along) -> PiecewisePolynomial:
         """Take the values of a function."""
+        return cls.each(breaks, lambda s: function(s)[None])[0]
+
+    @classmethod
+    def each(cls, breaks: FloatArray, functions: Along) -> list[PiecewisePolynomial]:
+        """Take the values of several functions (k, m), which are asked for once."""
         half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
         nodes = np.polynomial.chebyshev.chebpts1(NODES)
-        values = function((centre[:, None] + half[:, None] * nodes).ravel()).reshape(half.size, NODES)
+        found = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, half.size, NODES)
         fit = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes, NODES - 1))
-        return cls(breaks, np.asarray(fit @ values.T))
+        return [cls(breaks, np.asarray(fit @ values.T)) for values in found]
 
     def __call__(self, s: FloatArray) -> FloatArray:
         """Values (m,) at places (m,)."""

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
-from rodwell.analysis.discrete.curved import HoleAlong, along_rod, hole_along, hole_at, lifted
+from rodwell.analysis.discrete.curved import HoleAlong, PiecewisePolynomial, along_rod, hole_along, hole_at
 from rodwell.analysis.discrete.measures import Measured, measured_meshes
 from rodwell.analysis.state.in_hole import InHole, curvature
 from rodwell.errors import InputError, NotConvergedError
@@ -39,7 +39,7 @@ STENCIL = 1e-4
 
 
 def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
-    """N′ (m,) with the hole at the rod's own places."""
+    """N′, and T·k, (2, m) with the hole at the rod's own places."""
     y, y1, y2 = shape.shape(s, 3)
     places, d, problem = shape.place(s), shape.clearance, shape.problem
     (k1, k2, _, _), climb = hole_at(problem, places)
@@ -53,14 +53,15 @@ def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
     weight, twist = shape.parameters[AXIAL_WEIGHT], shape.parameters[TWIST]
     bent = normal * cos**2 * inwards_rate / h**2 + geodesic * cos * (around_rate - d * around * inwards_rate / h) / h
     turned = -twist * y1 * cos * inwards_rate / h**2
-    return np.asarray(weight * climb * h + bent + turned + shape.drive(s) * cos * d * inwards_rate / h**2)
+    drive = weight * climb * h + bent + turned + shape.drive(s) * cos * d * inwards_rate / h**2
+    return np.stack([drive, climb])
 
 
 def tables_of(shape: InHole) -> HoleAlong:
     """The hole at the rod's own places, and the force that goes with it, as kernels take them."""
     p, breaks, problem = shape.parameters, shape.state.space.breaks, shape.problem
-    driven = lifted(breaks, lambda s: drive_rate(shape, s))
-    rise = lifted(breaks, lambda s: hole_at(problem, shape.place(s))[1])
+    rates = PiecewisePolynomial.each(breaks, lambda s: drive_rate(shape, s))
+    driven, rise = (rate.integral_above() for rate in rates)
     last = 1.0 + shape.clearance * float(hole_at(problem, shape.place(np.array([1.0])))[0][0, 0])
 
     def functions(s: FloatArray) -> FloatArray:
