@@ -85,19 +85,21 @@ def run(
     from rodwell.report.folders.beside import beside, drawing  # noqa: PLC0415
 
     with beside(drawing) as start:
-        with progress_bar(not quiet and not as_json, "critical loads") as tell:
+        shown = not quiet and not as_json
+        with progress_bar(shown, "critical loads") as tell:
             result = answer(read, tell)
-        if not quiet and not as_json:
+        if shown:
             _verdict(result)
         drawn = start(result)
-        if not quiet and not as_json and not result.converged:
+        if shown and not result.converged:
             _not_converged(read.rtol)
         from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
         from rodwell.answers.result.missed import missed  # noqa: PLC0415
         from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
         follows = read.off_wall if path is None else path
-        write_results(result, folder, with_pdf=with_pdf, path=follows, drawn=drawn)
+        with progress_bar(shown, "report, figures and data"):
+            write_results(result, folder, with_pdf=with_pdf, path=follows, drawn=drawn)
     if as_json:
         print_json(answer_dict(result, path=follows), indent=2)
     elif not quiet:
@@ -118,7 +120,8 @@ def _verdict(answer: Answer) -> None:
     from rodwell.answers.words.meaning import sentences  # noqa: PLC0415
 
     console = Console(highlight=False)
-    text = sentences(answer)
+    with progress_bar(True, "stress, contact and what they mean"):
+        text = sentences(answer)
     body = f"[bold]{escape(text[0])}[/bold]\n\n" + "\n".join(f"• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(answer.case.title), title_align="left", border_style="blue"))
 

@@ -119,5 +119,5 @@ class LoadedRod:
 
 
 def on_mesh(problem: Problem, family: Family, state: State) -> OnMesh:
-    """Fields of one state on one mesh, as a function of places s (m,)."""
-    return OnMesh(lambda s: fields_at(problem, family, state, s), state.space)
+    """Fields of one state on one mesh, as a function of places s (m,); in a curved hole not the tangential balance."""
+    return OnMesh(lambda s: fields_at(problem, family, state, s, balance=False), state.space)

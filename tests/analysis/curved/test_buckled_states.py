@@ -64,8 +64,8 @@ def test_certificate_sees_a_wrong_formula(branch: Branch, monkeypatch: pytest.Mo
     fields = curved_certificate.InHole.fields
     for name in ("rod_F1", "rod_F3", "contact_pressure", "omega2"):
 
-        def wrong(self: object, s: np.ndarray, name: str = name) -> dict[str, np.ndarray]:
-            found = fields(self, s)  # type: ignore[arg-type]
+        def wrong(self: object, s: np.ndarray, name: str = name, **how: bool) -> dict[str, np.ndarray]:
+            found = fields(self, s, **how)  # type: ignore[arg-type]
             return {**found, name: found[name] * (1.0 + 1e-4 * s)}
 
         monkeypatch.setattr(curved_certificate.InHole, "fields", wrong)

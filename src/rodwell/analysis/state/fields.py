@@ -139,10 +139,15 @@ def _with_steps(
     return left, right
 
 
-def fields_at(problem: Problem, family: Family, state: State, s: FloatArray) -> dict[str, FloatArray]:
-    """All fields at ``s`` (m,), in units B = L = 1; of a rod in a curved hole those of the rod."""
+def fields_at(
+    problem: Problem, family: Family, state: State, s: FloatArray, *, balance: bool = True
+) -> dict[str, FloatArray]:
+    """All fields at ``s`` (m,), in units B = L = 1; of a rod in a curved hole those of the rod.
+
+    There ``balance`` says whether "tangential_balance" is wanted, which takes as long as all the others.
+    """
     if problem.hole is not None:
-        return in_hole(problem, family, state).fields(s)
+        return in_hole(problem, family, state).fields(s, balance)
     space, end, p = state.space, end_force(problem, family, state), family.parameters(state.lam)
     rates = _rates(problem, p, end)
     integrals = _running_integrals(lambda places: rates(places, shape(family, state, places, 4)), s, space)
@@ -195,7 +200,8 @@ def gauss_calculus() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
 
 def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
     """Largest size of a field and its place."""
-    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s)[name]), state.space)
+    balance = name == "tangential_balance"
+    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s, balance=balance)[name]), state.space)
 
 
 def largest_of(

@@ -91,17 +91,18 @@ class InHole:
         along, around = sin * u2 + cos * tangent, cos * u2 - sin * tangent
         return points - self.clearance * d1, np.stack([along, d1, around], axis=1)
 
-    def fields(self, s: FloatArray) -> dict[str, FloatArray]:
+    def fields(self, s: FloatArray, balance: bool = True) -> dict[str, FloatArray]:
         """Fields at places (m,) in units B = L = 1: those of the rod, by their names in the nomenclature.
 
-        ``z`` is the way along the hole's axis from s = 0; components refer to t₁, d₁, u₁.
+        ``z`` is the way along the hole's axis from s = 0; components refer to t₁, d₁, u₁. ``balance``: with
+        "tangential_balance", which needs the height of the rod and takes as long as all the others.
         """
         u, p = self.shape(s, 4), self.parameters
         omega1, omega2, omega3, f1, f2, f3, pressure = strand(s, u, self.given(s), p)
         torsion = self.problem.torsional_stiffness
         xi1 = p[TWIST] / torsion * s + self._turned_in_all - self.turned(s)
         material = material_curvatures(xi1, omega2, omega3, p[TWIST], torsion)
-        return {
+        out = {
             "y": u[0],
             "xi2": self._angle(u[0]),
             "eta": np.arcsin(u[1]),
@@ -120,8 +121,10 @@ class InHole:
             "rod_M1": np.full_like(s, -p[TWIST]),
             "rod_M2": np.asarray(omega2),
             "rod_M3": np.asarray(omega3),
-            "tangential_balance": self._energy_along(s, omega2, omega3, f1) - self._energy_at_end,
         }
+        if balance:
+            out["tangential_balance"] = self._energy_along(s, omega2, omega3, f1) - self._energy_at_end
+        return out
 
     def _angle(self, y: FloatArray) -> FloatArray:
         """ξ₂ (m,) from the low side."""

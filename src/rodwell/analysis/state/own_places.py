@@ -32,7 +32,8 @@ from rodwell.quantities.value import Value
 MOST_ROUNDS = 40
 
 SETTLED = 1e-12
-"""Change of the shape, in radians around the hole, below which it has settled."""
+"""Change of the shape, in radians around the hole, below which it has settled: in a round, or as the last two foretell
+of the next one."""
 
 STENCIL = 1e-4
 """Distance on the hole's axis, in L, of differences that give the rate of its curvature."""
@@ -104,12 +105,13 @@ def _at_own_places(problem: Problem, family: Family, state: State, near: bool) -
     """The state on one mesh, with the equations and the tables of the hole that it solves."""
     change = np.inf
     for _ in range(MOST_ROUNDS):
+        before = change
         tables = tables_of(InHole(problem, family, state))
         family = _given(family, tables)
         solved = _solved(family, state, near)
         change = float(np.max(np.abs(solved.c - state.c))) / family.scale_c
         state = solved
-        if change <= SETTLED:
+        if change <= SETTLED or (np.isfinite(before) and change**2 <= SETTLED * before):
             return family, state, tables
     raise NotConvergedError(
         f"the places of the rod in the hole did not settle: the shape still changes by {change:.1e} rad a round; "
