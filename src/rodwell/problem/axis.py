@@ -73,7 +73,7 @@ class Axis:
                 frames[beyond], points[beyond] = circle(curvatures[first], frames[first], points[first], ahead)
         return curvatures, frames, points
 
-    def _values(self, piece: FloatArray, table: FloatArray) -> FloatArray:
+    def _values(self, piece: np.ndarray, table: FloatArray) -> FloatArray:
         """What is tabulated, (n, 14), from the numbers of pieces (n,) and the polynomials there, (n, DEGREE + 1)."""
         order = None
         if np.any(np.diff(piece) < 0):  # places come in order mostly: then nothing is moved
