@@ -21,7 +21,7 @@ from rodwell.analysis.path.barrier import Barrier, saddle
 from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.cli.path import _print_barrier
+from rodwell.cli.path_text import print_barrier
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.assembly import assemble
 from rodwell.numerics.stretches.carry import sampler
@@ -91,7 +91,7 @@ def test_the_barrier_before_the_snap(
     monkeypatch.setattr(Barrier, "turn", Value(1.56, 0.05))
     assert found.as_dict()["turn"] == {"value": 1.56, "error": 0.05}
     monkeypatch.setattr(LoadPath, "barrier", lambda *_: found)
-    _print_barrier(loop, -147.0, None)
+    print_barrier(loop, -147.0, None)
     told = " ".join(capsys.readouterr().out.split())
     assert "a helix of 1 turn lies 2.0626533" in told
     assert "by more than 1.56 rad (± 0.05) about" in told
@@ -103,10 +103,18 @@ def test_the_barrier_before_the_snap(
     data = found.as_dict()
     assert (data["turn"], data["why_no_turn"]) == (None, "it did not come to rest")
     assert data["height"]["value"] == found.height.value
-    _print_barrier(loop, -147.0, None)
+    print_barrier(loop, -147.0, None)
     told = " ".join(capsys.readouterr().out.split())
     assert "2.0626533" in told
     assert "is not told: it did not come to rest." in told
+
+    def interrupted(_barrier: Barrier) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Barrier, "turn", property(interrupted))
+    with pytest.raises(KeyboardInterrupt):
+        found.turn_or_why()
+    assert found.as_dict()["why_no_turn"] == "it was broken off"  # and is not begun again
 
 
 def test_a_rod_that_lingers_beside_the_saddle_counts_as_one_that_snaps() -> None:

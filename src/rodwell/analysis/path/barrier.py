@@ -87,11 +87,24 @@ class Barrier:
         return turned_over(self.state.coarse, self.held)
 
     def turn_or_why(self) -> tuple[Value | None, str]:
-        """:attr:`turn`, and "" or why it could not be told: height and saddle stand without it."""
+        """:attr:`turn`, and "" or why it could not be told: height and saddle stand without it.
+
+        Once it was broken off, as by Ctrl-C, it is not begun again.
+        """
+        if self._begun:
+            return None, "it was broken off"
+        self._begun.append(True)
         try:
-            return self.turn, ""
+            told: tuple[Value | None, str] = self.turn, ""
         except NotConvergedError as error:
-            return None, str(error)
+            told = None, str(error)
+        self._begun.clear()
+        return told
+
+    @cached_property
+    def _begun(self) -> list[bool]:
+        """Holds an entry while :meth:`turn_or_why` computes, and after it was broken off."""
+        return []
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
