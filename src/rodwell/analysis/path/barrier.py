@@ -82,7 +82,8 @@ class Barrier:
         """By how much mid-length must be turned about the hole's axis for the rod to snap, in rad; None: not by a half.
 
         The whole rod is turned, by ψ sin²(πs), and let go; it follows the gradient flow, as in something viscous. The
-        least ψ after which it does not come back. The estimate of the error is that of the flow, and coarse.
+        least ψ after which it does not come back. The estimate of the error is that of the flow and of the soft wall in
+        which it runs, and coarse; another way to turn the rod has another least turn.
         """
         return turned_over(self.state.coarse, self.held)
 
