@@ -8,6 +8,8 @@ than the maximum between samples: it is taken to that.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -15,13 +17,15 @@ import rodwell
 from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
+from rodwell.analysis.off_wall.control import FORCE
 from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path import disturbance
 from rodwell.analysis.path.barrier import Barrier, saddle
 from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.cli.path import _print_barrier
+from rodwell.analysis.path.snap import Flow
+from rodwell.cli.path_text import print_barrier
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.assembly import assemble
 from rodwell.numerics.stretches.carry import sampler
@@ -91,7 +95,7 @@ def test_the_barrier_before_the_snap(
     monkeypatch.setattr(Barrier, "turn", Value(1.56, 0.05))
     assert found.as_dict()["turn"] == {"value": 1.56, "error": 0.05}
     monkeypatch.setattr(LoadPath, "barrier", lambda *_: found)
-    _print_barrier(loop, -147.0, None)
+    print_barrier(loop, -147.0, None)
     told = " ".join(capsys.readouterr().out.split())
     assert "a helix of 1 turn lies 2.0626533" in told
     assert "by more than 1.56 rad (± 0.05) about" in told
@@ -103,10 +107,18 @@ def test_the_barrier_before_the_snap(
     data = found.as_dict()
     assert (data["turn"], data["why_no_turn"]) == (None, "it did not come to rest")
     assert data["height"]["value"] == found.height.value
-    _print_barrier(loop, -147.0, None)
+    print_barrier(loop, -147.0, None)
     told = " ".join(capsys.readouterr().out.split())
     assert "2.0626533" in told
     assert "is not told: it did not come to rest." in told
+
+    def interrupted(_barrier: Barrier) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Barrier, "turn", property(interrupted))
+    with pytest.raises(KeyboardInterrupt):
+        found.turn_or_why()
+    assert found.as_dict()["why_no_turn"] == "it was broken off"  # and is not begun again
 
 
 def test_a_rod_that_lingers_beside_the_saddle_counts_as_one_that_snaps() -> None:
@@ -117,6 +129,22 @@ def test_a_rod_that_lingers_beside_the_saddle_counts_as_one_that_snaps() -> None
 
     assert disturbance._threshold(comes_back, 0.0, np.pi) == pytest.approx(1.52, abs=0.02)
     assert disturbance._threshold_near(comes_back, 1.6) == pytest.approx(1.52, abs=0.02)
+
+
+def test_the_error_of_a_turn_holds_what_steps_and_wall_change(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Thresholds that depend on both as prescribed: 2.4 as usual, 2.46 in closer steps, 2.52 behind a stiffer wall."""
+
+    def back(_state: Any, held: disturbance.Held, angle: float) -> bool:
+        closer, stiffer = held.flow.wanted == disturbance.CLOSER, held.flow.stiffness > 1e8
+        return abs(angle) < 2.4 + 0.06 * closer + 0.12 * stiffer
+
+    monkeypatch.setattr(disturbance, "comes_back", back)
+    nothing: Any = None
+    held = disturbance.Held(FORCE, -127.2, Flow(1e8, disturbance.ELEMENTS), nothing)
+    found = disturbance.turned_over(nothing, held)
+    assert found is not None
+    assert found.value == pytest.approx(2.46, abs=disturbance.BRACKET)
+    assert found.error == pytest.approx(0.06 + 0.12, abs=3 * disturbance.BRACKET)
 
 
 @pytest.mark.parametrize(("force", "least", "most"), [(-127.2, 2.2, 2.8), (-147.0, 1.45, 1.7)])

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click.testing import CliRunner
 
-from rodwell.cli.main import cli
-from rodwell.errors import InputError
+from rodwell.analysis.path.load_path import LoadPath
+from rodwell.cli.main import INTERRUPTED, cli, main
+from rodwell.errors import InputError, NotConvergedError
 
 COMMON = ("path", "--weight", "15", "--alpha", "90", "--seeds", "1")
 
@@ -111,3 +113,31 @@ def test_loads_of_barriers_are_finite_numbers(given: str) -> None:
     done = run(*COMMON, "--until", "-126", "--barrier", given)
     assert isinstance(done.exception, InputError)
     assert done.exception.field == "--barrier"
+
+
+def test_a_path_whose_barriers_are_interrupted_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Ctrl-C while the second of three barriers is computed, in Python or in a compiled call."""
+    asked: list[float] = []
+
+    def barrier(_path: LoadPath, force: float) -> None:
+        asked.append(force)
+        if force == -112.0:
+            raise SystemError from KeyboardInterrupt()
+        raise NotConvergedError("no saddle")
+
+    monkeypatch.setattr(LoadPath, "barrier", barrier)
+    out = tmp_path / "path"
+    command = ["rodwell", *COMMON, "--until", "-113", "--barrier", "-111.5,-112,-112.5", "--out", str(out)]
+    monkeypatch.setattr(sys, "argv", command)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == INTERRUPTED
+    said = capsys.readouterr()
+    assert "the path was told, with what had been computed of its barriers" in said.err
+    assert "no barrier told; no saddle" in " ".join(said.out.split())
+    assert -112.5 not in asked
+    written = json.loads((out / "load-path.json").read_text(encoding="utf-8"))
+    assert [event["kind"] for event in written["events"]] == ["critical"]
+    assert [one["why"] for one in written["barriers"]] == ["no saddle"]

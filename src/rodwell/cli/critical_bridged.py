@@ -9,7 +9,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import check_missed, print_json
-from rodwell.cli.path import print_contacts
+from rodwell.cli.path_text import print_contacts
 from rodwell.quantities.text import plain, with_error
 from rodwell.quantities.value import Value
 

@@ -15,7 +15,7 @@ for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 import click
 
 from rodwell._version import __version__
-from rodwell.cli.terminal import Terminated, ending_well, never_fail_to_encode
+from rodwell.cli.terminal import Terminated, ending_well, interrupt_behind, never_fail_to_encode
 from rodwell.errors import CacheWarning, InputError, InputWarning, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
@@ -78,7 +78,7 @@ def main() -> None:
     except KeyboardInterrupt as interrupt:
         _interrupted(interrupt)
     except SystemError as error:
-        cause = _interrupt_behind(error)
+        cause = interrupt_behind(error)
         if cause is None:
             raise
         _interrupted(cause)
@@ -114,13 +114,6 @@ def _interrupted(cause: BaseException | None) -> None:
     kept = getattr(cause, "kept", "nothing was written")
     click.echo(f"rodwell: {what}; {kept}", err=True)
     sys.exit(code)
-
-
-def _interrupt_behind(error: BaseException | None) -> BaseException | None:
-    """The Ctrl-C or signal that lies behind an error: in a compiled call it surfaces as the cause of a SystemError."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
-        error = error.__cause__ or error.__context__
-    return error
 
 
 if __name__ == "__main__":

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
-from rodwell.cli.listing import wrapped
 from rodwell.cli.options import (
     PARAMETERS,
     OutPath,
@@ -23,25 +23,14 @@ from rodwell.cli.options import (
     progress_bar,
     rtol_option,
 )
+from rodwell.cli.path_text import print_barrier, print_path, print_states
+from rodwell.cli.terminal import interrupt_behind
 from rodwell.errors import InputError
-from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
-    from rodwell.analysis.off_wall.state import ContactState
-    from rodwell.analysis.path.events import PathState
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.case.case import Case
-    from rodwell.errors import RodwellError
     from rodwell.problem.problem import Problem
-    from rodwell.quantities.value import Value
-
-UNIT = "B/L²"
-
-WHERE = {
-    "point": "at a point of contact", "end": "at the end of a stretch in contact",
-    "edge": "at the edge of a narrower part of the hole", "tip": "at the loose end",
-}  # fmt: skip
-"""Where a point force acts, in words."""
 
 
 @click.command(short_help="The load path off the wall: lift-off, partial contact, snap, helix, and back.")
@@ -120,6 +109,7 @@ def path(
             wall_stiffness=wall_stiffness, mirror=mirror, seeds=seeds, rtol=rtol,
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
+    barriers, interrupt = _computed(result, barriers)
     if out is not None:
         from rodwell.report.folders.path import write_path  # noqa: PLC0415
 
@@ -138,16 +128,42 @@ def path(
             }
         )
     else:
-        _print(result)
+        print_path(result)
         if read is not None and read.scales is not None:
             click.echo(f"1 B/L² is {read.scales.text(1.0, 'force', 6)}, L {read.scales.text(1.0, 'length', 6)}.")
         for force in forces:
-            _print_states(result, force)
+            print_states(result, force)
         for force in barriers:
-            _print_barrier(result, force, read)
+            print_barrier(result, force, read)
         if out is not None:
             print_written(out)
+    if interrupt is not None:
+        interrupt.kept = "the path was told, with what had been computed of its barriers"  # type: ignore[attr-defined]
+        raise interrupt
     check_missed(result.missed, rtol)
+
+
+def _computed(result: LoadPath, barriers: list[float]) -> tuple[list[float], BaseException | None]:
+    """Compute barriers: the loads of those begun, and Ctrl-C or the signal that ended it, or None.
+
+    They take up to a minute each, and the path is there already: it is told, with what is known of them.
+    """
+    from rodwell.errors import RodwellError  # noqa: PLC0415
+
+    begun: list[float] = []
+    try:
+        for value in barriers:
+            with suppress(RodwellError):  # told with the barrier
+                found = result.barrier(value)
+                begun.append(value)
+                found.turn_or_why()
+            begun += [] if value in begun else [value]
+    except (KeyboardInterrupt, SystemError) as error:
+        interrupt = interrupt_behind(error)
+        if interrupt is None:
+            raise
+        return begun, interrupt
+    return begun, None
 
 
 def _case(path: Path | None) -> Case | None:
@@ -208,118 +224,3 @@ def _numbers(option: str, text: str | None, case: Case | None, control: str) -> 
     if not all(map(math.isfinite, numbers)):
         raise InputError(option, text, "must be finite numbers, separated by commas")
     return numbers
-
-
-def _print_states(result: LoadPath, force: float) -> None:
-    """The states at an end force, or why there is none: that ends nothing."""
-    from rodwell.errors import RodwellError  # noqa: PLC0415
-
-    try:
-        for state in result.at(force):
-            _print_state(state)
-    except RodwellError as error:
-        _print_why(f"{result.control} {plain(force, 6)}: not reached", error)
-
-
-def _print_why(what: str, error: RodwellError) -> None:
-    """What is not there, and why."""
-    click.echo("")
-    wrapped(f"{what}; {error.reason if isinstance(error, InputError) else error}")
-
-
-def _print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
-    """The barrier at an end force, or why there is none: that ends nothing."""
-    from rodwell.errors import RodwellError  # noqa: PLC0415
-
-    try:
-        found = result.barrier(force)
-    except RodwellError as error:
-        _print_why(f"{result.control} {plain(force, 6)}: no barrier told", error)
-        return
-    turn, why = found.turn_or_why()
-    scales = None if case is None else case.scales
-    work = "" if scales is None else f" ({scales.amount(found.height, 'energy')})"
-    far = "half a turn" if turn is None else f"more than {plain(turn.value, 3)} rad (± {plain(turn.error, 1)})"
-    then = "comes back" if turn is None else "snaps there"
-    turned = f"Turned at mid-length by {far} about the hole's axis and let go, in something viscous, the rod {then}."
-    if why:
-        turned = f"By how much the rod must be turned at mid-length to snap there is not told: {why}."
-    click.echo("")
-    wrapped(
-        f"Barrier at F = {signed(found.state.force, 10)}, {found.leg}: the saddle between this state and "
-        f"{found.to.meaning} lies {amount(found.height, 9)} B/L{work} higher. {turned} The saddle, unstable:"
-    )
-    print_contacts(found.saddle)
-
-
-def _print(result: LoadPath) -> None:
-    """Events as a list."""
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
-
-    click.echo(
-        f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"
-    )
-    click.echo(f"controlled. {result.assumptions[0].upper()}{result.assumptions[1:]}.")
-    leg = ""
-    for event in result.events:
-        if event.leg != leg:
-            leg = event.leg
-            click.echo(f"{leg}:")
-        where = _places(event.s)
-        driven = result.driven(event)
-        at = "" if driven is None else f", {result.way.held} {amount(driven, 9)} L"
-        click.echo(f"  {with_error(event.force)}  {event.meaning}{where}{at}")
-        if event.to is not None:
-            energy = f"energy {_signed(event.to.energy, 9)} B/L relative to the straight rod"
-            energy += "" if driven is None else f", F = {_signed(event.to.force, 10)}"
-            click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
-    symbol = "F" if result.way.by_force else result.way.held
-    if result.reached:
-        click.echo(f"Followed to {symbol} = {plain(result.until, 6)}" + (
-            "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
-        ))  # fmt: skip
-    else:
-        wrapped(f"Not followed to the end: {result.ended_because}.")
-    if result.problem.twist != 0.0:
-        arm = "without" if result.mirror else "with"
-        wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")
-
-
-def _places(s: tuple[float, ...]) -> str:
-    return "" if not s else ", s/L = " + ", ".join(plain(place, 5) for place in s)
-
-
-def _place(s: Value) -> str:
-    """A place s/L in six decimals, as in the column of a table, or as many as are known."""
-    return plain(round(s.value, 6), 6).ljust(8)
-
-
-def _signed(number: Value, digits: int) -> str:
-    """A number with its sign, in the digits that its error allows."""
-    return ("+" if number.value > 0.0 else "") + amount(number, digits)
-
-
-def _print_state(shown: PathState) -> None:
-    state = shown.state
-    index = shown.stability_index
-    held = "" if shown.control.by_force else f" where the {shown.control.held} is held"
-    stable = f"stable{held}" if index == 0 else f"unstable{held}, index {index}"
-    click.echo(f"\nF = {signed(state.force, 10)}, {shown.leg}: {state.kind}, {stable}")
-    click.echo(f"  energy {with_error(state.energy, 9)} B/L, shortening {amount(state.shortening, 9)} L")
-    print_contacts(state)
-    check = state.certificate
-    passed = f"{'passed' if check.passed else 'NOT passed'}, {error_digit(check.worst)}"
-    click.echo(f"  all contact forces {amount(state.contact_total, 7)} {UNIT}; certificate {passed}")
-
-
-def print_contacts(state: ContactState) -> None:
-    """Gaps, stretches in contact and point forces of a state, a line each."""
-    for gap in state.gaps:
-        size = f"{amount(gap.largest, 6)} Δ at s/L = {plain(gap.at, 5)}"
-        click.echo(f"  gap      {_place(gap.start)} to {_place(gap.end)}   {size}")
-    for contact in state.contacts:
-        force = f"{amount(contact.force, 6)} {UNIT}"
-        click.echo(f"  contact  {_place(contact.start)} to {_place(contact.end)}   {force} spread along it")
-    for point in state.point_forces:
-        what = WHERE[point.kind]
-        click.echo(f"  force    {_place(point.s)}              {amount(point.force, 6)} {UNIT} {what}")

@@ -104,3 +104,10 @@ def ending_well() -> Iterator[None]:
 
 def _end(number: int, _frame: FrameType | None) -> None:
     raise Terminated(number)
+
+
+def interrupt_behind(error: BaseException | None) -> BaseException | None:
+    """The Ctrl-C or signal that lies behind an error: in a compiled call it surfaces as the cause of a SystemError."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error

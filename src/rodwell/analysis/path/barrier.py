@@ -82,16 +82,30 @@ class Barrier:
         """By how much mid-length must be turned about the hole's axis for the rod to snap, in rad; None: not by a half.
 
         The whole rod is turned, by ψ sin²(πs), and let go; it follows the gradient flow, as in something viscous. The
-        least ψ after which it does not come back. The estimate of the error is that of the flow, and coarse.
+        least ψ after which it does not come back. The estimate of the error is that of the flow and of the soft wall in
+        which it runs, and coarse; another way to turn the rod has another least turn.
         """
         return turned_over(self.state.coarse, self.held)
 
     def turn_or_why(self) -> tuple[Value | None, str]:
-        """:attr:`turn`, and "" or why it could not be told: height and saddle stand without it."""
+        """:attr:`turn`, and "" or why it could not be told: height and saddle stand without it.
+
+        Once it was broken off, as by Ctrl-C, it is not begun again.
+        """
+        if self._begun:
+            return None, "it was broken off"
+        self._begun.append(True)
         try:
-            return self.turn, ""
+            told: tuple[Value | None, str] = self.turn, ""
         except NotConvergedError as error:
-            return None, str(error)
+            told = None, str(error)
+        self._begun.clear()
+        return told
+
+    @cached_property
+    def _begun(self) -> list[bool]:
+        """Holds an entry while :meth:`turn_or_why` computes, and after it was broken off."""
+        return []
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""

@@ -31,6 +31,9 @@ ELEMENTS = 7.0
 CLOSER = 0.1
 """How wrong steps of the flow may be when a threshold is found again: a third of what is usual."""
 
+STIFFER = 10.0
+"""How many times as stiff the wall is when it is found a third time."""
+
 INSIDE = 1e-3
 """By how much of its distance from the axis a rod that is turned is lifted off the wall, so that nothing is pressed in.
 """
@@ -75,7 +78,8 @@ def held_by(state: PatternedState, control: Control, value: float) -> Held:
 def turned_over(state: PatternedState, held: Held) -> Value | None:
     """The least turn of mid-length about the hole's axis after which a state does not come back, in rad; either way.
 
-    None if it comes back from half a turn. The error is what a closer look at the flow changes, and no bound.
+    None if it comes back from half a turn. The error is what a closer look at the flow changes, and a stiffer wall, and
+    no bound.
 
     Raises
     ------
@@ -92,8 +96,9 @@ def turned_over(state: PatternedState, held: Held) -> Value | None:
         sense, first = -1.0, _threshold(other, 0.0, first - BRACKET)
     if first == math.pi:
         return None
-    closer = _threshold_near(turning(sense, replace(held.flow, wanted=CLOSER)), first)
-    return Value(closer, abs(closer - first) + BRACKET)
+    looks = replace(held.flow, wanted=CLOSER), replace(held.flow, stiffness=STIFFER * held.flow.stiffness)
+    closer, stiffer = (_threshold_near(turning(sense, flow), first) for flow in looks)
+    return Value(closer, abs(closer - first) + abs(stiffer - first) + BRACKET)
 
 
 def comes_back(state: PatternedState, held: Held, angle: float) -> bool:

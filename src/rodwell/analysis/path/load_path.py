@@ -152,17 +152,24 @@ class LoadPath(Shown):
             If the saddle was not found, or descent from it did not confirm what it lies between.
         """
         value = checked_force(self.control, value)
-        if (value, leg) not in self._barriers:
+        known = self._barriers
+        if (value, leg) not in known:
             taken = next((one for one in self.legs if one.name == leg), None)
             if taken is None or not taken.near(value, self.way):
                 raise InputError(self.control, value, f"the {leg} path has no bent state there")
-            state = self._on(taken, value, self.way)
-            self._barriers[value, leg] = barrier(taken, self.events, state, self.way, value)
-        return self._barriers[value, leg]
+            try:
+                state = self._on(taken, value, self.way)
+                known[value, leg] = barrier(taken, self.events, state, self.way, value)
+            except NotConvergedError as error:
+                known[value, leg] = error
+        found = known[value, leg]
+        if isinstance(found, NotConvergedError):
+            raise found
+        return found
 
     @cached_property
-    def _barriers(self) -> dict[tuple[float, str], Barrier]:
-        """Those asked for, which take long: files and text tell the same."""
+    def _barriers(self) -> dict[tuple[float, str], Barrier | NotConvergedError]:
+        """Those asked for, or why there is none, which take long: files and text tell the same."""
         return {}
 
     @property
