@@ -88,8 +88,10 @@ def _grid(found: Bridged, one: StateBeyond) -> Grid:
     def place(s: Value) -> str:
         return size_text(scales, s, "length", "L")
 
-    rows = [(contact.start, contact.end, "stretch in contact", size_text(scales, contact.force))
-            for contact in one.state.contacts]  # fmt: skip
+    rows: list[tuple[Value, Value | None, str, str]] = [
+        (contact.start, contact.end, "stretch in contact", size_text(scales, contact.force))
+        for contact in one.state.contacts
+    ]
     rows += [(point.s, None, _kind(found, point), size_text(scales, point.force)) for point in one.state.point_forces]
     rows += [(gap.start, gap.end, "gap",
               f"up to {size_text(scales, gap.largest.times(clearance), 'length', 'L')}, at {place(Value(gap.at))}")
