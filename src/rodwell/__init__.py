@@ -37,6 +37,7 @@ _HOME = {
     "DragStudy": "rodwell.studies.drag.sweep.study",
     "Endless": "rodwell.analysis.endless.endless",
     "InputError": "rodwell.errors",
+    "JointedString": "rodwell.analysis.endless.jointed",
     "LocalState": "rodwell.analysis.endless.local",
     "LoadPath": "rodwell.analysis.path.load_path",
     "LyingRod": "rodwell.analysis.loads.lying_rod",
@@ -71,6 +72,7 @@ _HOME = {
     "export": "rodwell.report.folders.export",
     "extended": "rodwell.analysis.branch.follow",
     "follow": "rodwell.analysis.branch.follow",
+    "jointed_string": "rodwell.analysis.endless.jointed",
     "lift_off_curve": "rodwell.analysis.curves.states",
     "local_state": "rodwell.analysis.endless.local",
     "save_branch": "rodwell.store.restart",
@@ -113,6 +115,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.curves.special import special_curve
     from rodwell.analysis.curves.states import lift_off_curve, secondary_curve, twist_curve
     from rodwell.analysis.endless.endless import Endless, endless
+    from rodwell.analysis.endless.jointed import JointedString, jointed_string
     from rodwell.analysis.endless.local import LocalState, local_state
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities

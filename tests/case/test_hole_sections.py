@@ -74,8 +74,12 @@ def test_sections_may_be_given_by_measured_depth() -> None:
          "ends, 323.088 m"),
         ({"liner": (None, None)}, "hole.section 2 (liner).to: is missing"),
         ({"liner": (None, "1060 ft")}, "hole.section 2 (liner).to = '1060 ft': must be below where the section begins"),
-        ({"hole": {"from": "1100 ft"}}, "goes from 304.8 to 365.76 m, and the rod lies from 335.28 to 371.856 m"),
-        ({"hole": {"from": "900 ft"}}, "and the rod lies from 274.32"),
+        ({"hole": {"from": "1100 ft"}}, "goes from 304.8 m (1000 ft) to 365.76 m (1200 ft), and the rod lies from "
+         "335.28 m (1100 ft) to 371.856 m (1220 ft)"),
+        ({"casing": ("1060 ft", "1200 ft"), "liner": ("1000 ft", "1060 ft")},
+         "without gap or overlap; these go from the bottom up, as [[string]] does: turn their order round"),
+        ({"casing": (None, "1200 ft"), "liner": (None, "1060 ft")}, "these go from the bottom up"),
+        ({"hole": {"from": "900 ft"}}, "and the rod lies from 274.32 m (900 ft)"),
         ({"hole": {"from": "1000 ft", "to": "1100 ft"}}, "hole.from"),
     ],
 )  # fmt: skip
@@ -108,7 +112,8 @@ def test_sections_of_a_string_and_of_its_hole_part_each_other() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"casing": {"length": "61 ft"}}, "hole.section: has lengths 18.5928 + 18.288 = 36.8808 m, and the rod is 36."),
+        ({"casing": {"length": "61 ft"}},
+         "hole.section: has lengths 18.5928 m (61 ft) + 18.288 m (60 ft) = 36.8808 m (121 ft)"),
         ({"casing": {"diameter": "2.5 in"}},
          "hole.section 1 (casing).diameter = '2.5 in': must be above the rod's outer diameter of 0.073025 m"),
         ({"liner": {"diam": "3 in"}}, "hole.section 2.diam = '3 in': is not known; did you mean 'diameter'?"),

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import copy
 import math
+import re
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from rodwell import Case, answer, critical_loads
+from rodwell.analysis.off_wall.model import RodInHole
+from rodwell.analysis.off_wall.state import contact_state
+from rodwell.analysis.path.bridging import bridged
+from rodwell.answers.result.beyond import StateBeyond
+from rodwell.answers.result.bridged import TOOL_JOINT, Bridged
+from rodwell.answers.words.bridged import bridged_sentences
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.verdict import verdict
 from rodwell.case.case import CaseError
 from rodwell.errors import InputError
+from rodwell.plots.paths.bridging import plot_bridging
+from rodwell.quantities.value import Value
 from rodwell.report.reports.case import case_report
 from rodwell.report.reports.sections import string_section
 from rodwell.strength.section import StringSections
@@ -105,6 +115,33 @@ def test_tool_joints_stand_between_bodies_half_of_one_at_either_end() -> None:
     ) == 1
 
 
+def test_what_a_string_on_tool_joints_rests_on_is_told_in_users_words() -> None:
+    """Joints between clamped ends: six edges, those beside the ends levered; weight alone is on the others.
+
+    The picture has the lower sides of hole and string: tool joints on the wall, the body no lower than their radii say.
+    """
+    case, inch = jointed(), 0.0254
+    lying = bridged(RodInHole(case.problem), 0.0)
+    assert lying is not None
+    state = contact_state(lying)
+    path: Any = SimpleNamespace(ended_because="", missed=())
+    found = Bridged(case, path, None, StateBeyond("loading", Value(0.0), state, None), ())
+    assert {found.edge_of(point.s.value) for point in found.edges} == {TOOL_JOINT}
+    assert [point.s.value for point in found.levered] == pytest.approx([0.25 / 27.0, 26.75 / 27.0])
+    rests = bridged_sentences(found)[1]
+    assert rests.startswith("Where nothing is compressed it rests on 6 edges of tool joints with at most ")
+    assert re.search(r"(0\.2500|26\.75) m from the end s = 0\. That edge is next to an end that holds", rests)
+    assert "narrower" not in rests
+    largest = max(point.force.value for point in found.edges if point not in found.levered)
+    assert f"at most {case.scales and case.scales.text(largest, 'force')}" in rests
+    axes = plot_bridging(state, scales=case.scales, pairs=case.pairs)
+    wall, string = (np.asarray(line.get_ydata(), dtype=float) for line in axes.lines[:2])
+    unit = 25.4 if axes.get_ylabel().endswith("[mm]") else inch
+    assert wall == pytest.approx(-4.25 * unit)
+    assert np.min(string) == pytest.approx(-4.25 * unit)
+    assert np.min(np.abs(np.max(string) + (4.25 - 0.8125) * unit)) < 0.05 * unit
+
+
 def test_a_thousand_joints_are_two_thousand_sections() -> None:
     assert len(jointed(joints=1000).problem.sections) == 2001
 
@@ -120,7 +157,11 @@ def test_a_thousand_joints_are_two_thousand_sections() -> None:
             {"tool_joint_bore": "7 in"},
             "tool_joint_bore = '7 in': must be below tool_joint_diameter, 0.168275 m",
         ),
-        ({"tool_joint_diameter": "9 in"}, "must be below the hole's diameter of 0.2159 m: the section does not fit"),
+        (
+            {"tool_joint_diameter": "9 in"},
+            "string 1 (5 in 19.5 lb/ft drill pipe).tool_joint_diameter = '9 in': must be below the hole's diameter of "
+            "0.2159 m (8.5 in): the section does not fit",
+        ),
     ],
 )
 def test_what_tool_joints_cannot_be_is_named(changes: dict[str, Any], words: str) -> None:

@@ -105,4 +105,4 @@ def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePa
     what = f"must be below the hole's diameter of {part.diameter:g} m: the section does not fit"
     if of_hole != WHOLE:
         what = f"must be below the diameter of {of_hole} of {part.diameter:g} m: the section does not fit"
-    raise InputError(f"{of_rod}.outer_diameter", outer, what)
+    raise InputError(member.diameter_key, f"{outer:.6g} m", what)

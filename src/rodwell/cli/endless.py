@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rodwell.cli.endless_joints import show_joints
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import print_listing, wrapped
 from rodwell.cli.options import check_missed, json_option, print_json
@@ -49,19 +50,34 @@ HEAD = "Endless rod kept on the wall; β = P/√(Bq/D), compression P positive; 
     "--beta", type=float, help="Load β = P/√(Bq/D), compression positive.  [default: the loads of all states]"
 )
 @click.option("--slope", type=float, default=0.0, show_default=True, help="ε = ∜(qD³/B); 0 for small slopes.")
+@click.option(
+    "--joint",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="CASE.toml",
+    help="A case of one joint of a string on tool joints: the critical load of an endless string of them.",
+)
 @keep_options("contact forces over β")
 @json_option
-def endless(beta: float | None, slope: float, as_json: bool, **given: Any) -> None:
+def endless(beta: float | None, slope: float, joint: str | None, as_json: bool, **given: Any) -> None:
     """States of a rod far from its ends on the wall of a hole.
 
     P is compression, B the bending stiffness, D the distance of the axes, and q the normal load per length: lateral
     weight and the curvature of the hole together. With --beta the sinusoidal and the helical state at that load;
-    without, the loads at which states begin, lift off and end.
+    without, the loads at which states begin, lift off and end. With --joint the critical load of an endless string of
+    equal joints that lies on its tool joints.
     """
     from rodwell.analysis.endless.endless import endless as solve  # noqa: PLC0415
     from rodwell.errors import InputError  # noqa: PLC0415
 
     where = take_keep(given)
+    if joint is not None:
+        others = {"--beta": beta, "--slope": slope or None, "--figure": where.figure, "--out": where.out}
+        for name, value in others.items():
+            if value is not None:
+                what = "does not go with --joint, which takes a case alone; --json writes its numbers"
+                raise InputError(name, value, what)
+        show_joints(joint, as_json)
+        return
     try:
         result = solve(beta, slope)
     except InputError as error:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
-from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.off_wall.state import ContactState, PointForce
 from rodwell.analysis.path.bridged import farthest
 from rodwell.analysis.path.events import CRITICAL, LOADING, PathPoint
 from rodwell.analysis.path.follow import load_path
@@ -15,9 +16,13 @@ from rodwell.answers.result.beyond import PATIENCE, StateBeyond
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
 from rodwell.errors import RodwellError
+from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.quantities.value import Value
 from rodwell.strength.off_wall import RodOffWall
 from rodwell.strength.section import RodSection, StringSections, rod_section
+
+PART_OF_HOLE, TOOL_JOINT, THICKER = "narrower part of the hole", "tool joint", "thicker section of the string"
+"""What may have the edge that a string touches at a step of its clearance."""
 
 SAME = 1e-9
 """Relative distance from the buckling load within which a load counts as at it, not below."""
@@ -56,6 +61,33 @@ class Bridged:
     def converged(self) -> bool:
         """Whether every load meets the tolerance."""
         return not self.missed
+
+    def edge_of(self, place: float) -> str:
+        """What has the edge that the string touches at a place, s/L, of a step."""
+        pairs = self.case.pairs
+        below, above = min(pairwise(pairs), key=lambda two: abs(two[1].start - place))
+        narrow = below if below.clearance < above.clearance else above
+        if below.member is above.member or narrow.member is None:
+            return PART_OF_HOLE
+        if narrow.member.tool_joint:
+            return TOOL_JOINT
+        return THICKER if below.part is above.part else PART_OF_HOLE
+
+    @property
+    def edges(self) -> tuple[PointForce, ...]:
+        """Edges that it touches without compression, from s = 0."""
+        return tuple(point for point in self.alone.state.point_forces if point.kind == "edge")
+
+    @property
+    def levered(self) -> tuple[PointForce, ...]:
+        """Of these the ones that are the first contact beside an end that holds the slope: the end levers there."""
+        state = self.alone.state
+        places = [point.s.value for point in state.point_forces]
+        places += [place.value for contact in state.contacts for place in (contact.start, contact.end)]
+        held = [end not in OFF_WALL_ENDS for end in self.case.problem.ends]
+        first = {place for place, holds in zip((min(places, default=0.0), max(places, default=1.0)), held, strict=True)
+                 if holds}  # fmt: skip
+        return tuple(point for point in self.edges if point.s.value in first)
 
     def share(self, load: AppliedLoad) -> float | None:
         """Compression at s = 1 over that at which the string buckles, from where it is stretched everywhere."""

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
+from rodwell.analysis.off_wall.state import PointForce
 from rodwell.answers.result.beyond import StateBeyond
-from rodwell.answers.result.bridged import Bridged
+from rodwell.answers.result.bridged import PART_OF_HOLE, THICKER, TOOL_JOINT, Bridged
 from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
-from rodwell.answers.words.wording import forces_of, size_text
+from rodwell.answers.words.wording import forces_of, place_text, size_text
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 
 LIMITS = (
-    "Computed is how the string lies in the vertical plane, over the edges of the narrower parts, and the load at "
-    "which it buckles sideways. Not computed where the clearance has steps: what becomes of it after it has buckled, "
+    "Computed is how the string lies in the vertical plane, over the edges at its steps, and the load at which it "
+    "buckles sideways. Not computed where the clearance has steps: what becomes of it after it has buckled, "
     "its way back, friction, torque, and formulas of practice beside it.",
     "A step is taken at its place along the rod; quasi-static, frictionless, hard walls.",
 )
@@ -53,15 +56,34 @@ def verdict(found: Bridged) -> str:
 
 
 def _lies(found: Bridged) -> list[str]:
-    """Edges that it touches, with their forces, without compression."""
-    case, state = found.case, found.alone.state
-    edges = [point for point in state.point_forces if point.kind == "edge"]
+    """Edges that it touches without compression: how many, of what, and the largest force on one."""
+    edges, levered = found.edges, found.levered
     if not edges:
         return []
-    shown = ", ".join(f"{size_text(case.scales, point.force)} at s/L = {amount(point.s, 4)}" for point in edges)
-    one = len(edges) == 1
-    return [f"Where nothing is compressed it rests on {'the edge' if one else f'{len(edges)} edges'} of the narrower "
-            f"part{'' if one else 's'} of the hole with {shown}."]  # fmt: skip
+    kinds = Counter(found.edge_of(point.s.value) for point in edges)
+    rests = " and ".join(_edges(kind, number) for kind, number in kinds.items())
+    free = [point for point in edges if point not in levered]
+    largest, rest = max(edges, key=_force), max(free, key=_force, default=None)
+    said = f"{'with' if len(edges) == 1 else 'with at most'} {_force_at(found, largest)}"
+    if largest in levered:
+        said += ". That edge is next to an end that holds the string's slope: the end levers against it, and part of "
+        said += "the force is the couple of the end, not weight"
+        said += "" if rest is None else f"; on all other edges there are at most {_force_at(found, rest)}"
+    return [f"Where nothing is compressed it rests on {rests} {said}."]
+
+
+def _edges(kind: str, number: int) -> str:
+    """So many edges of a kind."""
+    several = {PART_OF_HOLE: "narrower parts of the hole", TOOL_JOINT: "tool joints", THICKER: "thicker sections"}
+    return f"the edge of a {kind}" if number == 1 else f"{number} edges of {several[kind]}"
+
+
+def _force(point: PointForce) -> float:
+    return point.force.value
+
+
+def _force_at(found: Bridged, point: PointForce) -> str:
+    return f"{size_text(found.case.scales, point.force)}, {place_text(found.case, point.s)}"
 
 
 def _under(found: Bridged, number: int) -> str:

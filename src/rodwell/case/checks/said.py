@@ -67,7 +67,14 @@ def _as_written(data: Mapping[str, Any], field: str, value: object) -> object:
 def in_users_words(data: Mapping[str, Any], error: InputError) -> tuple[str, object, str]:
     """Key, value as it was written, and reason in the units that were written."""
     value = _as_written(data, error.field, error.value)
-    return error.field, value, in_written_units(error.reason, value)
+    written = _a_length(data) if value is None and error.field == "hole.section" else value
+    return error.field, value, in_written_units(error.reason, written)
+
+
+def _a_length(data: Mapping[str, Any]) -> object:
+    """A length of the sections of the hole as it was written: an error of all of them is told in its unit."""
+    first = data["hole"]["section"][0]
+    return next((first[key] for key in ("length", "to", "from") if key in first), None)
 
 
 def gauge_facts(data: Mapping[str, Any]) -> tuple[Fact, ...]:

@@ -16,6 +16,8 @@ SAME_LENGTH = 1e-6
 """Relative difference of lengths that counts as none: feet become metres by rounding."""
 
 
+UPWARDS = "; these go from the bottom up, as [[string]] does: turn their order round"
+
 WHOLE = "hole"
 """How a hole without sections is called in messages."""
 
@@ -112,7 +114,7 @@ def _by_length(given: Sequence[HoleSectionInput], length: float) -> list[float]:
         lengths.append(one.length)
     total = sum(lengths)
     if abs(total - length) > SAME_LENGTH * length:
-        shown = " + ".join(f"{one:.6g}" for one in lengths)
+        shown = " + ".join(f"{one:.6g} m" for one in lengths)
         raise InputError(
             "hole.section", None, f"has lengths {shown} = {total:.6g} m, and the rod is {length:.6g} m long: give its "
             "parts as far as the rod lies in them",
@@ -130,19 +132,22 @@ def _by_depth(given: Sequence[HoleSectionInput], hole: Hole, length: float) -> l
                              "or the other, in all of them")  # fmt: skip
         if one.from_ is not None and abs(one.from_ - depths[-1]) > SAME_LENGTH * length:
             what = f"is not where the section above ends, {depths[-1]:.6g} m: sections go from the top down, without "
-            raise InputError(f"{key}.from", one.from_, what + "gap or overlap")
+            raise InputError(
+                f"{key}.from", one.from_, f"{what}gap or overlap{UPWARDS if one.from_ < depths[-2] else ''}"
+            )
         if one.to is None:
             raise InputError(f"{key}.to", None, "is missing: give the measured depth where the section ends")
         if one.to <= depths[-1]:
-            raise InputError(f"{key}.to", one.to, f"must be below where the section begins, {depths[-1]:.6g} m")
+            what = f"must be below where the section begins, {depths[-1]:.6g} m{UPWARDS if number > 1 else ''}"
+            raise InputError(f"{key}.to", one.to, what)
         depths.append(one.to)
     top = depths[0]
     if hole.from_ is not None or hole.to is not None:
         top, _ = depths_of(hole, length, depths[-1])
     if top < depths[0] - SAME_LENGTH * length or top + length > depths[-1] + SAME_LENGTH * length:
         raise InputError(
-            "hole.section", None, f"goes from {depths[0]:.6g} to {depths[-1]:.6g} m, and the rod lies from {top:.6g} "
-            f"to {top + length:.6g} m: a hole must be known all along its rod",
+            "hole.section", None, f"goes from {depths[0]:.6g} m to {depths[-1]:.6g} m, and the rod lies from "
+            f"{top:.6g} m to {top + length:.6g} m: a hole must be known all along its rod",
         )  # fmt: skip
     places = [min(max(1.0 - (depth - top) / length, 0.0), 1.0) for depth in depths]
     return [1.0, *(0.0 if place < SAME_LENGTH else 1.0 if place > 1.0 - SAME_LENGTH else place

@@ -29,7 +29,7 @@ class Member:
     """A section of a string: its name, the rod that it is in SI units, and its weight in the fluids in N/m.
 
     ``number`` is that of its [[string]] from the bottom, from 1, ``place`` its own among all members, from 0: a section
-    with tool joints has a member for each body and each tool joint.
+    with tool joints has a member for each body and each tool joint, which ``tool_joint`` tells apart.
     """
 
     number: int
@@ -37,11 +37,18 @@ class Member:
     name: str
     rod: PhysicalRod
     weight: float
+    tool_joint: bool = False
 
     @property
     def key(self) -> str:
         """How the section is called in messages: its number from the bottom, and its name."""
         return called(self.number, self.name)
+
+    @property
+    def diameter_key(self) -> str:
+        """The key that has its outer diameter."""
+        own = called(self.number, self.name.removesuffix(TOOL_JOINT)) if self.tool_joint else self.key
+        return f"{own}.{'tool_joint_diameter' if self.tool_joint else 'outer_diameter'}"
 
     @property
     def torsional_stiffness(self) -> float:
@@ -160,7 +167,7 @@ def string_of(
         with _as_section(number, name):
             made, fluids = _made_up(one, hole.gravity, mud, pressure, catalogue)
             members += [
-                Member(number, place, f"{name}{what}", rod, weight)
+                Member(number, place, f"{name}{what}", rod, weight, what == TOOL_JOINT)
                 for place, (what, rod, weight) in enumerate(made, len(members))
             ]
     if fluids is None:

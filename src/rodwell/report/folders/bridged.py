@@ -16,6 +16,6 @@ def write_bridged(found: Bridged, out: str | Path, *, with_pdf: bool = False) ->
     shown = found.alone if found.buckling is None else found.buckling[1]
     return write_single(
         found.case, out, bridged_report(found),
-        picture=(PICTURE, lambda: plot_bridging(shown.state, scales=found.case.scales).figure),
+        picture=(PICTURE, lambda: plot_bridging(shown.state, scales=found.case.scales, pairs=found.case.pairs).figure),
         table=("contact", contact_table(found)), data=("answer", bridged_dict(found)), with_pdf=with_pdf,
     )  # fmt: skip

@@ -5,17 +5,19 @@ from __future__ import annotations
 import datetime
 
 from rodwell._version import __version__
+from rodwell.analysis.off_wall.state import PointForce
 from rodwell.answers.result.beyond import StateBeyond
 from rodwell.answers.result.bridged import Bridged
 from rodwell.answers.words.bridged import bridged_sentences, bridged_statuses, limits
 from rodwell.answers.words.wording import forces_of, quantity, size_text
+from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.texts import conversions, derived, inputs
 
 PICTURE = "bridging"
 """Name of the picture."""
 
-KINDS = {"point": "point of contact", "end": "end of a stretch in contact", "edge": "edge of a narrower part"}
+KINDS = {"point": "point of contact", "end": "end of a stretch in contact"}
 
 
 def bridged_report(found: Bridged) -> Report:
@@ -47,12 +49,10 @@ def _numbers(found: Bridged) -> tuple[Number, ...]:
     if found.buckling is not None:
         out.append(Number(f"Buckling load{forces_of(case).at_end}", forces_of(case).size(found.buckling[0].force),
                           note="sideways, out of the vertical plane"))  # fmt: skip
-    largest = max((point for point in found.alone.state.point_forces if point.kind == "edge"),
-                  key=lambda point: point.force.value, default=None)  # fmt: skip
+    largest = max(found.edges, key=lambda point: point.force.value, default=None)
     if largest is not None:
-        out.append(
-            Number("Largest force on an edge", size_text(case.scales, largest.force), note="without compression")
-        )
+        note = "without compression" + (", levered by the end beside it" if largest in found.levered else "")
+        out.append(Number("Largest force on an edge", size_text(case.scales, largest.force), note=note))
     for _, one in found.applied:
         if isinstance(one, str) or one.stress is None or case.scales is None:
             continue
@@ -66,9 +66,8 @@ def _picture(found: Bridged) -> Picture:
     return Picture(
         PICTURE,
         f"The string in its hole, seen from the side, {when}",
-        f"The string {when}, seen from the side: where its axis would be in touch with the lower side of the hole "
-        "(grey), the axis (blue), stretches in contact (black) and point forces (red). Height is drawn much larger "
-        "than length.",
+        f"The string {when}, seen from the side: the lower side of the hole (grey) and of the string (blue), stretches "
+        "in contact (black) and point forces (red). Height is drawn much larger than length.",
     )
 
 
@@ -85,11 +84,23 @@ def _contact(found: Bridged) -> tuple[Words | Grid, ...]:
 
 def _grid(found: Bridged, one: StateBeyond) -> Grid:
     scales, clearance = found.case.scales, found.case.problem.clearance
-    rows = [(f"{contact.start.value:.6f}", f"{contact.end.value:.6f}", "stretch in contact",
-             size_text(scales, contact.force)) for contact in one.state.contacts]  # fmt: skip
-    rows += [(f"{point.s.value:.6f}", "", KINDS[point.kind], size_text(scales, point.force))
-             for point in one.state.point_forces]  # fmt: skip
-    rows += [(f"{gap.start.value:.6f}", f"{gap.end.value:.6f}", "gap",
-              f"up to {size_text(scales, gap.largest.times(clearance), 'length', 'L')}, at s/L = {gap.at:.4f}")
+
+    def place(s: Value) -> str:
+        return size_text(scales, s, "length", "L")
+
+    rows: list[tuple[Value, Value | None, str, str]] = [
+        (contact.start, contact.end, "stretch in contact", size_text(scales, contact.force))
+        for contact in one.state.contacts
+    ]
+    rows += [(point.s, None, _kind(found, point), size_text(scales, point.force)) for point in one.state.point_forces]
+    rows += [(gap.start, gap.end, "gap",
+              f"up to {size_text(scales, gap.largest.times(clearance), 'length', 'L')}, at {place(Value(gap.at))}")
              for gap in one.state.gaps]  # fmt: skip
-    return Grid(("from s/L", "to s/L", "what", "force, or width"), tuple(sorted(rows)), numeric=(0, 1, 3))
+    rows.sort(key=lambda row: (row[0].value, row[1] is not None))
+    shown = tuple((place(start), "" if end is None else place(end), *rest) for start, end, *rest in rows)
+    return Grid(("from", "to, from the end s = 0", "what", "force, or width"), shown, numeric=(0, 1, 3))
+
+
+def _kind(found: Bridged, point: PointForce) -> str:
+    """What a point force is, in words."""
+    return KINDS.get(point.kind) or f"edge of a {found.edge_of(point.s.value)}"

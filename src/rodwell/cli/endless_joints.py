@@ -1,0 +1,53 @@
+"""``rodwell endless --joint``: the endless string of equal joints on its tool joints."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from rodwell.cli.listing import wrapped
+from rodwell.cli.options import print_json
+from rodwell.quantities.text import amount, plain
+from rodwell.quantities.value import Value
+
+if TYPE_CHECKING:
+    from rodwell.case.case import Case
+
+NEARLY = 1e-6
+"""How far from π, in radians, a phase counts as π."""
+
+
+def show_joints(file: str, as_json: bool) -> None:
+    """Print the critical load of an endless string of the joint of a case, or all numbers as JSON."""
+    from rodwell.analysis.endless.jointed import jointed_string  # noqa: PLC0415
+    from rodwell.case.case import Case  # noqa: PLC0415
+
+    case = Case.read(file)
+    found = jointed_string(case.problem)
+    scales = case.scales
+    if as_json:
+        si = {} if scales is None else {"load_si": scales.si(found.load, "force")}
+        print_json({"title": case.title, **found.as_dict(), **si})
+    else:
+        sag, room = (_size(case, number, "length", "L") for number in (found.sag, found.room))
+        waves = "neighbouring bodies bow to opposite sides"
+        if math.pi - found.phase > NEARLY:
+            waves = f"in waves of {plain(2.0 * math.pi / found.phase, 3)} joints"
+        wrapped(f"{case.title}: an endless string of such joints, lying on its tool joints.")
+        wrapped(f"It buckles sideways at {_load(case, found.load.times(-1.0))} of axial compression, {waves}.")
+        wrapped(
+            f"Each of the two edges of a tool joint bears {_size(case, found.edge_force)}; the body hangs {sag} below "
+            f"its ends there, and would touch the wall at {room}."
+        )
+        wrapped(
+            f"With the weight spread along the tool joints' clearance it would be {_size(case, -found.spread)}: that "
+            "is no bound. Frictionless, small slopes; the axial force is taken as constant over some joints."
+        )
+
+
+def _load(case: Case, load: Value) -> str:
+    return f"{amount(load, 6)} B/L²" if case.scales is None else case.scales.amount(load, "force", 6)
+
+
+def _size(case: Case, value: float, dimension: str = "force", unit: str = "B/L²") -> str:
+    return f"{plain(value, 4)} {unit}" if case.scales is None else case.scales.text(value, dimension)
