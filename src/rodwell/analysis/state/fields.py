@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -200,8 +200,18 @@ def gauss_calculus() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
 
 def largest(problem: Problem, family: Family, state: State, name: str) -> tuple[float, float]:
     """Largest size of a field and its place."""
-    balance = name == "tangential_balance"
-    return largest_of(lambda s: np.abs(fields_at(problem, family, state, s, balance=balance)[name]), state.space)
+    size = partial(_field_at, problem, family, state, name)
+    return largest_of(lambda s: np.abs(size(s)), state.space)
+
+
+def _field_at(problem: Problem, family: Family, state: State, name: str, s: FloatArray) -> FloatArray:
+    """One field at ``s`` (m,): what follows from y and its derivatives alone needs none of the integrals of others."""
+    if problem.hole is None and name in ("contact_pressure", "xi2"):
+        u, parameters = shape(family, state, s, 4), family.parameters(state.lam)
+        if name == "contact_pressure":
+            return pressure_at(problem.rod, parameters, s, u)
+        return np.asarray(u[0] / parameters[CLEARANCE] + (np.pi if problem.on_top else 0.0))
+    return fields_at(problem, family, state, s, balance=name == "tangential_balance")[name]
 
 
 def largest_of(
