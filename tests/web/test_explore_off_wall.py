@@ -84,6 +84,8 @@ def test_events_are_shown_as_they_were_located(engine: Engine, data: dict[str, A
     assert found["note"].startswith("A gap opens: the load is known to ±")
     with pytest.raises(InputError, match="has no more"):
         ask(engine, "state", load=120.0, branch=BEYOND, special=99)
+    with pytest.raises(InputError, match="must be the number of a snap"):
+        ask(engine, "snap", branch=BEYOND, special=number)
 
 
 def test_details_files_and_what_is_copied(engine: Engine, capsys: pytest.CaptureFixture[str]) -> None:

@@ -305,6 +305,26 @@ def test_beyond_lift_off(page: Any) -> None:
     assert page.evaluate("window.__rodwell.values").keys() >= {"largest_gap", "largest_point_force", "contact_total"}
     assert "partial contact, 3 gaps" in page.inner_text("#headline")
     assert "path=followed" in page.url
+    field = page.get_by_label("end compression −F at s = 1", exact=True)
+    before = updates(page)
+    field.fill("150")  # past the snap: drawn between its two states, without a number
+    field.press("Enter")
+    until(page, "!document.getElementById('snapping').hidden")
+    assert "without inertia" in page.inner_text("#snapping")
+    assert page.evaluate("[window.__rodwell.values, window.__rodwell.ready]") == [None, False]
+    assert page.inner_text("#now") == "…"
+    assert not re.search(r"\d", page.inner_text("#values tbody").replace("s = 1", ""))
+    assert page.evaluate("window.__rodwell.widest()") <= 1.001
+    moved(page, before)
+    assert "helix of 1 turn" in page.inner_text("#headline")
+    go(page, "#load=140&path=followed")
+    page.emulate_media(reduced_motion="reduce")
+    before = updates(page)
+    field.fill("150")
+    field.press("Enter")
+    until(page, f"!document.getElementById('snapping').hidden || window.__rodwell.updates > {before}")
+    assert page.locator("#snapping").is_hidden()
+    page.emulate_media(reduced_motion="no-preference")
     before = updates(page)
     page.locator("[data-branch='load path, unloading']").focus()
     page.keyboard.press("Enter")

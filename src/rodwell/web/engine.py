@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.analysis.path.events import LOADING
+from rodwell.analysis.path.events import LOADING, SNAP
 from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit
 from rodwell.report.reports.texts import KINDS as LABELS
 from rodwell.web import files, off_wall, state, words
+from rodwell.web.diagram import plain
 from rodwell.web.explored import STRAIGHT, Explored, explore, newtons
 from rodwell.web.inputs import DEFAULT, ENDS, MOST_MODES, controls, moved
 
@@ -89,7 +90,7 @@ class Engine:
         """
         kinds = {
             "diagram": self._diagram, "path": self._path, "state": self._state, "verdict": self._verdict,
-            "details": self._details, "copy": self._copy, "file": self._file,
+            "details": self._details, "copy": self._copy, "file": self._file, "snap": self._snap,
         }  # fmt: skip
         kind = request.get("kind")
         if kind not in kinds:
@@ -124,7 +125,7 @@ class Engine:
                 self._unit = so_far.kept_unit
             check()
             if send is not None and not last:
-                send({"kind": "diagram", "diagram": so_far.plain(), "whole": False})
+                send({"kind": "diagram", "diagram": plain(so_far), "whole": False})
 
         found = explore(data, case, _seldom(self._teller(send, check), check), reached, self._unit)
         self._known[key] = found
@@ -170,11 +171,11 @@ class Engine:
 
     def _diagram(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         found = self.explored(request, check, send)
-        send({"kind": "diagram", "diagram": found.plain(), "whole": True, "last": True})
+        send({"kind": "diagram", "diagram": plain(found), "whole": True, "last": True})
 
     def _path(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         found = self.explored({**request, "path": True}, check, send)
-        send({"kind": "path", "diagram": found.plain(), "whole": True, "last": True})
+        send({"kind": "path", "diagram": plain(found), "whole": True, "last": True})
 
     def _found(self, request: Request, check: Callable[[], None]) -> tuple[Explored, state.Shown, str, int, int, str]:
         """The state that is asked for, its branch, which of how many, and what is to be said of the choice."""
@@ -238,6 +239,23 @@ class Engine:
         found, solution, name, which, count, note = self._found(request, check)
         shown = state.plain_state(found, solution, name, which, count, known=bool(request.get("known")))
         send({"kind": "state", "state": shown | {"note": note, "asked": request["load"]}, "last": True})
+
+    def _snap(self, request: Request, send: Send, check: Callable[[], None]) -> None:
+        """The rod before and after a snap of the load path, to be drawn."""
+        found = self.explored(request, check)
+        name, number = str(request.get("branch")), request.get("special")
+        path = found.path
+        events = [] if path is None else off_wall.events_of(path, name)
+        snaps = {i: event for i, event in enumerate(events) if event.kind == SNAP}
+        if path is None or not isinstance(number, int) or isinstance(number, bool) or number not in snaps:
+            raise InputError("special", number, f"must be the number of a snap of {name}")
+        event = snaps[number]
+        assert event.state is not None
+        before: Any = off_wall.before_snap(path, event)
+        if before is None:
+            (before,) = state.states_of(found, STRAIGHT, event.force.value)
+        scenes = [state.seen_of(found, shown).data for shown in (before, event.state.fine)]
+        send({"kind": "snap", "scenes": scenes, "last": True})
 
     def _verdict(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         found = self.explored(request, check)

@@ -1,4 +1,4 @@
-"""What is computed for a set of inputs: critical loads, branches and what leaves them; as plain data for the page."""
+"""What is computed for a set of inputs: critical loads, branches and what leaves them."""
 
 from __future__ import annotations
 
@@ -12,20 +12,17 @@ import numpy as np
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Exploration, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
-from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.path.events import Leg, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.lying import refuse_spatial
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.ordinates import ORDINATES, telling
+from rodwell.plots.ordinates import ORDINATES
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
-from rodwell.report.reports.texts import KINDS
 from rodwell.web import off_wall
 
 STRAIGHT = "straight"
@@ -131,41 +128,6 @@ class Explored:
         end = self.computed.first.force.min() if lift is None or lift.force == buckles else lift.force
         return float(f"{self.shown(buckles + 0.6 * (float(end) - buckles)):.4g}")
 
-    def plain(self) -> dict[str, Any]:
-        """Return the diagram as plain data: loads as shown, ordinates in units that suit them."""
-        factors = self.factors
-        named = [{"name": name, "label": label, "unit": factors[w][1]} for w, (name, label) in ORDINATES.items()]
-        chosen = telling(self.branches, self.case.scales)
-        lift, low_high = self.computed.lift_off_load, self.range
-        return {
-            "title": self.case.title,
-            "axis": {"label": self.forces.axis, "unit": self.load_unit[1], "end": self.forces.at_end},
-            "convention": self.forces.convention,
-            "ordinates": named,
-            "ordinate": ORDINATES[chosen][0],
-            "range": low_high,
-            "suggested": self.suggested,
-            "buckles": self.load_data(self.computed.buckling),
-            "lifts_off": None if lift is None else self.load_data(lift),
-            "straight": self._straight(),
-            "branches": [
-                *(self._branch(branch) for branch in self.branches),
-                *([] if self.path is None else [self._leg(self.path, leg) for leg in self.path.legs if any(leg.runs)]),
-            ],
-            "snaps_at": self._snap(),
-            "unexplored": list(self.unexplored),
-            "rtol": self.case.rtol,
-        }
-
-    def _snap(self) -> dict[str, Any]:
-        """Where the rod snaps first as the load grows, or what is known instead, in words."""
-        if self.path is None:
-            return {"text": self.no_path, "load": None}
-        snap = off_wall.snaps_at(self.path)
-        if snap is not None:
-            return self.load_data(snap.force) | {"to": snap.meaning}
-        return {"text": f"not up to {self.load_data(Value(off_wall.farthest(self.path)))['text']}", "load": None}
-
     def load_data(self, load: Value) -> dict[str, Any]:
         """A load as shown, in B/L², and in words: compression or tension by that word, or with its sign."""
         compression = self.forces.compression(load)
@@ -177,105 +139,10 @@ class Explored:
             "text": text if self.case.scales is None else self.forces.load(load),
         }
 
-    def _straight(self) -> dict[str, Any]:
-        """The straight rod: where it meets its modes."""
-        met = [self.load_data(mode.load) | {"mode": mode.number} for mode in self.computed.critical]
-        return {"name": STRAIGHT, "critical": met, "buckles": self.shown(self.computed.buckling.value)}
-
-    def _branch(self, branch: Branch) -> dict[str, Any]:
-        """A branch as a line of vertices: its points, with the special points between them."""
-        states: list[tuple[float, Mapping[Measured, float], int, SpecialPoint | None]] = []
-        numbers = {which: branch.numbers(which) for which in Measured}
-        for i, force in enumerate(branch.force):
-            at = {which: float(numbers[which][i]) for which in Measured}
-            states.append((float(force), at, int(branch.stability_index[i]), None))
-            for point in (p for p in branch.special_points if p.after == i and p.kind not in ("critical", "end")):
-                here = {which: float(point.solution.number(which).value) for which in Measured}
-                states.append((point.force, here, point.index_after, point))
-        lines = _columns([self.ordinates(at) for _, at, _, _ in states])
-        columns = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
-        images = []
-        for image in branch.images[1:]:
-            turned = image.numbers(columns)
-            images.append(_columns([self.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
-        return {
-            "name": branch.name,
-            "mode": branch.mode.number if branch.mode else None,
-            "parent": branch.origin.parent,
-            "load": [self.shown(force) for force, *_ in states],
-            "y": lines,
-            "images": images,
-            "index": [index for _, _, index, _ in states],
-            "off": beyond_lift_off(branch, states),
-            "special": [self._special(branch, point) for point in branch.special_points],
-            "ended": branch.ending,
-            "reached": branch.reached_end,
-            "converged": all(s.accurate for s in branch),
-        }
-
-    def _leg(self, path: LoadPath, leg: Leg) -> dict[str, Any]:
-        """A leg of the load path as a branch; ``breaks`` are vertices to which a snap leads."""
-        runs, name = [run for run in leg.runs if run], off_wall.LEGS[leg.name]
-        states = [state for run in runs for state in run]
-        return {
-            "name": name,
-            "mode": None,
-            "parent": "",
-            "load": [self.shown(state.load) for state in states],
-            "y": _columns([self.ordinates(off_wall.ordinates(state)) for state in states]),
-            "images": [],
-            "index": [state.solved.index for state in states],
-            "off": [False] * len(states),
-            "breaks": np.cumsum([len(run) for run in runs])[:-1].tolist(),
-            "special": [self._event(event) for event in off_wall.events_of(path, name)],
-            "ended": path.ended_because,
-            "reached": path.reached,
-            "converged": not path.missed,
-        }
-
-    def _event(self, event: PathPoint) -> dict[str, Any]:
-        assert event.state is not None
-        return self.load_data(event.force if event.to is None else event.to.force) | {
-            "kind": event.kind,
-            "label": event.meaning,
-            "y": self.ordinates(off_wall.ordinates(event.state.fine)),
-            "index_before": None,
-            "index_after": event.state.stability_index,
-            "s": list(event.s),
-            "converged": event.met,
-        }
-
-    def _special(self, branch: Branch, point: SpecialPoint) -> dict[str, Any]:
-        return self.load_data(point.load) | {
-            "kind": point.kind,
-            "label": KINDS[point.kind],
-            "y": self.ordinates({which: point.solution.number(which).value for which in Measured}),
-            "index_before": point.index_before,
-            "index_after": point.index_after,
-            "s": list(point.s),
-            "converged": branch.meets_tolerance(point),
-        }
-
 
 def newtons(case: Case) -> float:
     """B/L² in newtons; 1 for a dimensionless case."""
     return 1.0 if case.scales is None else case.scales.factor("force")
-
-
-def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
-    return {name: [row[name] for row in rows] for name in rows[0]}
-
-
-def beyond_lift_off(branch: Branch, states: list[Any]) -> list[bool]:
-    """Whether the wall would have to pull beyond each vertex, in the order of travel."""
-    first = states[0][1]
-    off = branch.lift_off_at_buckling or first[Measured.P_MAX] > NO_PULL * branch.problem.lateral_weight
-    out = []
-    for *_, point in states:
-        if point is not None and point.kind in ("lift_off", "touch_down"):
-            off = point.kind == "lift_off"
-        out.append(off)
-    return out
 
 
 def explore(

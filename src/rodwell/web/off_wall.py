@@ -21,6 +21,10 @@ LEGS = {LOADING: "load path", UNLOADING: "load path, unloading"}
 """Legs as branches of the page."""
 
 
+AT_SNAP = 1e-3
+"""Within this part of the load of a snap a run of states that ends there was followed to it."""
+
+
 def leg_of(name: str) -> str:
     """The leg that a branch of the page is."""
     return next(leg for leg, known in LEGS.items() if known == name)
@@ -53,6 +57,15 @@ def _straight(leg: Leg, force: float) -> bool:
 def events_of(path: LoadPath, name: str) -> list[PathPoint]:
     """The events of a leg that have a state of their own."""
     return [event for event in path.events if LEGS[event.leg] == name and event.state is not None]
+
+
+def before_snap(path: LoadPath, event: PathPoint) -> PatternedState | None:
+    """The state from which the rod snaps: the last of the run that ends there; None if it was straight."""
+    runs = [run for leg in path.legs if leg.name == event.leg for run in leg.runs if run]
+    last = min((run[-1] for run in runs), key=lambda state: abs(state.load - event.force.value), default=None)
+    if last is None or abs(last.load - event.force.value) > AT_SNAP * abs(event.force.value):
+        return None
+    return last
 
 
 def snaps_at(path: LoadPath) -> PathPoint | None:

@@ -13,6 +13,7 @@ import numpy as np
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.off_wall.certificate import LIMIT
+from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.space.scene import drawn
 from rodwell.errors import InputError, NotConvergedError
@@ -21,7 +22,7 @@ from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.text import number_text, plain
 from rodwell.quantities.value import Peak, Value
 from rodwell.report.pages.path import described
-from rodwell.report.pages.viewer import view
+from rodwell.report.pages.viewer import View, view
 from rodwell.report.reports.texts import PLAIN_UNITS
 from rodwell.web import off_wall
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
@@ -86,9 +87,7 @@ def plain_state(
     known
         Whether the page knows the triangles of the scene from a state before: they are left out then.
     """
-    scales = explored.case.scales
-    shown = solution.fine if isinstance(solution, ContactState) else solution
-    seen = view(shown, scales, drawn(shown, scales, PLACES), SIDES, readings=False)
+    seen = seen_of(explored, solution.fine if isinstance(solution, ContactState) else solution)
     for part in seen.data["parts"] if known else ():
         if part["name"].startswith(KNOWN):
             del part["triangles"]
@@ -108,6 +107,12 @@ def plain_state(
         "scene": seen.data,
         "bar": seen.bar,
     }
+
+
+def seen_of(explored: Explored, solution: Solution | PatternedState) -> View:
+    """The rod in its hole in three dimensions."""
+    scales = explored.case.scales
+    return view(solution, scales, drawn(solution, scales, PLACES), SIDES, readings=False)
 
 
 def _on_the_wall(explored: Explored, solution: Solution, branch: str) -> dict[str, Any]:

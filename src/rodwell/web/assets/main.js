@@ -6,8 +6,10 @@ import { Diagram } from "./diagram.js";
 import { keys } from "./keys.js";
 import { Link } from "./link.js";
 import { Player } from "./play.js";
-import { clear } from "./stale.js";
-import { copy, pixels, save, saveBlob, showDetails, showNumbers, snapshot, standalone } from "./panel.js";
+import { showBar, showDetails, showLoads, showNumbers } from "./panel.js";
+import { Snaps } from "./snap.js";
+import { clear, noNumbers } from "./stale.js";
+import { Taking } from "./take.js";
 
 const $ = (id) => document.getElementById(id);
 const hooks = (window.__rodwell = { ready: false, state: null, updates: 0, values: null, times: [], drawn: () => 0, widest: () => 0 });
@@ -21,7 +23,7 @@ let known = false; // whether the viewer has the triangles of the scene
 let asked = 0; // when the newest load was asked for
 const controls = new Map();
 let load = null; // its control
-let settle = 0, stills = 0;
+let settle = 0;
 let unread = ""; // what is wrong with the address; it stands until something is moved
 
 const figure = new Diagram($("diagram"), (to) => go(chosen(to), true));
@@ -42,8 +44,9 @@ function heard(message) {
   else if (message.kind === "state") haveState(message);
   else if (message.kind === "verdict") haveVerdict(message);
   else if (message.kind === "details") showDetails(message.details);
-  else if (message.kind === "copy") copy(message.texts[copying], copying === "python" ? "script" : "command");
-  else if (message.kind === "file") haveFile(message);
+  else if (message.kind === "snap") snaps.play(message.scenes);
+  else if (message.kind === "copy") taking.haveCopy(message);
+  else if (message.kind === "file") taking.haveFile(message);
   else if (message.kind === "failed") failed(message);
 }
 
@@ -139,6 +142,7 @@ let withPath = false; // whether the diagram shown has the load path
 // Pictures turn pale, numbers go.
 function stale() {
   clear();
+  snaps.stop();
   hooks.ready = false;
   hooks.values = null;
   shown = null;
@@ -159,18 +163,10 @@ function haveDiagram({ diagram: data, whole, of }) {
     state.load = data.suggested;
     history.replaceState(null, "", address.written(state, hello));
   }
-  $("ordinate").replaceChildren(...data.ordinates.map((each) => new Option(each.label, each.name)));
-  $("ordinate").value = state.y;
-  $("branch").replaceChildren(new Option("first, else straight", ""), new Option("straight", "straight"), ...data.branches.map((each) => new Option(each.name, each.name)));
-  $("branch").value = state.branch;
   load.range(data.range[0], data.range[1]);
   load.unit.textContent = data.axis.unit;
   document.querySelector("#load-control label").textContent = data.axis.label;
-  $("buckles").textContent = data.buckles.text;
-  $("lifts-off").textContent = data.lifts_off ? data.lifts_off.text : "not reached";
-  $("snaps").textContent = data.snaps_at.text || (state.path ? "…" : "not followed");
-  $("to-lift-off").disabled = !data.lifts_off;
-  $("convention").textContent = `${data.convention}.${data.unexplored.length ? ` Not explored: ${data.unexplored.join("; ")}.` : ""}`;
+  showLoads(data, state);
   figure.show(data, state.y, shown);
   if (whole || shown === null) askState();
   if (whole && state.path && !withPath) askPath();
@@ -185,10 +181,11 @@ function askState() {
     return;
   }
   asked = performance.now();
-  link.ask("state", { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special, known });
+  link.ask("state", { ...request(), known });
 }
 
 function haveState({ state: found }) {
+  if (snaps.holds(found, shown)) return; // shown once the rod has gone over
   shown = found;
   if (!load.slider.matches(":active")) load.set(state.load);
   load.field.value = String(Number(state.load.toPrecision(12)));
@@ -215,12 +212,10 @@ function haveState({ state: found }) {
 // The load stands still: what takes longer is asked for, and the address follows.
 function settled() {
   if (shown === null) return;
-  const request = { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special };
   // at a special point the line that says which one stays; verdicts are those of a rod on the wall
-  if (state.special === null && !shown.beyond) link.ask("verdict", request);
-  link.ask("details", request);
-  if (!rod) link.ask("file", { ...request, suffix: "png" });
-  stills = rod ? 0 : 1;
+  if (state.special === null && !shown.beyond) link.ask("verdict", request());
+  link.ask("details", request());
+  if (!rod) taking.picture();
   if (!load.slider.matches(":active") && !player.since) history.replaceState(null, "", address.written(state, hello));
 }
 
@@ -239,64 +234,40 @@ function scene(found) {
     rod.show({ ...found.scene, embedded: true });
   }
   known = Boolean(rod);
-  $("bar-first").textContent = found.bar.first;
-  $("bar-last").textContent = `${found.bar.last} ${found.bar.unit}`;
-  const stops = [...found.bar.gradient.matchAll(/(#[0-9a-f]{6}) ([\d.]+)%/g)];
-  $("bar-gradient").innerHTML = stops.map(([, colour, where]) => `<stop offset="${where}%" stop-color="${colour}"></stop>`).join("");
+  showBar(found.bar);
 }
 
-let copying = "python", saving = "";
 function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
-document.querySelectorAll("[data-copy]").forEach((button) => { button.onclick = () => { copying = button.dataset.copy; if (shown) link.ask("copy", request()); }; });
-document.querySelectorAll("[data-save]").forEach((button) => {
-  button.onclick = async () => {
-    if (!shown) return;
-    if (button.dataset.save === "page") saveBlob("rodwell.html", await snapshot({ ...state, values: hooks.values }, hello));
-    else { saving = button.dataset.save; link.ask("file", { ...request(), suffix: saving }); }
-  };
-});
-
-document.querySelectorAll("[data-diagram]").forEach((button) => {
-  button.onclick = async () => {
-    if (!shown) return; // its numbers are those of other inputs, or gone
-    const drawing = standalone(figure.at.svg), kind = button.dataset.diagram;
-    saveBlob(`diagram.${kind}`, kind === "svg" ? drawing : await pixels(drawing, figure.at.svg));
-  };
-});
-
-function haveFile({ suffix, type, content }) {
-  if (stills && suffix === "png" && saving !== "png") {
-    const still = document.querySelector("#rod .still");
-    still.src = `data:${type};base64,${content}`;
-    still.hidden = false;
-    return;
-  }
-  saving = "";
-  save(suffix === "toml" ? "case.toml" : `state.${suffix}`, type, content);
-}
+const taking = new Taking({ shown: () => shown, state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg });
 
 function failed(message) {
   $("busy").textContent = "";
   say(message.message);
   if (message.of === "path") link.newest.path = null;
+  if (message.of === "snap") return snaps.end();
   if (message.of === "state" || message.of === "diagram") {
     shown = null;
     hooks.values = null;
-    showNumbers(null);
     figure.point(null);
-    for (const id of ["now", "headline", "verdict"]) $(id).textContent = "…";
-    if (message.of === "state") document.querySelectorAll("#push text, #side text").forEach((text) => text.remove());
+    noNumbers();
   }
   hooks.ready = true;
   hooks.updates += 1;
 }
+
+// The rod snaps while the load moves: no number of a shape in between.
+const snaps = new Snaps($("snapping"), {
+  diagram: () => diagram, rod: () => rod, ask: (at) => link.ask("snap", { ...wanted(), ...at }),
+  blank: () => { hooks.ready = false; hooks.values = null; figure.point(null); noNumbers(); clearTimeout(settle); },
+  show: (found) => { shown = null; haveState({ state: found }); },
+});
 
 function say(text) {
   $("message").textContent = text;
   $("message").hidden = !text;
 }
 
-const player = new Player($("play"), { state: () => state, diagram: () => diagram, go });
+const player = new Player($("play"), { state: () => state, diagram: () => diagram, go, held: () => Boolean(snaps.pending) });
 const play = (on) => player.play(on);
 $("to-lift-off").onclick = () => {
   const b = diagram?.branches[0], k = b ? b.special.findIndex((p) => p.kind === "lift_off") : -1;

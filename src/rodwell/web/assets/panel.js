@@ -6,6 +6,7 @@ export function showNumbers(state) {
   const rows = state === null ? [] : Object.entries(state.values).map(([name, each]) => [name, each.label + (each.s === null || each.s === undefined ? "" : ` (s/L = ${each.s.toFixed(4)})`), each.text, each.error_text || "given"]);
   if (state === null) {
     document.querySelectorAll("#values tbody td").forEach((cell) => { cell.textContent = "…"; });
+    document.querySelectorAll("#values tbody th").forEach((cell) => { cell.textContent = cell.textContent.split(" (s/L")[0]; });
     $("certificate").textContent = "";
     return;
   }
@@ -23,6 +24,26 @@ export function showNumbers(state) {
     body.rows[i].cells[1].textContent = text;
     body.rows[i].cells[2].textContent = error === "given" ? error : `± ${error}`;
   });
+}
+
+// What stands in the head and in the lists of a diagram.
+export function showLoads(data, state) {
+  $("ordinate").replaceChildren(...data.ordinates.map((each) => new Option(each.label, each.name)));
+  $("ordinate").value = state.y;
+  $("branch").replaceChildren(new Option("first, else straight", ""), new Option("straight", "straight"), ...data.branches.map((each) => new Option(each.name, each.name)));
+  $("branch").value = state.branch;
+  $("buckles").textContent = data.buckles.text;
+  $("lifts-off").textContent = data.lifts_off ? data.lifts_off.text : "not reached";
+  $("snaps").textContent = data.snaps_at.text || (state.path ? "…" : "not followed");
+  $("to-lift-off").disabled = !data.lifts_off;
+  $("convention").textContent = `${data.convention}.${data.unexplored.length ? ` Not explored: ${data.unexplored.join("; ")}.` : ""}`;
+}
+
+export function showBar(bar) {
+  $("bar-first").textContent = bar.first;
+  $("bar-last").textContent = `${bar.last} ${bar.unit}`;
+  const stops = [...bar.gradient.matchAll(/(#[0-9a-f]{6}) ([\d.]+)%/g)];
+  $("bar-gradient").innerHTML = stops.map(([, colour, where]) => `<stop offset="${where}%" stop-color="${colour}"></stop>`).join("");
 }
 
 export function showDetails(details) {

@@ -3,7 +3,7 @@
 export class Player {
   constructor(button, page) {
     this.button = button;
-    this.page = page; // state(), diagram(), go(changes, done)
+    this.page = page; // state(), diagram(), go(changes, done), held()
     this.since = 0;
     button.onclick = () => this.turn();
   }
@@ -29,6 +29,7 @@ export class Player {
     let before = performance.now();
     const step = (now) => {
       if (!this.since) return;
+      if (this.page.held()) { before = now; requestAnimationFrame(step); return; } // the rod snaps: the load waits
       at += ((high - low) * Math.min(Math.max(now - before, 0), 200)) / 9000;
       before = now;
       const branch = state.branch === "straight" ? "" : state.branch;

@@ -7,10 +7,16 @@ const $ = (id) => document.getElementById(id);
 export function clear() {
   document.body.classList.add("updating");
   $("busy").textContent = "updating …";
-  for (const id of ["buckles", "lifts-off", "snaps", "now", "headline", "verdict"]) $(id).textContent = "…";
+  for (const id of ["buckles", "lifts-off", "snaps"]) $(id).textContent = "…";
+  noNumbers();
+  $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
+}
+
+// Nor what belongs to a state that is not shown.
+export function noNumbers() {
+  for (const id of ["now", "headline", "verdict"]) $(id).textContent = "…";
   showNumbers(null);
   document.querySelectorAll("#push text, #side text").forEach((text) => text.remove());
   for (const id of ["bar-first", "bar-last"]) $(id).textContent = "";
   $("cursor").textContent = "";
-  $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
 }

@@ -1,6 +1,6 @@
 // The rod in its cylinder, to be turned and zoomed. Needs THREE (three.min.js) and nothing from the network.
 // rodwellViewer(element, data): data as made by rodwell.report.viewer; returns false where the browser has no WebGL, else
-// an object whose show(data) takes another scene, mark(fraction) marks a place along the rod, and vertices() says where
+// an object whose show(data) takes another scene, between(one, other, t) draws a shape between two, mark(fraction) marks a place along the rod, and vertices() says where
 // the rod's vertices are across the axis, in wall radii.
 "use strict";
 
@@ -28,7 +28,10 @@ function rodwellViewer(element, data) {
   all.add(mark);
   const known = new Map(); // parts by name, kept from scene to scene
   let given = data; // as it came, where data is its true scale
-  let rest = []; // lines and arrow, made anew
+  let rest = []; // lines, made anew of one material: with the last of its kind goes its shader, which takes long to make
+  const ink = new THREE.LineBasicMaterial({ color: 0x627d98 });
+  const arrow = new THREE.ArrowHelper(new THREE.Vector3(0, -1, 0), new THREE.Vector3(), 0.09, 0x52606d, 0.03, 0.018);
+  groups.wall.add(arrow);
   let calm = 0, shownAt = -1e9; // when scenes have come to rest, and when the last one came
   let labels = [];
   function fill() {
@@ -41,14 +44,13 @@ function rodwellViewer(element, data) {
       known.set(part.name, mesh(part));
       groups[groupOf(part)].add(known.get(part.name));
     });
-    rest.forEach(discard);
-    rest = data.lines.map(curve);
+    rest.forEach((line) => { line.removeFromParent(); line.geometry.dispose(); });
+    rest = data.lines.map((line) => curve(line, ink));
     rest.forEach((line, i) => groups[data.lines[i].group].add(line));
-    const down = new THREE.Vector3(...data.gravity);
-    if (data.weight > 0) {
-      const arrow = new THREE.ArrowHelper(down, new THREE.Vector3(...data.arrow), 0.09, 0x52606d, 0.03, 0.018);
-      groups.wall.add(arrow);
-      rest.push(arrow);
+    arrow.visible = data.weight > 0;
+    if (arrow.visible) {
+      arrow.position.set(...data.arrow);
+      arrow.setDirection(new THREE.Vector3(...data.gravity));
     }
     labels.forEach(({ box }) => box.remove());
     labels = data.labels.map((label) => tag(stage, label));
@@ -178,15 +180,15 @@ function rodwellViewer(element, data) {
   if (trueScale) trueScale.onchange = () => { scaled(); draw(); };
   fit();
   home();
-  return { show, mark: markAt, vertices, drawn: () => renderer.info.render.frame };
+  return { show, between, mark: markAt, vertices, drawn: () => renderer.info.render.frame };
 
   // Many scenes after each other are drawn with fewer pixels, the last one with all.
   function show(other) {
     if (slow) {
-      if (renderer.getPixelRatio() === sharp && performance.now() - shownAt < 400) pixels(0.5 * sharp);
+      if (renderer.getPixelRatio() === sharp && performance.now() - shownAt < 1000) pixels(0.5 * sharp);
       shownAt = performance.now();
       clearTimeout(calm);
-      if (renderer.getPixelRatio() !== sharp) calm = setTimeout(() => { pixels(sharp); draw(); }, 250);
+      if (renderer.getPixelRatio() !== sharp) calm = setTimeout(() => { pixels(sharp); draw(); }, 1000);
     }
     const taller = Math.abs(other.height / data.height - 1) > 0.02;
     given = data = other;
@@ -194,6 +196,22 @@ function rodwellViewer(element, data) {
     scaled();
     if (taller) home();
     else draw();
+  }
+  // A shape between those of two scenes of the same rod, t from 0 to 1, in the colours that stand there: not computed.
+  function between(one, other, t) {
+    const parts = one.parts.filter((part) => /^(rod|material|cylinder)/.test(part.name)); // no contacts in between
+    if (t === 0) show({ ...one, parts, lines: one.lines.filter((line) => line.group === "wall") });
+    mark.visible = false;
+    for (const part of parts) {
+      const end = other.parts.find((each) => each.name === part.name), geometry = known.get(part.name).geometry;
+      const at = geometry.getAttribute("position"), from = positions(part), to = end ? positions(end) : from;
+      if (part.name === "cylinder" || from.length !== to.length || at.array.length !== from.length) continue;
+      for (let i = 0; i < from.length; i++) at.array[i] = from[i] + t * (to[i] - from[i]);
+      at.needsUpdate = true;
+      geometry.computeVertexNormals();
+      geometry.computeBoundingSphere();
+    }
+    draw();
   }
   // A place along the rod, 0 to 1: the middle of the rod's vertices there.
   function markAt(fraction) {
@@ -317,10 +335,10 @@ function colours(part) {
   return out;
 }
 
-function curve(line) {
+function curve(line, material) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(line.points.flat()), 3));
-  return new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: 0x627d98 }));
+  return new THREE.Line(geometry, material);
 }
 
 function light(scene) {

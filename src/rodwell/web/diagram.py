@@ -1,0 +1,162 @@
+"""The diagram of what was computed as plain data for the page: branches as lines, special points, loads in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.analysis.path.events import Leg, PathPoint
+from rodwell.analysis.path.load_path import LoadPath
+from rodwell.plots.ordinates import ORDINATES, telling
+from rodwell.quantities.value import Value
+from rodwell.report.reports.texts import KINDS
+from rodwell.web import off_wall
+from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
+
+
+def plain(explored: Explored) -> dict[str, Any]:
+    """Return the diagram as plain data: loads as shown, ordinates in units that suit them."""
+    factors = explored.factors
+    named = [{"name": name, "label": label, "unit": factors[w][1]} for w, (name, label) in ORDINATES.items()]
+    chosen = telling(explored.branches, explored.case.scales)
+    lift, low_high = explored.computed.lift_off_load, explored.range
+    return {
+        "title": explored.case.title,
+        "axis": {"label": explored.forces.axis, "unit": explored.load_unit[1], "end": explored.forces.at_end},
+        "convention": explored.forces.convention,
+        "ordinates": named,
+        "ordinate": ORDINATES[chosen][0],
+        "range": low_high,
+        "suggested": explored.suggested,
+        "buckles": explored.load_data(explored.computed.buckling),
+        "lifts_off": None if lift is None else explored.load_data(lift),
+        "straight": _straight(explored),
+        "branches": [
+            *(_branch(explored, branch) for branch in explored.branches),
+            *_legs(explored),
+        ],
+        "snaps_at": _snap(explored),
+        "unexplored": list(explored.unexplored),
+        "rtol": explored.case.rtol,
+    }
+
+
+def _legs(explored: Explored) -> list[dict[str, Any]]:
+    """The load path as branches."""
+    path = explored.path
+    return [] if path is None else [_leg(explored, path, leg) for leg in path.legs if any(leg.runs)]
+
+
+def _snap(explored: Explored) -> dict[str, Any]:
+    """Where the rod snaps first as the load grows, or what is known instead, in words."""
+    if explored.path is None:
+        return {"text": explored.no_path, "load": None}
+    snap = off_wall.snaps_at(explored.path)
+    if snap is not None:
+        return explored.load_data(snap.force) | {"to": snap.meaning}
+    return {"text": f"not up to {explored.load_data(Value(off_wall.farthest(explored.path)))['text']}", "load": None}
+
+
+def _straight(explored: Explored) -> dict[str, Any]:
+    """The straight rod: where it meets its modes."""
+    met = [explored.load_data(mode.load) | {"mode": mode.number} for mode in explored.computed.critical]
+    return {"name": STRAIGHT, "critical": met, "buckles": explored.shown(explored.computed.buckling.value)}
+
+
+def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
+    """A branch as a line of vertices: its points, with the special points between them."""
+    states: list[tuple[float, Mapping[Measured, float], int, SpecialPoint | None]] = []
+    numbers = {which: branch.numbers(which) for which in Measured}
+    for i, force in enumerate(branch.force):
+        at = {which: float(numbers[which][i]) for which in Measured}
+        states.append((float(force), at, int(branch.stability_index[i]), None))
+        for point in (p for p in branch.special_points if p.after == i and p.kind not in ("critical", "end")):
+            here = {which: float(point.solution.number(which).value) for which in Measured}
+            states.append((point.force, here, point.index_after, point))
+    lines = _columns([explored.ordinates(at) for _, at, _, _ in states])
+    columns = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
+    images = []
+    for image in branch.images[1:]:
+        turned = image.numbers(columns)
+        images.append(_columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
+    return {
+        "name": branch.name,
+        "mode": branch.mode.number if branch.mode else None,
+        "parent": branch.origin.parent,
+        "load": [explored.shown(force) for force, *_ in states],
+        "y": lines,
+        "images": images,
+        "index": [index for _, _, index, _ in states],
+        "off": beyond_lift_off(branch, states),
+        "special": [_special(explored, branch, point) for point in branch.special_points],
+        "ended": branch.ending,
+        "reached": branch.reached_end,
+        "converged": all(s.accurate for s in branch),
+    }
+
+
+def _leg(explored: Explored, path: LoadPath, leg: Leg) -> dict[str, Any]:
+    """A leg of the load path as a branch; ``breaks`` are vertices to which a snap leads."""
+    runs, name = [run for run in leg.runs if run], off_wall.LEGS[leg.name]
+    states = [state for run in runs for state in run]
+    return {
+        "name": name,
+        "mode": None,
+        "parent": "",
+        "load": [explored.shown(state.load) for state in states],
+        "y": _columns([explored.ordinates(off_wall.ordinates(state)) for state in states]),
+        "images": [],
+        "index": [state.solved.index for state in states],
+        "off": [False] * len(states),
+        "breaks": np.cumsum([len(run) for run in runs])[:-1].tolist(),
+        "special": [_event(explored, event) for event in off_wall.events_of(path, name)],
+        "ended": path.ended_because,
+        "reached": path.reached,
+        "converged": not path.missed,
+    }
+
+
+def _event(explored: Explored, event: PathPoint) -> dict[str, Any]:
+    assert event.state is not None
+    return explored.load_data(event.force if event.to is None else event.to.force) | {
+        "kind": event.kind,
+        "label": event.meaning,
+        "y": explored.ordinates(off_wall.ordinates(event.state.fine)),
+        "index_before": None,
+        "index_after": event.state.stability_index,
+        "s": list(event.s),
+        "converged": event.met,
+    }
+
+
+def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[str, Any]:
+    return explored.load_data(point.load) | {
+        "kind": point.kind,
+        "label": KINDS[point.kind],
+        "y": explored.ordinates({which: point.solution.number(which).value for which in Measured}),
+        "index_before": point.index_before,
+        "index_after": point.index_after,
+        "s": list(point.s),
+        "converged": branch.meets_tolerance(point),
+    }
+
+
+def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def beyond_lift_off(branch: Branch, states: list[Any]) -> list[bool]:
+    """Whether the wall would have to pull beyond each vertex, in the order of travel."""
+    first = states[0][1]
+    off = branch.lift_off_at_buckling or first[Measured.P_MAX] > NO_PULL * branch.problem.lateral_weight
+    out = []
+    for *_, point in states:
+        if point is not None and point.kind in ("lift_off", "touch_down"):
+            off = point.kind == "lift_off"
+        out.append(off)
+    return out
