@@ -282,14 +282,14 @@ def test_no_serious_fault_at_any_width(page: Any, scheme: str) -> None:
 
 
 def test_the_load_plays_and_stops(page: Any) -> None:
-    before = updates(page)
+    start = values(page)["load"]
     page.locator("h1").click()
     page.keyboard.press("p")
-    moved(page, before)  # how often depends on the machine: a newer load takes the place of one that is not drawn yet
+    # how often it is drawn depends on the machine: a newer load takes the place of one that is not drawn yet
+    until(page, f"{READY} && window.__rodwell.values.load > {start}")
     if page.locator("#play").get_attribute("aria-pressed") == "true":  # on a slow machine it may be at the end
         page.keyboard.press("p")
     assert page.locator("#play").get_attribute("aria-pressed") == "false"
-    assert values(page)["load"] > 118.4
 
 
 def test_beyond_lift_off(page: Any) -> None:
