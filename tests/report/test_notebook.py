@@ -159,9 +159,11 @@ def test_bad_input(branch: rodwell.Branch, pyplot: Any) -> None:
     assert pyplot.get_fignums() == []  # nothing half drawn is left behind
 
 
-def test_nothing_is_imported_before_it_is_used() -> None:
+@pytest.mark.parametrize("first", ["rodwell", "rodwell.web.engine"])
+def test_nothing_is_imported_before_it_is_used(first: str) -> None:
+    """Nor by the explorer before its first diagram, which it draws itself."""
     code = (
-        "import sys, rodwell; rodwell.Branch; rodwell.Case; rodwell.Answer;"
+        f"import sys, rodwell, {first}; rodwell.Branch; rodwell.Case; rodwell.Answer;"
         "print(sorted({'matplotlib', 'jinja2', 'IPython', 'typst'} & set(sys.modules)))"
     )
     printed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout

@@ -15,7 +15,8 @@ from rodwell.analysis.space.geometry import upwards
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.paths.path import LOADED, UNLOADED, plot_path, units_of
+from rodwell.plots.paths.axes import units_of
+from rodwell.plots.paths.path import LOADED, UNLOADED, plot_path
 from rodwell.plots.style import GREY, INK
 
 MOST = 5

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from rodwell.analysis.off_wall.state import STRAIGHT
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, SNAP, UNLOADING, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
+from rodwell.plots.paths.axes import Units, across_of, units_of
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
-from rodwell.plots.units import axis
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.text import minus
 
@@ -21,25 +19,6 @@ MARKS = {CRITICAL: ("o", INK, "buckles"), LIFT_OFF: ("^", MODES[1], "lifts off")
 """Marker, colour and word of events that are named; other changes of contact are small dots."""
 
 LOADED, UNLOADED = MODES[0], MODES[2]
-
-
-class Units(NamedTuple):
-    """From units B = L = 1 to those of the axes: shortening and load, with their words."""
-
-    shortening: float
-    load: Callable[[float], float]
-    across: str
-    up: str
-
-
-def units_of(result: LoadPath, case: Case | None) -> Units:
-    """Compression at s = 1 in B/L² over 10⁻³ L; of a case with dimensions as its pages say forces, in its units."""
-    if case is None or case.scales is None:
-        return Units(1e3, lambda force: -force, "10⁻³ L", "end compression −F at s = 1  [B/L²]")
-    said, curve = forces_of(case), result.curve
-    x, length = axis("z", case.scales, float(np.max(_across(result, curve["shortening"], curve["force"]))))
-    y, force = axis("force", case.scales, float(np.max(np.abs(said.drawn(curve["force"])))))
-    return Units(x, lambda load: y * float(said.drawn(load)), length, f"{said.axis}  [{force}]")
 
 
 def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any:
@@ -50,7 +29,7 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
     """
     ax = new_axes() if ax is None else ax
     curve, names, units = result.curve, _legs(result), units_of(result, case)
-    across = _across(result, curve["shortening"], curve["force"])
+    across = across_of(result, curve["shortening"], curve["force"])
     for run in np.unique(curve["run"]):
         here = curve["run"] == run
         unloading = names[int(run)] == UNLOADING if int(run) < len(names) else True
@@ -78,11 +57,6 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
     return ax
 
 
-def _across(result: LoadPath, shortening: Any, force: Any) -> Any:
-    """How far the driven end has come, u − cF, from the shortening u of the span: c is what gives way in series."""
-    return shortening - result.compliance * force
-
-
 def _legs(result: LoadPath) -> list[str]:
     """The leg that each run belongs to, in the order of the curve."""
     return [leg.name for leg in result.legs for _ in leg.runs]
@@ -98,7 +72,7 @@ def _mark(ax: Any, result: LoadPath, event: PathPoint, seen: set[str], units: Un
     label = word if word not in seen else None
     seen.add(word)
     ax.plot(
-        units.shortening * _across(result, shortening, event.force.value),
+        units.shortening * across_of(result, shortening, event.force.value),
         units.load(event.force.value),
         marker,
         color=colour,
@@ -113,13 +87,13 @@ def _snaps(ax: Any, result: LoadPath, units: Units) -> None:
     runs = [run for leg in result.legs for run in leg.runs]
     square = result.problem.clearance**2
     lasts = {
-        run[-1].load: _across(result, run[-1].solved.out.energy_by_load * square, run[-1].load) for run in runs if run
+        run[-1].load: across_of(result, run[-1].solved.out.energy_by_load * square, run[-1].load) for run in runs if run
     }
     for event in result.snaps:
         if event.state is None or event.to is None or not lasts:
             continue
         start = lasts[min(lasts, key=lambda load: abs(load - event.force.value))]
-        end = _across(result, event.state.shortening.value, event.to.force.value)
+        end = across_of(result, event.state.shortening.value, event.to.force.value)
         load, rests = map(units.load, (event.force.value, event.to.force.value))
         ax.annotate(
             "", xy=(units.shortening * end, rests), xytext=(units.shortening * start, load),

@@ -22,7 +22,7 @@ from rodwell.analysis.space.scene import drawn
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.numerics.stretches.carry import sampler
-from rodwell.plots.paths.path import Units, units_of
+from rodwell.plots.paths.axes import Units, units_of
 from rodwell.problem.problem import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.forces import Forces
