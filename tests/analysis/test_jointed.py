@@ -107,6 +107,8 @@ def test_a_drill_pipe_buckles_far_below_the_load_of_its_spread_weight(tmp_path: 
     data = json.loads(done.output)
     assert -154e3 < data["load_si"]["value"] < -148e3
     assert data["spread_load"] / data["load"]["value"] == pytest.approx(263.0 / 151.0, rel=0.03)
+    file.write_text(CASE.replace("joints = 1", "joints = 12"), encoding="utf-8")  # one of them is the period
+    assert json.loads(CliRunner().invoke(cli, ["endless", "--joint", str(file), "--json"]).output) == data
     told = " ".join(CliRunner().invoke(cli, ["endless", "--joint", str(file)]).output.split())
     assert "opposite sides" in told
     refused = CliRunner().invoke(cli, ["endless", "--joint", str(file), "--beta", "3"])

@@ -54,7 +54,7 @@ HEAD = "Endless rod kept on the wall; β = P/√(Bq/D), compression P positive; 
     "--joint",
     type=click.Path(exists=True, dir_okay=False),
     metavar="CASE.toml",
-    help="A case of one joint of a string on tool joints: the critical load of an endless string of them.",
+    help="A case of a string on equal tool joints: the critical load of an endless string of its joints.",
 )
 @keep_options("contact forces over β")
 @json_option

@@ -20,9 +20,8 @@ NEARLY = 1e-6
 def show_joints(file: str, as_json: bool) -> None:
     """Print the critical load of an endless string of the joint of a case, or all numbers as JSON."""
     from rodwell.analysis.endless.jointed import jointed_string  # noqa: PLC0415
-    from rodwell.case.case import Case  # noqa: PLC0415
 
-    case = Case.read(file)
+    case = _of_one_joint(file)
     found = jointed_string(case.problem)
     scales = case.scales
     if as_json:
@@ -41,8 +40,22 @@ def show_joints(file: str, as_json: bool) -> None:
         )
         wrapped(
             f"With the weight spread along the tool joints' clearance it would be {_size(case, -found.spread)}: that "
-            "is no bound. Frictionless, small slopes; the axial force is taken as constant over some joints."
+            "is no bound. Looked at are disturbances out of the vertical plane, of any wavelength. Frictionless, small "
+            "slopes; the axial force is taken as constant over some joints."
         )
+
+
+def _of_one_joint(file: str) -> Case:
+    """The case, with one joint where its string has several that are alike: the others are what it repeats."""
+    from rodwell.case.case import Case  # noqa: PLC0415
+    from rodwell.case.file import read_case  # noqa: PLC0415
+
+    read = read_case(file)
+    pipes = read.data.get("string")
+    if not (isinstance(pipes, list) and len(pipes) == 1 and isinstance(pipes[0], dict) and "joints" in pipes[0]):
+        return Case.read(read)
+    data = {**read.data, "string": [{**pipes[0], "joints": 1}]}
+    return Case.from_dict(data, source=read.source, folder=read.folder)
 
 
 def _load(case: Case, load: Value) -> str:

@@ -125,7 +125,7 @@ def jointed_string(problem: Problem) -> JointedString:
 def _check(problem: Problem) -> None:
     sections = problem.sections
     clearance = [section[3] for section in sections]
-    what = "must be one period, from the middle of a tool joint to the middle of the next: "
+    what = "must be one period, from the middle of a tool joint to the middle of the next (joints = 1 in a case): "
     if len(sections) < 3 or min(clearance[1:-1]) <= max(clearance[0], clearance[-1]):
         shown = f"{len(sections)} of them"
         raise InputError("sections", shown, what + "half a tool joint, wider sections, half a tool joint")
