@@ -24,7 +24,7 @@ from rodwell.cli.main import cli
 from rodwell.errors import InputError
 from rodwell.store import chunked
 from rodwell.store.staging import PREFIX
-from rodwell.studies.maps import block, computing
+from rodwell.studies.maps import block, computing, question
 
 FLAT = rodwell.Problem(15.0, 90.0)
 OVER = {"weight": "10..80 in 8", "alpha": "80..90 in 4"}
@@ -179,6 +179,37 @@ def test_a_store_of_another_question_and_other_folders_are_refused(whole: Path, 
     assert file.read_text() == "mine"
 
 
+def test_a_store_is_refused_when_a_file_of_its_case_has_changed(tmp_path: Path) -> None:
+    out, survey, other = tmp_path / "map.zarr", tmp_path / "survey.csv", tmp_path / "other.csv"
+    stations = "MD [m],Inc [deg],Azi [deg]\n0,30,0\n30,33,0\n60,36,0\n"
+    survey.write_text(stations, encoding="utf-8")
+    other.write_text(stations.replace("36", "37"), encoding="utf-8")
+    (tmp_path / "case.toml").write_text(
+        """analysis.rtol = 1e-6
+        rod = {outer_diameter = "5 in", inner_diameter = "3 in", material = "steel", length = "30 m"}
+        hole = {diameter = "8.5 in", survey = "survey.csv", from = "15 m"}
+        """,
+        encoding="utf-8",
+    )
+
+    def asked(**over: Any) -> Any:
+        over = {"hole.diameter": "8.5 in, 9 in"} | over
+        return rodwell.map(tmp_path / "case.toml", "critical", over=over, out=out, halvings=0)
+
+    first = asked()
+    assert first.as_dict()["parameters"]["hole.diameter"]["unit"] == "in"
+    assert first.question.rods.rtol == 1e-6
+    assert np.array_equal(asked().values, first.values)
+    survey.write_text(stations.replace("33", "43"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"since it was begun, survey\.csv changed"):
+        asked()
+    survey.write_text(stations, encoding="utf-8")
+    assert np.array_equal(asked().values, first.values)
+    varied = {"rod.length": "28..30 m in 2", "hole.survey": ["survey.csv", "other.csv"]}
+    identity = question.asked(tmp_path / "case.toml", "critical", varied).identity
+    assert sorted(identity["files"]) == [other.name, survey.name]
+
+
 @POSIX
 def test_two_runs_into_one_store_at_a_time(tmp_path: Path) -> None:
     out = tmp_path / "map.zarr"
@@ -249,6 +280,7 @@ def test_the_command(tmp_path: Path, whole: Path, monkeypatch: pytest.MonkeyPatc
     found = json.loads(again.stdout)
     assert found["outcomes"] == {"converged": {"cells": 32, "meaning": "known to the tolerance"}}
     assert found["least"]["at"] == {"weight": 80.0, "alpha": 90.0}
+    assert found["parameters"]["alpha"] == {"meaning": "angle of the cylinder from the vertical", "unit": "degree"}
     assert (found["unit"], found["complete"], found["store"]) == ("B/L^2", True, "map.zarr")
     assert run(*asked, "--quiet", "--picture", "map.png").output == ""
     assert Path("map.png").read_bytes().startswith(b"\x89PNG")
@@ -278,6 +310,10 @@ def test_the_command_with_a_case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
             ("--weight", "1, 2", "--alpha", "90", "--vary", "a.b", "1, 2", "--out", "x.zarr"),
             "--vary = 'a.b': needs a case",
         ),
+        (
+            ("case.toml", "--vary", "dimensionless.alpha", "80, 90", "--rtol", "1e-9", "--out", "x.zarr"),
+            "--rtol = 1e-09: belongs to a problem; a case has a key: set analysis.rtol",
+        ),
         (("x.toml", "--weight", "1, 2", "--out", "x.zarr"), "--weight = '1, 2': belongs to a problem"),
         (
             ("--weight", "1, 2", "--alpha", "90", "--scheduler", "tcp://127.0.0.1:9", "--out", "x.zarr"),
@@ -292,6 +328,7 @@ def test_wrong_use_of_the_command(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("rodwell.studies.maps.workers.TIMEOUT", 0.5)
+    Path("case.toml").write_text("[dimensionless]\nweight = 10\nalpha = 90\nclearance = 0.01\n", encoding="utf-8")
     done = run(*arguments)
     assert done.exit_code == 2 or isinstance(done.exception, InputError)
     assert what in done.output + str(done.exception)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from hashlib import blake2b
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -18,6 +20,9 @@ LARGEST_CASE, LARGEST_CATALOGUE = 200_000, 1_000_000
 
 STANDARD_INPUT = "-"
 """Name that stands for standard input."""
+
+FILE_KEYS = (("hole", "survey"), ("hole", "centerline"), ("catalogue", "files"))
+"""Section and key of a case that name files on which its numbers depend: not the logo of its report."""
 
 MOST_PARTS = 20
 """Parts that a dotted key may have: the time that the parser takes grows with their square."""
@@ -95,6 +100,19 @@ def _case_bytes(file: Path) -> bytes:
     except (OSError, ValueError, AttributeError) as error:  # the last: no standard input
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError("case file", str(file), f"cannot be read: {reason}") from None
+
+
+def named_files(data: Mapping[str, Any], folder: Path) -> dict[str, str]:
+    """Files that the numbers of a case depend on, as it names them, and digests of what is in them.
+
+    Files that are not there are left out: whoever reads the case says so.
+    """
+    values = [data[section].get(key) for section, key in FILE_KEYS if isinstance(data.get(section), Mapping)]
+    names = itertools.chain.from_iterable(value if isinstance(value, list | tuple) else [value] for value in values)
+    files = {name: folder / name for name in names if isinstance(name, str)}
+    return {
+        name: blake2b(file.read_bytes(), digest_size=8).hexdigest() for name, file in files.items() if file.is_file()
+    }
 
 
 def first_bytes(opened: BinaryIO, most: int) -> bytes:

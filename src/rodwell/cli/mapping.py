@@ -76,7 +76,11 @@ class StorePath(click.ParamType):  # type: ignore[type-arg]
 @click.option("--halvings", default=6, show_default=True, help="How often edges across a jump are halved; 0: never.")
 @click.option("--workers", default=1, show_default=True, help="Processes on this machine.")
 @click.option("--scheduler", metavar="URL", help="Address of a Dask scheduler, in place of --workers.")
-@click.option("--rtol", type=float, help="Relative tolerance of the numbers of a problem.  [default: 1e-8]")
+@click.option(
+    "--rtol",
+    type=float,
+    help="Relative tolerance; CASE has analysis.rtol.  [default: 1e-8]",
+)
 @json_option
 @click.option("--quiet", is_flag=True, help="Print neither progress nor summary.")
 @click.option(
@@ -124,7 +128,7 @@ def map_command(
     if not result.extremes:
         raise NotConvergedError(f"no cell has a value; {printable(out)} says why, cell by cell")
     missed = result.missed
-    check_missed([f"{missed} of {result.question.size} cells"] if missed else [], given["rtol"] or 1e-8)
+    check_missed([f"{missed} of {result.question.size} cells"] if missed else [], result.question.rods.rtol)
 
 
 _OPTIONS = ("quantity", "samples", "sampling", "seed", "halvings", "workers", "scheduler", "rtol")

@@ -17,10 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.errors import InputError
+from rodwell.errors import InputError, printable
 from rodwell.quantities.table import Variable
 from rodwell.store.folder import appearing
 from rodwell.studies.maps.block import Block
+from rodwell.studies.maps.question import FILES
 from rodwell.studies.maps.workers import needs_extra
 
 if sys.platform != "win32":
@@ -134,6 +135,14 @@ def _checked(group: Any, out: str | Path, question: Mapping[str, Any], field: st
     if not isinstance(there, Mapping):
         raise _no_map(out, field)
     differs = [key for key in question if there.get(key) != question[key]]
+    if differs == [FILES]:
+        known: Mapping[str, str] = there.get(FILES) or {}
+        changed = ", ".join(printable(name) for name, digest in question[FILES].items() if known.get(name) != digest)
+        raise InputError(
+            field, str(out),
+            f"holds a map of another question: since it was begun, {changed} changed, a file that its case names; "
+            "name another place, or put the file back as it was",
+        )  # fmt: skip
     if differs:
         key = "over" if "over" in differs else differs[0]
         raise InputError(

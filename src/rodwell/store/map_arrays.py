@@ -10,6 +10,7 @@ from rodwell._version import __version__
 from rodwell.problem.problem import Problem, ends_text
 from rodwell.quantities.table import Variable
 from rodwell.studies.maps import jumps
+from rodwell.studies.maps.axes import about_parameter
 from rodwell.studies.maps.block import COLUMNS
 from rodwell.studies.maps.cells import OUTCOMES
 from rodwell.studies.maps.question import SAMPLE, Question
@@ -23,35 +24,18 @@ CONVENTION = (
     "attribute units; where outcome says that there is no value, reason says why."
 )
 
-SYMBOLS = {
-    "weight": ("weight γ = mg L³/B", "1"),
-    "alpha": ("angle of the cylinder from the vertical", "degree"),
-    "clearance": ("clearance Δ/L", "1"),
-    "twist": ("end twisting moment T₁", "B/L"),
-    "poisson": ("Poisson's ratio", "1"),
-    "torsion": ("torsional stiffness C/B", "1"),
-    "load": ("end force at s = 1, tension positive", "B/L^2"),
-    "ends": ("end conditions at s = 0 and s = 1", "1"),
-}
-"""Name and unit of the parameters of a problem; those of a case have its key and their own unit."""
-
 
 def coordinates(question: Question) -> dict[str, Variable]:
     """The values of all parameters."""
     out = {}
     for axis in question.axes:
         values = np.array(axis.numbers if axis.numbers is not None else [str(v) for v in axis.values])
-        out[axis.name] = Variable((axis.name,), values, _parameter(axis.name, axis.unit))
+        out[axis.name] = Variable((axis.name,), values, about_parameter(axis.name, axis.unit))
     for i, one in enumerate(question.distributions):
-        about = _parameter(one.name, one.unit)
+        about = about_parameter(one.name, one.unit)
         about["long_name"] += f", drawn from {one.text}"
         out[one.name] = Variable((SAMPLE,), question.drawn[:, i], about)
     return out
-
-
-def _parameter(name: str, unit: str) -> dict[str, Any]:
-    label, own = SYMBOLS.get(name, (name, "1"))
-    return {"long_name": label, "units": unit or own}
 
 
 def of_columns(question: Question) -> dict[str, dict[str, Any]]:
@@ -70,7 +54,7 @@ def of_columns(question: Question) -> dict[str, dict[str, Any]]:
 
 def of_jumps(question: Question) -> dict[str, dict[str, Any]]:
     """Attributes of the columns of jumps."""
-    units = {f"at_{axis.name}": axis.unit or "1" for axis in question.axes}
+    units = {f"at_{axis.name}": about_parameter(axis.name, axis.unit)["units"] for axis in question.axes}
     units |= {"value_low": question.unit, "value_high": question.unit}
     columns = jumps.columns(question)
     about = {name: {"long_name": text, "units": units.get(name, "1")} for name, (_, _, text) in columns.items()}

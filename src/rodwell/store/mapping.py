@@ -80,7 +80,7 @@ def map(  # noqa: A001 - the public name is rodwell.map
     load
         End force at s = 1 in B/L², tension positive, for numbers at a load of a problem.
     rtol
-        Relative tolerance of every number of a problem; a case has its own.
+        Relative tolerance of every number of a problem; refused beside a case, which has ``analysis.rtol``.
     halvings
         How often the edges between cells are halved where mode, place or outcome jump; 0: jumps are not sought.
     progress, started

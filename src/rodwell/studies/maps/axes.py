@@ -28,6 +28,18 @@ LONGEST_LIST = 100_000
 _CALL = re.compile(r"\s*([a-z_]+)\s*\((.*)\)\s*")
 _BETWEEN = re.compile(r"\s*;\s*|,\s+")
 
+SYMBOLS = {
+    "weight": ("weight γ = mg L³/B", "1"),
+    "alpha": ("angle of the cylinder from the vertical", "degree"),
+    "clearance": ("clearance Δ/L", "1"),
+    "twist": ("end twisting moment T₁", "B/L"),
+    "poisson": ("Poisson's ratio", "1"),
+    "torsion": ("torsional stiffness C/B", "1"),
+    "load": ("end force at s = 1, tension positive", "B/L^2"),
+    "ends": ("end conditions at s = 0 and s = 1", "1"),
+}
+"""Name and unit of the parameters of a problem; those of a case have its key and their own unit."""
+
 ALLOWED = (
     'write a range, "5..200 in 40" or "1..300 in 40 log", a list, "5, 10, 20", or a distribution, "normal(100, 5)", '
     '"uniform(5, 200)", "loguniform(1, 300)", "triangular(5, 20, 50)"'
@@ -141,6 +153,12 @@ def read(name: str, given: Any) -> Axis | Distribution | None:
     if isinstance(given, Sequence | np.ndarray):
         return _from_list(name, list(given))
     return None
+
+
+def about_parameter(name: str, unit: str) -> dict[str, str]:
+    """What a parameter is and the unit of its values, for files: ``unit``, or that of a parameter of a problem."""
+    label, own = SYMBOLS.get(name, (name, "1"))
+    return {"long_name": label, "units": unit or own}
 
 
 def varies(text: str) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.quantities.value import Value
 from rodwell.studies.maps import jumps
+from rodwell.studies.maps.axes import Axis, Distribution, about_parameter
 from rodwell.studies.maps.cells import IN_WORDS, OUTCOMES
 from rodwell.studies.maps.result import Map
 
@@ -18,11 +19,14 @@ MOST_REASONS = 20
 def map_dict(result: Map) -> dict[str, Any]:
     """Return what was asked, how many cells came to what, extremes and jumps."""
     question = result.question
+    parameters: tuple[Axis | Distribution, ...] = (*question.axes, *question.distributions)
     return {
         "quantity": question.rods.quantity,
         "meaning": question.rods.number.label,
         "unit": result.unit,
         "convention": "end forces at s = 1, tension positive; places in L from s = 0",
+        "rtol": question.rods.rtol,
+        "parameters": {one.name: _parameter(one) for one in parameters},
         "dims": list(question.dims),
         "shape": list(question.shape),
         "cells": question.size,
@@ -33,6 +37,11 @@ def map_dict(result: Map) -> dict[str, Any]:
         "complete": result.complete,
         "store": result.path,
     }
+
+
+def _parameter(one: Axis | Distribution) -> dict[str, str]:
+    about = about_parameter(one.name, one.unit)
+    return {"meaning": about["long_name"], "unit": about["units"]}
 
 
 def meaning(outcome: str) -> str:

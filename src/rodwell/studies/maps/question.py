@@ -6,14 +6,15 @@ import itertools
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
 from rodwell._version import __version__
-from rodwell.case.file import CaseText, printable_data, read_case
+from rodwell.case.case import Case
+from rodwell.case.file import CaseText, named_files, printable_data, read_case
 from rodwell.errors import InputError, checked_number, checked_whole
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -26,6 +27,9 @@ from rodwell.studies.maps.rods import LOAD, OF_PROBLEM, Rods, data_of
 MOST_PARAMETERS = 4
 MOST_CELLS = 10**9
 MOST_SAMPLES = 10**7
+FILES = "files"
+"""Key of what a case's files hold, in the identity of a question."""
+
 SAMPLE = "sample"
 """Dimension of samples."""
 
@@ -144,6 +148,7 @@ class Question:
     def identity(self) -> dict[str, Any]:
         """All that the numbers depend on, as plain data: two maps of one identity are one map."""
         axes = {axis.name: _text_of(axis) for axis in self.axes} | {one.name: one.text for one in self.distributions}
+        files = self._files()
         data = {
             "quantity": self.rods.quantity,
             "of": {k: v for k, v in self.rods.given.items() if k != "title"},
@@ -153,9 +158,18 @@ class Question:
             "rtol": self.rods.rtol if self.rods.folder is None else None,
             "values": blake2b(json.dumps([axis.values for axis in self.axes]).encode(), digest_size=8).hexdigest(),
             "rodwell": __version__,
+            **({FILES: files} if files else {}),
         }
         plain: dict[str, Any] = json.loads(json.dumps(data, default=str))  # as a store gives it back
         return plain
+
+    def _files(self) -> dict[str, str]:
+        """Files that the case of any cell names, with digests of their contents; a problem names none."""
+        if self.rods.folder is None:
+            return {}
+        varied = ({section: {key: axis.values}} for axis in self.axes for section, _, key in [axis.name.partition(".")])
+        named = (named_files(data, Path(self.rods.folder)) for data in (self.rods.given, *varied))
+        return dict(itertools.chain.from_iterable(files.items() for files in named))
 
 
 def _text_of(axis: Axis) -> str:
@@ -175,7 +189,7 @@ def asked(
 ) -> Question:
     """Put a question: the number ``quantity`` of a problem or case, over parameters given as ``axes.read`` takes them.
 
-    Single values among ``over`` replace those of the problem or case. ``rtol`` of a case is its own.
+    Single values among ``over`` replace those of the problem or case. ``rtol`` goes with a problem: a case has its own.
 
     Raises
     ------
@@ -198,12 +212,14 @@ def asked(
     axes = tuple(axis for axis in read_over.values() if isinstance(axis, Axis))
     drawn_ones = tuple(axis for axis in read_over.values() if isinstance(axis, Distribution))
     names = (*(axis.name for axis in axes), *(one.name for one in drawn_ones))
-    tolerance = checked_rtol(RTOL if rtol is None else rtol) if folder is None else 0.0
+    tolerance = checked_rtol(RTOL if rtol is None else rtol)
+    if folder is not None and rtol is not None:
+        raise InputError("rtol", rtol, f"belongs to a problem; a case has a key: set analysis.rtol = {rtol:g} in it")
     rods = Rods(quantity, _with(given, fixed, folder is None), names, tolerance, folder)
     question = Question(rods, axes, drawn_ones, _checked(samples or Samples(), bool(drawn_ones)), title)
     _check_size(question)
-    _check_any(question)
-    return question
+    first = _first_case(question)
+    return replace(question, rods=replace(rods, rtol=first.rtol))
 
 
 def _base(of: Problem | CaseText | str | Path | Mapping[str, Any]) -> tuple[dict[str, Any], str | None, str]:
@@ -263,16 +279,14 @@ def _check_size(question: Question) -> None:
         raise InputError(names[-1], None, f"makes {question.size} cells; at most {MOST_CELLS:.0e}: use fewer values")
 
 
-def _check_any(question: Question) -> None:
-    """Refuse a question of which the first, the middle and the last chunk hold no cell that makes a problem."""
+def _first_case(question: Question) -> Case:
+    """The first cell that makes a problem; refused if the first, the middle and the last chunk hold none."""
     counts, why = question.chunk_counts, None
     for chunk in ([0] * len(counts), [n // 2 for n in counts], [n - 1 for n in counts]):
         for values in question.cells(chunk):
             try:
-                question.rods.case(values)
+                return question.rods.case(values)
             except InputError as error:
                 why = why or error
-            else:
-                return
-    if why is not None:
-        raise why
+    assert why is not None
+    raise why

@@ -34,7 +34,7 @@ class Rods:
     names
         What varies, in the order of the values of a cell: parameters of the problem, or "section.key".
     rtol
-        Relative tolerance.
+        Relative tolerance of the numbers: that of the case, where there is one.
     folder
         From which catalogue files of a case are sought; None for a problem.
     """
