@@ -389,7 +389,7 @@ main()
 """
 
 COMPUTING = """
-import rodwell.answers.result.arms as module
+import rodwell.analysis.loads.arms as module
 genuine = module.follow
 
 def endless(*arguments, **options):
@@ -402,7 +402,7 @@ module.follow = endless
 """
 
 COMPILED = """
-import rodwell.answers.result.arms as module
+import rodwell.analysis.loads.arms as module
 
 def interrupted(*arguments, **options):  # what a compiled call raises when the signal meets it
     print("ready", flush=True)

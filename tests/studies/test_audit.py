@@ -134,6 +134,19 @@ def test_no_value_is_none_and_not_nan() -> None:
         assert data["left_out"][0]["reason"]
 
 
+def test_lift_off_is_that_of_the_twisted_rod_on_the_arm_that_leaves_first() -> None:
+    """T₁ = 1, γ = 15, horizontal, clamped: the arms of ``follow`` under this twist; untwisted, −123.173 is unsafe."""
+    twisted = rodwell.Problem(15.0, twist=1.0)
+    data = audit(twisted, rtol=1e-6).as_dict()
+    arms = [rodwell.follow(twisted, 1, mirror=mirror, rtol=1e-6).lift_off for mirror in (False, True)]
+    exact = {load["name"]: load for load in data["exact"]}
+    assert exact["lift_off"]["force"] == pytest.approx(max(arm.force for arm in arms if arm is not None), rel=1e-6)
+    assert exact["lift_off"]["force"] > -121.4
+    assert exact["lift_off"]["label"] == "lift-off of mode 1, under the end twist"
+    assert exact["equal_energy"]["label"].endswith("straight rod, without the end twist")
+    assert data["problem"]["twist"] == 1.0
+
+
 def test_numbers_of_lubinski_from_the_engine() -> None:
     first = {6: 2.041, 8: 1.937, 10: 1.870, 14: 1.785, 20: 1.711, 30: 1.642}
     second = {6: 4.201, 8: 4.100, 10: 4.032, 14: 3.950, 20: 3.881, 30: 3.816}

@@ -9,8 +9,9 @@ from functools import partial
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
-from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.symmetry import arms_differ
+from rodwell.analysis.loads.arms import to_lift_off
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.analysis.straight.scale import EULER
 from rodwell.errors import InputError, NotConvergedError
@@ -71,9 +72,10 @@ def critical(problem: Problem, rtol: float = RTOL) -> ExactLoad:
 def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, ...], tuple[str, ...]]:
     """Return the exact loads of a problem, and what could not be had with the reason.
 
-    The first critical load; lift-off of the branch that starts there; for a horizontal rod whose ends hold the angle,
-    the least load at which a coil of whole turns has the energy of the straight rod, and that at which
-    this coil leaves the wall when it is unloaded.
+    The first critical load, which the end twist does not change; lift-off of mode 1 under the end twist, of its two
+    arms the one that leaves the wall at less compression: the rod may take either. For a horizontal rod whose ends hold
+    the angle, the least load at which a coil of whole turns has the energy of the straight rod, and that at which this
+    coil leaves the wall when it is unloaded; both without the end twist, as their labels say.
 
     Raises
     ------
@@ -84,8 +86,7 @@ def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, 
     if problem.hole is None and (problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed):
         notes.append("lift-off: no lateral weight presses the rod to the wall")
     else:
-        untwisted = problem.but(twist=0.0)
-        _add(loads, notes, "lift-off", lambda: [_lift_off(follow(untwisted, 1, rtol=rtol))])
+        _add(loads, notes, "lift-off", lambda: [_lift_off(problem, rtol)])
     holds = problem.ends[0] in HOLD_ANGLE and problem.ends[1] in HOLD_ANGLE
     if problem.hole is not None:
         notes.append("load of equal energy: coils are computed in straight holes only")
@@ -104,11 +105,20 @@ def _add(loads: list[ExactLoad], notes: list[str], what: str, compute: Callable[
         notes.append(f"{what}: {error}")
 
 
-def _lift_off(branch: Branch) -> ExactLoad:
-    lift = branch.lift_off
-    if lift is None or not branch.converged:
-        raise NotConvergedError(f"not found to the tolerance ({branch.ending})")
-    return ExactLoad("lift_off", "lift-off of mode 1", lift.force, lift.error, branch.problem.hung_weight)
+def _lift_off(problem: Problem, rtol: float) -> ExactLoad:
+    """Lift-off of mode 1 at the least compression: with twist, of both arms, or none if one of them is not known."""
+    mode = critical_loads(problem, 1, rtol=rtol)[0]
+    first, second = to_lift_off(problem, mode, rtol)
+    if second is None and arms_differ(problem, mode.parity):
+        raise NotConvergedError("only one of the two arms, which differ under the end twist, could be followed")
+    loads = []
+    for branch in (first,) if second is None else (first, second):
+        if branch.lift_off is None or not branch.converged:
+            raise NotConvergedError(f"not found to the tolerance ({branch.ending})")
+        loads.append(branch.lift_off.load)
+    least = max(loads, key=lambda load: load.value)
+    label = "lift-off of mode 1" + (", under the end twist" if problem.twist else "")
+    return ExactLoad("lift_off", label, least.value, least.error, problem.hung_weight)
 
 
 def _coil(problem: Problem, wind: Callable[..., Branch]) -> list[ExactLoad]:
@@ -130,10 +140,14 @@ def _coil(problem: Problem, wind: Callable[..., Branch]) -> list[ExactLoad]:
         raise NotConvergedError("no coil in contact throughout was found that has the energy of the straight rod")
     point, turns, branch = best
     name, axial = f"coil of {turns} turn{'s' * (turns > 1)}", problem.hung_weight
-    loads = [ExactLoad("equal_energy", f"{name} with the energy of the straight rod", point.force, point.error, axial)]
+    twist = ", without the end twist" if problem.twist else ""
+    label = f"{name} with the energy of the straight rod{twist}"
+    loads = [ExactLoad("equal_energy", label, point.force, point.error, axial)]
     touch = _first(branch, "touch_down")
     if touch is not None:
-        loads.append(ExactLoad("touch_down", f"{name} leaves the wall, unloaded", touch.force, touch.error, axial))
+        loads.append(
+            ExactLoad("touch_down", f"{name} leaves the wall, unloaded{twist}", touch.force, touch.error, axial)
+        )
     return loads
 
 

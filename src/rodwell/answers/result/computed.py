@@ -15,6 +15,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.discrete import first_run
+from rodwell.analysis.loads.arms import to_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
@@ -22,7 +23,6 @@ from rodwell.analysis.state.own_places import lift_off_with_own_places
 from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loads
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
-from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.lying import check_lying, left_before, lift_off_of, lying_along
 from rodwell.answers.result.reach import followed_on
 from rodwell.answers.result.spread import Spread, spread_of_load

@@ -31,6 +31,7 @@ def audit_dict(audit: Audit) -> dict[str, Any]:
         f"{ends_text(problem)}",
         "problem": {
             "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
+            "twist": problem.twist,
             "ends": list(problem.ends), "on_top": problem.on_top, "outside": problem.outside,
             "floats": problem.floats,
         },

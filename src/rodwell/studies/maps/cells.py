@@ -8,8 +8,8 @@ from functools import cached_property
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import LARGEST_STEP
+from rodwell.analysis.loads.arms import to_lift_off
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
-from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import STRAIGHT, Assessment, AtLoad
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.reach import followed_on

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.loads.arms import to_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.fields import ZOOMS
 from rodwell.analysis.straight.critical import CriticalLoads, critical_loads
 from rodwell.analysis.straight.scale import load_scale
-from rodwell.answers.result.arms import to_lift_off
 from rodwell.answers.result.assessment import BUCKLED
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.lying import lying_along
