@@ -14,8 +14,9 @@ from rodwell.answers.comparison.exact_loads import critical
 from rodwell.answers.result.assessment import LEFT, PULLED, STRAIGHT
 from rodwell.cli.main import cli
 from rodwell.formulas import FORMULAS
+from rodwell.report.reports.audit import conditions
 from rodwell.studies.sweep.study import study
-from rodwell.studies.sweep.tables import sentences
+from rodwell.studies.sweep.tables import holes, sentences, study_table
 
 ROD = {"outer_diameter": "127 mm", "inner_diameter": "108.6 mm", "material": "steel", "length": "30 m"}
 HOLE = {"diameter": "216 mm", "angle_from_vertical": "90 deg", "build": "6 deg/30 m"}
@@ -77,12 +78,15 @@ def test_a_range_of_build_is_computed_point_by_point(tmp_path: Path) -> None:
         "\n".join(["[rod]", *lines, "[hole]", 'diameter = "216 mm"', 'angle_from_vertical = "90 deg"',
                    'build = "0..6 deg/30 m in 2"', "[analysis]", "rtol = 1e-6"]), encoding="utf-8",
     )  # fmt: skip
-    straight, bent = study(file).points
+    found = study(file)
+    straight, bent = found.points
     assert straight.critical is not None
     assert bent.critical is not None
     assert bent.critical.value < straight.critical.value  # more compression: a build presses the rod to its low side
     assert bent.without_wall is None
     assert bent.lift_off is not None
+    assert holes(found) == "straight hole at 1 point, curved hole at 1 point"
+    assert any("straight hole at 1 point, curved hole at 1 point" in note for note in study_table(found).notes)
     problem = Case.from_dict({"rod": ROD, "hole": HOLE}).problem
     assert problem.build == pytest.approx(math.radians(6.0))
     assert bent.critical.value == pytest.approx(critical(problem).force, rel=1e-6)
@@ -137,6 +141,8 @@ def test_a_study_takes_holes_that_leave_the_vertical_plane(tmp_path: Path) -> No
         assert "buckling" not in lies.spare
         assert lies.spare["lift-off"].value == pytest.approx(lies.load.force - rod.end.force, rel=1e-6)
     assert not any("could not be computed" in line for line in sentences(found))
+    assert holes(found) == "curved hole"
+    assert "Curved hole, no friction" in conditions(Problem(15.0, build=0.1, twist=0.5))
 
 
 def test_tubing_in_a_packer_is_refused() -> None:

@@ -138,17 +138,11 @@ def _print(audit: Audit) -> None:
 
     from rodwell.answers.comparison.exact_loads import PLACES  # noqa: PLC0415
     from rodwell.formulas import LEFT_OUT  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.report.reports.audit import conditions  # noqa: PLC0415
 
     console = Console(highlight=False)
-    problem = audit.problem
     console.print(f"[bold]{_safe(audit.title)}[/bold]")
-    console.print(
-        f"γ = {plain(problem.weight)}   α = {plain(problem.alpha)}° from the vertical   "
-        f"Δ/L = {plain(problem.clearance)}   "
-        f"{ends_text(problem)}\n"
-        "Compression positive at top (s = 1), middle and bottom (s = 0). Straight hole, no friction."
-    )
+    console.print(f"Compression positive at top (s = 1), middle and bottom (s = 0). {conditions(audit.problem)}")
     rows = [
         (_safe(load.label), *(_force(audit, load.at(place)) for place in PLACES), _force(audit, load.error, 1))
         for load in audit.loads

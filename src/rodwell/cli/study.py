@@ -42,13 +42,13 @@ def _summary(study: Study, details: bool) -> None:
     from rich.panel import Panel  # noqa: PLC0415
     from rich.table import Table  # noqa: PLC0415
 
-    from rodwell.studies.sweep.tables import cells, head, sentences, worst_points  # noqa: PLC0415
+    from rodwell.studies.sweep.tables import cells, head, holes, sentences, worst_points  # noqa: PLC0415
 
     console = Console(highlight=False)
     text = sentences(study)
     body = f"[bold]{escape(text[0])}[/bold]" + "".join(f"\n• {escape(line)}" for line in text[1:])
     console.print(Panel(body, title=escape(study.title), title_align="left", border_style="blue"))
-    console.print("−F: compression at s = 1, positive. First mode; straight hole, no friction.")
+    console.print(f"−F: compression at s = 1, positive. First mode; {holes(study)}; no friction.")
     if not details:
         return
     table = Table(box=None, pad_edge=False, header_style="bold")

@@ -24,6 +24,11 @@ def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
 
 
+def hole_text(problem: Problem) -> str:
+    """Whether the hole is straight or curved, in words."""
+    return "straight hole" if problem.hole is None else "curved hole"
+
+
 @dataclass(frozen=True)
 class Problem:
     """A heavy rod on a cylinder of any inclination.

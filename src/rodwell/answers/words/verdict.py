@@ -9,7 +9,7 @@ from rodwell.answers.words.in_space import lies_from, lies_until, what_ends
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text
+from rodwell.problem.problem import ends_text, hole_text
 from rodwell.quantities.forces import end_name
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
@@ -57,7 +57,7 @@ def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
     fluids = ", effective forces" if case.with_fluids else ""
     held = ", its slope held at steps of its stiffness" if case.problem.rod.stepped else ""
-    hole = "straight hole" if case.problem.hole is None else "curved hole"
+    hole = hole_text(case.problem)
     hole += "" if math.isinf(case.wall_stiffness) else ", wall rigid up to lift-off"
     return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{held}{fluids}"
 

@@ -13,7 +13,7 @@ from rodwell.answers.words.advice import BAD, CAUTION, GOOD, OPEN, Status
 from rodwell.case.about import NOBODY, About
 from rodwell.formulas import LEFT_OUT
 from rodwell.formulas.record import NOMENCLATURE
-from rodwell.problem.problem import ends_text
+from rodwell.problem.problem import Problem, ends_text, hole_text
 from rodwell.quantities.text import minus, plain, raised
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import linked
@@ -51,9 +51,7 @@ def audit_report(audit: Audit, files: Iterable[str] = (), *, about: About = NOBO
                 "Error of each formula as the load at which buckling begins, over weight and inclination; blue: below "
                 "the exact load, red: above it, unsafe. The star is this case, where it lies in the chart.",
             ),
-            assumptions=f"Compression positive, at the place where a formula's force is measured. "
-            f"γ = {plain(p.weight)}, α = {plain(p.alpha)}° from the vertical, Δ/L = {plain(p.clearance)}, "
-            f"{ends_text(p)}. Straight hole, no friction.",
+            assumptions=f"Compression positive, at the place where a formula's force is measured. {conditions(p)}",
             steps=tuple(f"Not compared: {note}" for note in audit.not_found),
             next_title="What is missing",
         ),
@@ -63,6 +61,16 @@ def audit_report(audit: Audit, files: Iterable[str] = (), *, about: About = NOBO
         about=about.lines,
         logo="" if about.logo is None else LOGO,
         files=linked(files, FILES),
+    )
+
+
+def conditions(problem: Problem) -> str:
+    """The rod that exact loads belong to, its ends and its hole, in a line."""
+    twist = f", T₁ = {plain(problem.twist)} B/L" if problem.twist else ""
+    hole = hole_text(problem)
+    return (
+        f"γ = {plain(problem.weight)}, α = {plain(problem.alpha)}° from the vertical, "
+        f"Δ/L = {plain(problem.clearance)}{twist}, {ends_text(problem)}. {hole[:1].upper()}{hole[1:]}, no friction."
     )
 
 

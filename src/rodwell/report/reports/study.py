@@ -17,10 +17,10 @@ from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import (
     LOADS,
-    NOTES,
     cells,
     head,
     load_text,
+    notes,
     remarks,
     scales,
     sentences,
@@ -76,7 +76,7 @@ def _front(study: Study) -> Front:
             + f". Below: largest contact force per length at {'the load' if study.load_varies else 'lift-off'}. "
             "A curve is interrupted where a point has no result; points are joined by straight lines.",
         ),
-        assumptions=" ".join(NOTES),
+        assumptions=" ".join(notes(study)),
         steps=tuple(text[1:]),
         next_title="What else was found",
     )

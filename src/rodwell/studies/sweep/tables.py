@@ -2,17 +2,34 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
+from rodwell.problem.problem import hole_text
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.text import amount, number_text, percent, plain
 from rodwell.studies.sweep import load_columns
 from rodwell.studies.sweep.points import StudyPoint
 from rodwell.studies.sweep.study import APPLIED, Study
 
-NOTES = (
-    "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
-    "First mode. Lift-off: the first load at which the rod leaves the wall somewhere; frictionless, straight hole.",
-    "± is the estimate of the numerical error, from two nested meshes.",
-)
+
+def notes(study: Study) -> tuple[str, ...]:
+    """What the loads of a table are."""
+    return (
+        "Compression positive, at s = 1, where the end force acts, or at s = 0, the lower end of an inclined cylinder.",
+        "First mode. Lift-off: the first load at which the rod leaves the wall somewhere; frictionless, "
+        f"{holes(study)}.",
+        "± is the estimate of the numerical error, from two nested meshes.",
+    )
+
+
+def holes(study: Study) -> str:
+    """Whether the holes of the points are straight or curved; of how many points where there are both."""
+    counts = Counter(hole_text(point.case.problem) for point in study.points if point.case is not None)
+    if len(counts) < 2:
+        return next(iter(counts), "no hole is known")
+    said = (f"{hole} at {n} point{'s' * (n > 1)}" for hole, n in sorted(counts.items(), reverse=True))
+    return ", ".join(said)
+
 
 LOADS = {"critical": "buckles", "lift_off": "leaves the wall"}
 STRENGTHS = {
@@ -44,8 +61,8 @@ def study_table(study: Study) -> Table:
     columns += load_columns.columns(study, force, per_length)
     columns.append("remarks")
     rows = tuple(_row(study, point) for point in study.points)
-    notes = (*NOTES, *(load_columns.NOTES if load_columns.most_loads(study) else ()))
-    return Table("Points", tuple(columns), rows, worst_points(study), notes)
+    of_loads = load_columns.NOTES if load_columns.most_loads(study) else ()
+    return Table("Points", tuple(columns), rows, worst_points(study), (*notes(study), *of_loads))
 
 
 BESIDE = {
