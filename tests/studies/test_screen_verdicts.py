@@ -116,6 +116,13 @@ def test_the_worst_line_leads(changes: dict[str, Any], level: int, headline: str
         assert screening_dict(found)["verdict"] == verdict.LEVELS[level]
 
 
+def test_stations_past_buckling_whose_lift_off_is_not_known_are_told() -> None:
+    found = screening(force=[10, 120, 160, 120], lift=[150, NAN, 150, 150])
+    assert any("3 of 4 stations are past buckling" in line for line in sentences(found))
+    assert any(line.endswith("; 1 are past lift-off; at 1 of them lift-off is not known.") for line in sentences(found))
+    assert not any("not known" in line for line in sentences(screening(force=[10, 120, 160, 120])))
+
+
 def run(tmp_path: Path, *options: str) -> Any:
     (tmp_path / "well.csv").write_text("MD [ft],Inc\n0,40\n1000,60\n", encoding="utf-8")
     line = ["screen", str(tmp_path / "well.csv"), "--case", str(ROOT / "examples" / "well-string.toml")]

@@ -131,7 +131,9 @@ def _past(screening: Screening, judged: Found) -> list[Line]:
     at, count = place(screening), len(screening.survey)
     text = f"{over.size} of {count} stations are past buckling, from {at(int(over[0]))} to {at(int(over[-1]))}"
     lifted = int(np.sum(screening.compression > screening.lift_off.values))
-    return [Line(BUCKLES, f"{text}; {lifted} are past lift-off.")]
+    text += f"; {lifted} are past lift-off"
+    unknown = int(np.sum(np.isnan(screening.lift_off.values[over])))
+    return [Line(BUCKLES, f"{text}; at {unknown} of them lift-off is not known." if unknown else f"{text}.")]
 
 
 def _curved(screening: Screening, judged: Found) -> list[Line]:
