@@ -147,4 +147,4 @@ def test_a_study_takes_holes_that_leave_the_vertical_plane(tmp_path: Path) -> No
 
 def test_tubing_in_a_packer_is_refused() -> None:
     with pytest.raises(InputError, match="curved"):
-        packer(Case.from_dict({"rod": ROD, "hole": HOLE, "packer": {"bore": "82 mm", "motion": "all"}}))
+        packer(Case.from_dict({"rod": ROD, "hole": HOLE, "packer": {"bore": "120 mm", "motion": "all"}}))

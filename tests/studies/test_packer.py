@@ -282,7 +282,12 @@ def test_an_inclined_hole_gives_both_histories() -> None:
         ("packer.temperature_change .*is not plausible", {"temperature_change": "5000 °F"}),
         ("packer.thermal_expansion .*is not plausible", {"thermal_expansion": "6.9 /°F"}),
         ("takes no uncertainties", {"bore": "3.25 in ± 0.1 in"}),
-        ("lifts the tubing", {"outside": "60 lb/gal", "inside": "0 lb/gal", "inside_pressure": "1 psi"}),
+        (
+            "packer.outside = '60 lb/gal': lifts the tubing",
+            {"outside": "60 lb/gal", "inside": "0 lb/gal", "inside_pressure": "1 psi"},
+        ),
+        ("mud.density = '70 lb/gal': lifts the tubing", {"mud__density": "70 lb/gal"}),
+        (r"packer.bore = '1 in': is below the tubing's inner diameter of 0.0620\d* m \(2.44\d* in\)", {"bore": "1 in"}),
         (
             "rod.inner_diameter",
             {"rod__inner_diameter": None, "mud__density": None, "mud__outside": "1 g/cm^3", "inside": None},

@@ -59,6 +59,7 @@ def misfits(parsed: schema.CaseFile, load: schema.LoadInput, found: Physical) ->
                 )
     elif parsed.rod is not None:
         yield from _of_rod(parsed.rod, parsed.hole, found)
+    yield from _seals(parsed.packer, found)
     yield from _loads(load, found)
 
 
@@ -137,6 +138,13 @@ def _torsion(rod: schema.PipeInput, found: Physical) -> Iterator[Misfit]:
     if not TWISTS[0] <= ratio <= TWISTS[1]:
         what = f"is {_text(ratio)} times the bending stiffness, outside {TWISTS[0]:g} to {TWISTS[1]:g}"
         yield "rod.torsional_stiffness", f"{what}: check its unit (N m² or N mm²?)"
+
+
+def _seals(packer: schema.PackerInput | None, found: Physical) -> Iterator[Misfit]:
+    """A packer whose bore does not go with the tubing in it."""
+    inner = found.rod.inner_diameter
+    if packer is not None and inner is not None and packer.bore < inner:
+        yield "packer.bore", f"is below the tubing's inner diameter of {inner:.6g} m, which the seals would narrow"
 
 
 def _loads(load: schema.LoadInput, found: Physical) -> Iterator[Misfit]:

@@ -12,6 +12,7 @@ from typing import Any
 
 from rodwell.case import schema
 from rodwell.case.checks.fit import misfits
+from rodwell.case.checks.said import in_written_units
 from rodwell.case.physical import Physical
 from rodwell.case.string.sections import called
 from rodwell.quantities.text import minus
@@ -181,7 +182,8 @@ def implausible(
     out = [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in _from_catalogue(parsed, found)]
     if out:
         return out
-    return [(key, _written(data, key), f"{what}; {INSTEAD}") for key, what in misfits(parsed, load, found)]
+    written = ((key, _written(data, key), what) for key, what in misfits(parsed, load, found))
+    return [(key, value, f"{in_written_units(what, value)}; {INSTEAD}") for key, value, what in written]
 
 
 def _sections(parsed: schema.CaseFile, data: Mapping[str, Any]) -> list[Problem]:

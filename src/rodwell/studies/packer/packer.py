@@ -137,7 +137,9 @@ def _answer(case: Case) -> PackerAnswer:
     assert rod is not None
     tubing = _tubing(case, given, rod)
     then = _afterwards(case.fluids, given)
-    before, after = (_conditions(fluids, case, rod) for fluids in (case.fluids, then))
+    mud = "mud.outside" if "outside" in case.given.get("mud", {}) else "mud.density"
+    before = _conditions(case.fluids, case, rod, mud)
+    after = _conditions(then, case, rod, mud if given.outside is None else "packer.outside")
     after = Conditions(
         after.weight,
         after.inside,
@@ -202,10 +204,12 @@ def _afterwards(fluids: Fluids, given: schema.PackerInput) -> Fluids:
     )
 
 
-def _conditions(fluids: Fluids, case: Case, rod: PhysicalRod) -> Conditions:
+def _conditions(fluids: Fluids, case: Case, rod: PhysicalRod, outside: str) -> Conditions:
+    """The tubing's weight, pressures and gradients in fluids; ``outside`` is the key that gives the one around it."""
     weight = fluids.buoyed_weight(rod, case.gravity)
     if weight < 0.0:
-        raise InputError("packer.outside", fluids.outside, "lifts the tubing: a string that floats up is not treated")
+        what = "lifts the tubing: a string that floats up is not treated; check it, and what fills the tubing then"
+        raise InputError(outside, fluids.outside, what)
     gradients = (fluids.inside * case.gravity, fluids.outside * case.gravity)
     return Conditions(weight, fluids.inside_pressure, fluids.outside_pressure, *gradients)
 
