@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,7 +19,7 @@ from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path.bridging import bridged
 from rodwell.answers.result.beyond import StateBeyond
 from rodwell.answers.result.bridged import TOOL_JOINT, Bridged
-from rodwell.answers.words.bridged import bridged_sentences
+from rodwell.answers.words.bridged import ENDLESS, bridged_sentences, limits
 from rodwell.answers.words.meaning import sentences
 from rodwell.answers.words.verdict import verdict
 from rodwell.case.case import CaseError
@@ -132,6 +133,10 @@ def test_what_a_string_on_tool_joints_rests_on_is_told_in_users_words() -> None:
     assert rests.startswith("Where nothing is compressed it rests on 6 edges of tool joints with at most ")
     assert re.search(r"(0\.2500|26\.75) m from the end s = 0\. That edge is next to an end that holds", rests)
     assert "narrower" not in rests
+    many = [
+        line for n in (5, 6) for line in limits(replace(found, case=jointed(joints=n))) if "rodwell endless" in line
+    ]
+    assert many == [ENDLESS]
     largest = max(point.force.value for point in found.edges if point not in found.levered)
     assert f"at most {case.scales and case.scales.text(largest, 'force')}" in rests
     axes = plot_bridging(state, scales=case.scales, pairs=case.pairs)

@@ -9,6 +9,7 @@ from rodwell.answers.result.beyond import StateBeyond
 from rodwell.answers.result.bridged import PART_OF_HOLE, THICKER, TOOL_JOINT, Bridged
 from rodwell.answers.words.advice import BAD, GOOD, OPEN, Status
 from rodwell.answers.words.wording import forces_of, place_text, size_text
+from rodwell.case.case import Case
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 
@@ -19,6 +20,15 @@ LIMITS = (
     "A step is taken at its place along the rod; quasi-static, frictionless, hard walls.",
 )
 """What is computed, and what is not."""
+
+MANY_JOINTS = 6
+"""From so many equal joints on, the endless string of them is near enough to be named."""
+
+ENDLESS = (
+    "Not computed here is the endless string of such joints, to whose buckling load that of long strings comes down: "
+    "`rodwell endless --joint CASE.toml` has it, for a case with joints = 1."
+)
+"""Where to find what many equal joints come to."""
 
 
 def bridged_sentences(found: Bridged) -> list[str]:
@@ -32,7 +42,16 @@ def limits(found: Bridged) -> tuple[str, ...]:
     case = found.case
     given = ["[supports]"] * (case.supports is not None) + ["[cylinder]"] * (case.cylinder is not None)
     given += ["uncertainties of inputs"] * bool(case.uncertain)
-    return (*LIMITS, f"Given, and not used here: {', '.join(given)}.") if given else LIMITS
+    unused = (f"Given, and not used here: {', '.join(given)}.",) if given else ()
+    return (*LIMITS, *((ENDLESS,) if _most_joints(case) >= MANY_JOINTS else ()), *unused)
+
+
+def _most_joints(case: Case) -> int:
+    """How many equal joints of pipe on tool joints one section of the string has at most."""
+    members = () if case.string is None else case.string.members
+    jointed = {one.number for one in members if one.tool_joint}
+    bodies = Counter(one.number for one in members if one.number in jointed and not one.tool_joint)
+    return max(bodies.values(), default=0)
 
 
 def verdict(found: Bridged) -> str:
