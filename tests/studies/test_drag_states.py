@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from drag_wells import CLEARANCE, FRICTION, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
 from scipy.integrate import quad, solve_ivp
+from scipy.optimize import minimize_scalar
 
 from rodwell.analysis.endless.local import LIMITS, local_state
 from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL
@@ -95,6 +96,47 @@ def test_where_the_push_ends_the_force_at_surface_is_the_push() -> None:
     assert found.lock_up is None
     assert found.push_ends is not None
     assert found.push_ends.value == pytest.approx(50e3 / (FRICTION * WEIGHT), rel=1e-9)
+
+
+def stairs() -> Survey:
+    """Vertical to 200 m, level from 400 to 2400 m, 20° from 2700 to 4000 m: below, the string pulls itself on."""
+    return Survey.of([0.0, 200.0, 400.0, 2400.0, 2700.0, 4000.0], [0.0, 0.0, 90.0, 90.0, 20.0, 20.0])
+
+
+def test_what_stops_on_the_way_is_not_possible_below() -> None:
+    """At 4000 m the string hangs in the drop, but it comes no deeper than in the same hole without one."""
+    free = {"kind": "run-in", "bit_depth": "4000 m"}
+    found = drag(well(stairs(), free, {"kind": "slide", "bit_force": "-20 kN"}, friction=0.35))
+    run_in, slide = found.operations
+    assert run_in.possible_at_depth
+    assert slide.possible_at_depth
+    assert not run_in.possible
+    assert not slide.possible
+    level = Survey.of([0.0, 200.0, 400.0, 2400.0], [0.0, 0.0, 90.0, 90.0])
+    alone = reach(cutter(level, friction=0.35), operation("run-in", level), exact(), "early", 2400.0)
+    assert alone.push_ends is not None
+    data = drag_dict(found)
+    assert data["verdict"] == "fails"
+    for one in data["operations"]:
+        assert one["push_ends_depth"]["value"] == pytest.approx(alone.push_ends.value, rel=1e-9)
+    assert "cannot get to 4000 m" in data["summary"][0]
+    assert not any("push enough" in line for line in data["summary"])
+
+
+def test_a_dip_between_the_depths_looked_at_is_found() -> None:
+    """The force at surface is least within the drop: a push that is 5 N short of it ends for a metre or two."""
+    survey = stairs()
+    cut = cutter(survey, friction=0.35)
+
+    def force(depth: float) -> float:
+        return run(cut, operation("run-in", survey), STRAIGHT_LAW, depth=depth, coarse=True, record=False).force
+
+    least = minimize_scalar(force, bounds=(2400.0, 2700.0), method="bounded")
+    cut = cutter(survey, friction=0.35, push=f"{-least.fun - 5.0} N")
+    found = reach(cut, operation("run-in", survey), STRAIGHT_LAW, "early", 4000.0)
+    assert found.on_the_way
+    assert found.push_ends is not None
+    assert 0.0 < least.x - found.push_ends.value < 3.0
 
 
 def test_transfer_is_the_derivative_of_the_forces_at_both_ends() -> None:

@@ -27,6 +27,7 @@ from rodwell.studies.drag.words import (
     sentences_of,
     torque,
     unbalanced,
+    way_left_out,
     yields,
 )
 
@@ -91,6 +92,9 @@ def _reached(found: Drag) -> Status:
     bad = [one.operation.name for one in found.operations if not one.possible]
     if bad:
         return Status("Depth", BAD, "not reached", f"not possible: {', '.join(bad)}")
+    if way_left_out(found):
+        what = "every operation is possible with the bit at its depth; the way down of a stiff string is not looked at"
+        return Status("Depth", OPEN, "way not looked at", what)
     return Status("Depth", GOOD, "reached", "every operation is possible with the push there is")
 
 

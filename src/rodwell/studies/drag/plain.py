@@ -135,7 +135,8 @@ def _ends(ends: Ends) -> dict[str, Any]:
 def _reach(found: Reach) -> dict[str, Any]:
     return {
         "lock_up_depth": number(found.lock_up), "push_ends_depth": number(found.push_ends),
-        "searched_from": found.searched_from, "searched_to": found.searched_to,
+        "searched_from": found.searched_from, "searched_to": found.searched_to, "looked_at": found.looked_at,
+        "on_the_way": found.on_the_way,
     }  # fmt: skip
 
 

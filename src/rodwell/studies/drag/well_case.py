@@ -24,6 +24,7 @@ from rodwell.survey.survey import Survey
 
 ROTATING = ("rotate-off-bottom", "drill", "ream", "back-ream")
 UPWARD = ("pull-out", "back-ream")
+DOWNWARD = ("run-in", "slide", "drill", "ream")
 
 CLOSE_FIT = 1e-6
 """Clearance below this part of the hole's diameter is none."""

@@ -10,7 +10,7 @@ from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
-from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.well_case import DOWNWARD, Well
 
 FAILS, BUCKLES, PASSES = "fails", "buckles", "passes"
 LEVELS = (FAILS, BUCKLES, PASSES)
@@ -79,10 +79,19 @@ def _verdict(found: Drag, worst: OperationResult) -> str:
     level = level_of(found)
     if level == FAILS:
         return f"{_capital(name)} {failure(well, worst)}."
+    possible = f"Every operation is possible{AT_DEPTH if way_left_out(found) else ''}"
     if level == BUCKLES:
         names = ", ".join(one.operation.name for one in found.operations if one.run.buckled)
-        return f"Every operation is possible; the string buckles: {names}."
-    return "Every operation is possible, and the string stays straight on the wall of its hole in all of them."
+        return f"{possible}; the string buckles: {names}."
+    return f"{possible}, and the string stays straight on the wall of its hole in all of them."
+
+
+AT_DEPTH = " with the bit at its depth (stiff string: the way down is not looked at)"
+
+
+def way_left_out(found: Drag) -> bool:
+    """Whether something goes down whose way was not looked at: that is done for the soft string only."""
+    return any(one.operation.kind in DOWNWARD and not one.reach for one in found.operations)
 
 
 def failure(well: Well, one: OperationResult) -> str:
@@ -94,9 +103,13 @@ def failure(well: Well, one: OperationResult) -> str:
             else f", its compression grows beyond bounds at {depth(well, one.run.locked_at)}"
         )
         return f"is not possible: the string locks up{at}; no push at surface moves it"
-    if not one.possible and one.margin is not None:
+    if not one.possible_at_depth and one.margin is not None:
         lacking = force(well, one.margin.times(-1.0))
         return f"is not possible: {lacking} more push is needed at surface than there is"
+    if one.stopped:
+        free = " with its bit free" if one.operation.bit_force else ""
+        stops = " or ".join(f"{what} with the bit at {text}" for what, text in _stops(well, one))
+        return f"cannot get to {depth(well, one.operation.bit_depth)}: on the way down{free} the string {stops}"
     used = 100.0 * float(np.nanmax(one.strength.used))
     return f"exceeds the yield strength: the largest von Mises stress is {plain(used, 3)} % of it"
 
@@ -146,22 +159,32 @@ def _bounds(well: Well, one: OperationResult, name: str) -> list[str]:
 def _reach(well: Well, one: OperationResult, name: str) -> list[str]:
     if not one.reach:
         return []
+    searched = next(iter(one.reach.values()))
+    free = ", its bit free," if one.stopped and one.operation.bit_force else ""
+    out = [f"{name}{free} {what} with the bit at {text}." for what, text in _stops(well, one)]
+    if not out and one.possible:
+        way = ", on the way to its depth with the bit free" if one.operation.bit_force else ""
+        out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, at every one of "
+                   f"{searched.looked_at} depths looked at{way}.")  # fmt: skip
+    elif not out:
+        out.append(f"{name}: not possible at any depth looked at.")
+    if one.transfer is not None and one.run.buckled:
+        part = f"{plain(100.0 * one.transfer, 3)} %"
+        low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
+        out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
+    return out
+
+
+def _stops(well: Well, one: OperationResult) -> list[tuple[str, str]]:
+    """What ends the way down, and with the bit at which depth, by both bounds where they differ."""
     out = []
-    for key, what in (("lock_up", "locks up"), ("push_ends", "needs more push than there is")):
+    for key, what in (("push_ends", "needs more push than there is"), ("lock_up", "locks up")):
         depths = sorted((d.value, d.error) for r in one.reach.values() if (d := getattr(r, key)) is not None)
         if depths:
             text = depth(well, *depths[0])
             if len(depths) > 1 and depths[-1][0] > depths[0][0] * (1.0 + 1e-6):
                 text += f" to {depth(well, *depths[-1])}, by the local state"
-            out.append(f"{name} {what} with the bit at {text}.")
-    if not out:
-        searched = next(iter(one.reach.values()))
-        out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, the last depth "
-                   "looked at." if one.possible else f"{name}: not possible at any depth looked at.")  # fmt: skip
-    if one.transfer is not None and one.run.buckled:
-        part = f"{plain(100.0 * one.transfer, 3)} %"
-        low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
-        out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
+            out.append((what, text))
     return out
 
 
@@ -189,7 +212,8 @@ SOFT_STRING = "Soft string: it follows the hole and bends without resistance."
 STIFF_STRING = (
     "Stiff string: where it is straight it lies in the hole's clearance with its bending stiffness, hinged in the "
     "middle at surface, free at the bit; where it is buckled the local state counts. What it remembers of its loads is "
-    "that of the soft string; how deep it can go is not searched: take the soft string for that."
+    "that of the soft string; how deep it can go, and whether it gets to its depth, is not searched: take the soft "
+    "string for that."
 )
 
 
