@@ -6,11 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from drag_wells import CLEARANCE, FRICTION, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
+from drag_wells import CLEARANCE, FRICTION, PIPE, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import minimize_scalar
 
 from rodwell.analysis.endless.local import LIMITS, local_state
+from rodwell.answers.words.advice import OPEN
+from rodwell.report.reports.drag import drag_report
 from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL
 from rodwell.studies.drag.drag import drag
 from rodwell.studies.drag.history import History, run_with_history, states_differ
@@ -20,6 +22,7 @@ from rodwell.studies.drag.lock_up import reach, transfer
 from rodwell.studies.drag.plain import drag_dict
 from rodwell.studies.drag.run import balance, run
 from rodwell.studies.drag.strength import load_of
+from rodwell.studies.drag.well_case import Well
 from rodwell.survey.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
@@ -255,6 +258,22 @@ def test_limits_of_buckling_in_a_build_and_in_a_drop(side: float) -> None:
     half = 0.5 * side * beta**2 * STIFFNESS / (CLEARANCE * radius)
     exact_limit = half + np.sqrt(half**2 + beta**2 * STIFFNESS / CLEARANCE * WEIGHT * np.sin(alpha))
     assert limit_compression(one, beta) == pytest.approx(exact_limit, rel=1e-9)
+
+
+def test_sections_without_yield_strength_are_named() -> None:
+    """A strong collar below a pipe of which no grade is given: the collar alone is judged, and it is said."""
+    collar = {**PIPE, "name": "collar", "length": "30 m", "yield_strength": "750 MPa"}
+    data = {"hole": {"diameter": "8.5 in", "friction": 0.0}, "string": [collar, {**PIPE, "name": "pipe"}],
+            "well": {"operation": [{"kind": "pull-out", "bit_force": "1500 kN"}]}}  # fmt: skip
+    found = drag(Well.from_dict(data, survey=Survey.of([0.0, 1000.0], [0.0, 0.0])))
+    assert found.operations[0].strength.not_judged == ("pipe",)
+    told = drag_dict(found)
+    assert told["operations"][0]["not_judged"] == ["pipe"]
+    assert "not judged in pipe" in told["summary"][0]
+    assert any("for pipe, so stresses there (up to" in line for line in told["summary"])
+    status = drag_report(found).front.statuses[2]
+    assert status.level == OPEN
+    assert "for pipe" in status.reason
 
 
 def test_limits_in_a_vertical_hole_are_zero() -> None:

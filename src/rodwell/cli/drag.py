@@ -158,7 +158,8 @@ def _table(found: Drag) -> object:
             *(cell(one.compared[name].hook_load, n) if name in one.compared else "" for name in
               ("straight", "correlation")),
             cell(one.ends.torque, nm), f"{plain(buckled)} {by['depth'][1]}" if buckled else "no",
-            ("–" if not used else "beyond" if max(used) >= FAR else f"{plain(100.0 * max(used), 3)} %"),
+            ("–" if not used else "beyond" if max(used) >= FAR else f"{plain(100.0 * max(used), 3)} %")
+            + (" of some" if used and one.strength.not_judged else ""),
             style="bold red" if level_of_one(one) == FAILS else None,
         )  # fmt: skip
     return table

@@ -23,6 +23,7 @@ from rodwell.studies.drag.words import (
     depth,
     force,
     level_of_one,
+    not_judged,
     sentences,
     sentences_of,
     torque,
@@ -113,12 +114,11 @@ def _strength(found: Drag) -> Status:
     if bad:
         return Status("Stress", BAD, "beyond yield", f"in {', '.join(bad)}")
     most = max(float(v) for one in known for v in one.strength.used if math.isfinite(v))
-    return Status(
-        "Stress",
-        GOOD,
-        "below yield",
-        f"the largest von Mises stress is {plain(100.0 * most, 3)} % of the yield strength",
-    )
+    reason = f"the largest von Mises stress is {plain(100.0 * most, 3)} % of the yield strength"
+    if not_judged(found):
+        what = f"no yield strength is given for {', '.join(not_judged(found))}; elsewhere {reason}"
+        return Status("Stress", OPEN, "not judged everywhere", what)
+    return Status("Stress", GOOD, "below yield", reason)
 
 
 def _numbers(found: Drag) -> Status:

@@ -73,6 +73,7 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "largest_contact_force": number(largest(run.contacts)) if run.arrived else None,
         "largest_von_mises": number(largest(strength.von_mises)) if run.arrived else None,
         "largest_used": number(largest(strength.used)) if run.arrived else None,
+        "not_judged": list(strength.not_judged),
         "stretch": number(strength.stretch) if run.arrived else None,
         "twist": number(strength.twist) if run.arrived else None,
         "balance": number(one.balance),

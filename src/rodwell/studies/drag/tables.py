@@ -34,7 +34,7 @@ def operations_table(found: Drag) -> Table:
         f"hook load, helix early [{force}]", f"hook load, helix late [{force}]", f"without buckling [{force}]",
         f"by correlation [{force}]", f"torque at surface [{torque}]", f"± error [{torque}]", f"push left [{force}]",
         f"locks up at bit depth [{depth}]", f"push ends at bit depth [{depth}]", f"largest von Mises stress [{stress}]",
-        "part of yield strength", f"stretch [{depth}]", "twist [turns]", "verdict",
+        "part of yield strength", "stress not judged in", f"stretch [{depth}]", "twist [turns]", "verdict",
     )  # fmt: skip
     rows = []
     for one in found.operations:
@@ -45,8 +45,8 @@ def operations_table(found: Drag) -> Table:
             *_both(one.ends.hook_load, n), *(_cell(one.bounds[rule].hook_load, n) for rule in ("early", "late")),
             _cell(compared.get("straight"), n), _cell(compared.get("correlation"), n), *_both(one.ends.torque, nm),
             _cell(one.margin, n), _cell(worst_depth(one, "lock_up"), m), _cell(worst_depth(one, "push_ends"), m),
-            *((_peak(s.von_mises, pa), _peak(s.used, 1.0), _cell(s.stretch, m), _cell(s.twist, 2.0 * math.pi))
-              if one.run.arrived else (None,) * 4), level_of_one(one),
+            *((_peak(s.von_mises, pa), _peak(s.used, 1.0), ", ".join(s.not_judged) or None, _cell(s.stretch, m),
+               _cell(s.twist, 2.0 * math.pi)) if one.run.arrived else (None,) * 5), level_of_one(one),
         ))  # fmt: skip
     marked = frozenset(i for i, one in enumerate(found.operations) if level_of_one(one) == "fails")
     return Table("Operations", columns, tuple(rows), marked, tuple(assumptions(found)))

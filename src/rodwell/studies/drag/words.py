@@ -57,6 +57,17 @@ def depth(well: Well, value: float, error: float = 0.0) -> str:
     return f"{amount(Value(value / unit, error / unit), 6)} {text}"
 
 
+def stress(well: Well, value: float) -> str:
+    """A stress in the well's units."""
+    scale, text = well.system.unit("stress") if well.system.name == "field" else (1e6, "MPa")
+    return f"{plain(value / scale, 3)} {text}"
+
+
+def not_judged(found: Drag) -> tuple[str, ...]:
+    """Sections of the string of which no yield strength is given, from the bit up."""
+    return tuple(dict.fromkeys(name for one in found.operations for name in one.strength.not_judged))
+
+
 def _in(well: Well, value: Value, dimension: str) -> str:
     if well.system.name == "si":
         scale, text = (1e3, "kN" if dimension == "force" else "kN·m")
@@ -79,11 +90,13 @@ def _verdict(found: Drag, worst: OperationResult) -> str:
     level = level_of(found)
     if level == FAILS:
         return f"{_capital(name)} {failure(well, worst)}."
+    open_ = not_judged(found)
+    unknown = f"; stresses are not judged in {', '.join(open_)} (no yield strength)" if open_ else ""
     possible = f"Every operation is possible{AT_DEPTH if way_left_out(found) else ''}"
     if level == BUCKLES:
         names = ", ".join(one.operation.name for one in found.operations if one.run.buckled)
-        return f"{possible}; the string buckles: {names}."
-    return f"{possible}, and the string stays straight on the wall of its hole in all of them."
+        return f"{possible}; the string buckles: {names}{unknown}."
+    return f"{possible}, and the string stays straight on the wall of its hole in all of them{unknown}."
 
 
 AT_DEPTH = " with the bit at its depth (stiff string: the way down is not looked at)"
@@ -199,8 +212,12 @@ def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
         used = float(np.nanmax(one.strength.used))
         out.append(f"{name}: the von Mises stress reaches {plain(100.0 * used, 3)} % of the yield strength: beyond it "
                    "nothing here holds.")  # fmt: skip
-    if not np.any(np.isfinite(one.strength.used)):
-        out.append(f"{name}: no yield strength is given, so stresses are not judged.")
+    if one.strength.not_judged:
+        part = "" if not np.any(np.isfinite(one.strength.used)) else " there"
+        known = one.strength.von_mises[np.isfinite(one.strength.von_mises) & ~np.isfinite(one.strength.used)]
+        largest = f" (up to {stress(well, float(np.max(known)))})" if len(known) and one.run.arrived else ""
+        out.append(f"{name}: no yield strength is given for {', '.join(one.strength.not_judged)}, so stresses{part}"
+                   f"{largest} are not judged.")  # fmt: skip
     steepest = one.strength.helix_slope
     if steepest > STEEP:
         angle = plain(math.degrees(math.atan(steepest)), 3)

@@ -132,6 +132,6 @@ def _operation(one: OperationAt) -> dict[str, Any]:
         "surface_torque": number(one.torque), "bounds": {"early": number(one.early), "late": number(one.late)},
         "margin": number(one.margin), "lock_up_depth": number(one.lock_up), "push_ends_depth": number(one.push_ends),
         "buckled_length": one.buckled, "largest_contact_force": number(one.contact),
-        "largest_von_mises": number(one.von_mises), "largest_used": number(one.used), "verdict": one.level,
-        "why": one.why or None,
+        "largest_von_mises": number(one.von_mises), "largest_used": number(one.used),
+        "not_judged": list(one.not_judged), "verdict": one.level, "why": one.why or None,
     }  # fmt: skip

@@ -15,6 +15,9 @@ def sentences(study: DragStudy) -> list[str]:
     out = [_verdict(study)]
     for number in range(len(study.names)):
         out += _of_operation(study, number)
+    open_ = dict.fromkeys(name for point in study.points for one in point.operations for name in one.not_judged)
+    if open_:
+        out.append(f"No yield strength is given for {', '.join(open_)}: stresses there are not judged.")
     lacking = [point for point in study.points if point.reason]
     if lacking:
         out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
