@@ -12,6 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from rodwell.analysis.endless.local import LIMITS, local_state
 from rodwell.answers.words.advice import OPEN
+from rodwell.quantities.value import Value
 from rodwell.report.reports.drag import drag_report
 from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL
 from rodwell.studies.drag.drag import drag
@@ -19,10 +20,11 @@ from rodwell.studies.drag.history import History, run_with_history, states_diffe
 from rodwell.studies.drag.laws import CHEN, STRAIGHT_LAW, correlation, exact
 from rodwell.studies.drag.limits import limit_compression
 from rodwell.studies.drag.lock_up import reach, transfer
-from rodwell.studies.drag.plain import drag_dict
+from rodwell.studies.drag.plain import drag_dict, number
 from rodwell.studies.drag.run import balance, run
 from rodwell.studies.drag.strength import load_of
 from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import force
 from rodwell.survey.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
@@ -123,6 +125,10 @@ def test_what_stops_on_the_way_is_not_possible_below() -> None:
     for one in data["operations"]:
         assert one["push_ends_depth"]["value"] == pytest.approx(alone.push_ends.value, rel=1e-9)
     assert "cannot get to 4000 m" in data["summary"][0]
+    assert data["summary"][0].endswith("2 of 2 operations fail.")
+    assert any(line.startswith("Slide cannot get to") for line in data["summary"])
+    assert [one["verdict"] for one in data["operations"]] == ["fails", "fails"]
+    assert data["operations"][1]["why"] in " ".join(data["summary"])
     assert not any("push enough" in line for line in data["summary"])
 
 
@@ -229,6 +235,12 @@ def test_a_string_that_locks_up_says_so_and_keeps_what_was_computed() -> None:
     assert data["operations"][0]["largest_von_mises"] is None  # it has no bound
     assert len(data["operations"][0]["along"]["measured_depth"]) > 100
     assert data["operations"][0]["lock_up_depth"]["value"] < 6000.0
+
+
+def test_an_error_that_is_not_known_is_null_in_json_and_units_are_those_of_the_tables() -> None:
+    assert number(Value(2.0, math.inf)) == {"value": 2.0, "error": None}
+    made = well(horizontal(100.0), {"kind": "run-in"})
+    assert force(made.in_units("mm"), Value(2e3)) == force(made, Value(2e3)) == "2 kN"
 
 
 def test_stretch_and_twist_of_a_hanging_string() -> None:

@@ -69,6 +69,7 @@ def test_a_road_map_marks_where_an_operation_is_not_possible() -> None:
         ({"friction": [3.0]}, "well.road_map.friction"),
         ({"friction": [0.2], "friction_times": [1.0]}, "well.road_map.friction_times"),
         ({"kinds": ["ream"]}, "well.road_map.kinds"),
+        ({"kinds": ["slide"], "bit_force": "50 kN"}, "well.road_map.bit_force"),
     ],
 )
 def test_bad_road_maps_are_explained(asked: dict[str, object], field: str) -> None:

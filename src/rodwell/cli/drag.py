@@ -99,7 +99,7 @@ def drag(
         _print(found)
         if fitted is not None:
             _print_friction(fitted)
-        print_written(folder, "report.html")
+        print_written(folder, "report.html", with_pdf)
     from rodwell.studies.drag.drag import BALANCED  # noqa: PLC0415
     from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
 
@@ -137,8 +137,7 @@ def _table(found: Drag) -> object:
     from rich.table import Table  # noqa: PLC0415
 
     from rodwell.quantities.value import Value  # noqa: PLC0415
-    from rodwell.studies.drag.tables import units  # noqa: PLC0415
-    from rodwell.studies.drag.words import FAILS, level_of_one  # noqa: PLC0415
+    from rodwell.studies.drag.words import FAILS, level_of_one, units  # noqa: PLC0415
 
     by = units(found.well)
     (n, force), (nm, torque) = by["force"], by["torque"]

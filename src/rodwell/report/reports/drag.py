@@ -16,11 +16,12 @@ from rodwell.report.reports.texts import short
 from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
-from rodwell.studies.drag.tables import operations_table, units
+from rodwell.studies.drag.tables import operations_table
 from rodwell.studies.drag.words import (
     FAILS,
     assumptions,
     depth,
+    failure,
     force,
     level_of_one,
     not_judged,
@@ -28,6 +29,7 @@ from rodwell.studies.drag.words import (
     sentences_of,
     torque,
     unbalanced,
+    units,
     way_left_out,
     yields,
 )
@@ -172,7 +174,7 @@ def _operation(found: Drag, one: OperationResult, number: int) -> ReportSection:
     blocks: list[Block] = []
     text = sentences_of(well, one)
     if level_of_one(one) == FAILS:
-        blocks.append(Words("This operation fails.", "warning"))
+        blocks.append(Words(f"This operation {failure(well, one)}.", "warning"))
     if text:
         blocks.append(Items(tuple(text)))
     blocks.append(Picture(

@@ -16,7 +16,8 @@ from rodwell.studies.drag.drag import Drag, Ends, OperationResult
 from rodwell.studies.drag.lock_up import Reach
 from rodwell.studies.drag.road_map import RoadMap
 from rodwell.studies.drag.tables import worst_depth
-from rodwell.studies.drag.words import assumptions, level_of, sentences
+from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import FAILS, assumptions, failure, level_of, level_of_one, sentences
 
 UNIT = {"force": "N", "force_per_length": "N/m", "torque": "N m", "depth": "m", "stress": "Pa", "angle": "rad"}
 CONVENTION = (
@@ -42,13 +43,13 @@ def drag_dict(found: Drag, calibration: Calibration | None = None) -> dict[str, 
         "state_rule": well.settings.state_rule,
         "block_weight": well.settings.block_weight,
         "survey": well.survey.source,
-        "operations": [operation_dict(one) for one in found.operations],
+        "operations": [operation_dict(well, one) for one in found.operations],
         "road_map": None if found.road_map is None else _road_map(found.road_map),
         "calibration": None if calibration is None else _calibration(calibration),
     }
 
 
-def operation_dict(one: OperationResult) -> dict[str, Any]:
+def operation_dict(well: Well, one: OperationResult) -> dict[str, Any]:
     """What was found of one operation."""
     operation, run, strength = one.operation, one.run, one.strength
     return {
@@ -57,6 +58,8 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "bit_depth": operation.bit_depth,
         "bit_force": number(Value(operation.bit_force)),
         "bit_torque": number(Value(operation.bit_torque)),
+        "verdict": level_of_one(one),
+        "why": failure(well, one) if level_of_one(one) == FAILS else None,
         "possible": one.possible,
         "hook_load": number(one.ends.hook_load),
         "surface_torque": number(one.ends.torque),
@@ -117,11 +120,11 @@ def _calibration(found: Calibration) -> dict[str, Any]:
     }
 
 
-def number(value: Value | None) -> dict[str, float] | None:
-    """A number with its error; null where there is none."""
+def number(value: Value | None) -> dict[str, float | None] | None:
+    """A number with its error; null where there is none, and for an error that is not known."""
     if value is None or not math.isfinite(value.value):
         return None
-    return {"value": value.value, "error": value.error}
+    return {"value": value.value, "error": value.error if math.isfinite(value.error) else None}
 
 
 def listed(values: FloatArray) -> list[float | None]:

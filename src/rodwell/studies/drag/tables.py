@@ -10,19 +10,7 @@ from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
 from rodwell.studies.drag.road_map import RoadMap
-from rodwell.studies.drag.well_case import Well
-from rodwell.studies.drag.words import assumptions, level_of_one
-
-
-def units(well: Well) -> dict[str, tuple[float, str]]:
-    """SI value and text of the units of tables, for depth, force, force per length, torque and stress."""
-    system = well.system
-    if system.name == "field":
-        names = {"depth": "length", "force": "force", "per_length": "force_per_length", "torque": "moment",
-                 "stress": "stress"}  # fmt: skip
-        return {key: system.unit(name) for key, name in names.items()}
-    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN·m"),
-            "stress": (1e6, "MPa")}  # fmt: skip
+from rodwell.studies.drag.words import assumptions, level_of_one, units
 
 
 def operations_table(found: Drag) -> Table:

@@ -48,18 +48,18 @@ def force(well: Well, value: Value) -> str:
 
 def torque(well: Well, value: Value) -> str:
     """A torque likewise."""
-    return _in(well, value, "moment")
+    return _in(well, value, "torque")
 
 
 def depth(well: Well, value: float, error: float = 0.0) -> str:
     """A measured depth in metres or feet."""
-    unit, text = (0.3048, "ft") if well.system.name == "field" else (1.0, "m")
+    unit, text = units(well)["depth"]
     return f"{amount(Value(value / unit, error / unit), 6)} {text}"
 
 
 def stress(well: Well, value: float) -> str:
     """A stress in the well's units."""
-    scale, text = well.system.unit("stress") if well.system.name == "field" else (1e6, "MPa")
+    scale, text = units(well)["stress"]
     return f"{plain(value / scale, 3)} {text}"
 
 
@@ -68,11 +68,19 @@ def not_judged(found: Drag) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for one in found.operations for name in one.strength.not_judged))
 
 
-def _in(well: Well, value: Value, dimension: str) -> str:
-    if well.system.name == "si":
-        scale, text = (1e3, "kN" if dimension == "force" else "kN·m")
-    else:
-        scale, text = well.system.unit(dimension)
+def units(well: Well) -> dict[str, tuple[float, str]]:
+    """SI value and text of the units of sentences and tables: depth, force, force per length, torque and stress."""
+    system = well.system
+    if system.name == "field":
+        names = {"depth": "length", "force": "force", "per_length": "force_per_length", "torque": "moment",
+                 "stress": "stress"}  # fmt: skip
+        return {key: system.unit(name) for key, name in names.items()}
+    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN·m"),
+            "stress": (1e6, "MPa")}  # fmt: skip
+
+
+def _in(well: Well, value: Value, kind: str) -> str:
+    scale, text = units(well)[kind]
     return f"{amount(value.times(1.0 / scale), 5)} {text}"
 
 
@@ -81,6 +89,8 @@ def sentences(found: Drag) -> list[str]:
     worst = min(found.operations, key=lambda one: LEVELS.index(level_of_one(one)))
     out = [_verdict(found, worst)]
     for one in found.operations:
+        if level_of_one(one) == FAILS and one is not worst:
+            out.append(f"{_capital(one.operation.name)} {failure(found.well, one)}.")
         out += sentences_of(found.well, one)
     return out
 
@@ -89,7 +99,9 @@ def _verdict(found: Drag, worst: OperationResult) -> str:
     well, name = found.well, worst.operation.name
     level = level_of(found)
     if level == FAILS:
-        return f"{_capital(name)} {failure(well, worst)}."
+        failing = sum(level_of_one(one) == FAILS for one in found.operations)
+        several = f" {failing} of {len(found.operations)} operations fail." if failing > 1 else ""
+        return f"{_capital(name)} {failure(well, worst)}.{several}"
     open_ = not_judged(found)
     unknown = f"; stresses are not judged in {', '.join(open_)} (no yield strength)" if open_ else ""
     possible = f"Every operation is possible{AT_DEPTH if way_left_out(found) else ''}"

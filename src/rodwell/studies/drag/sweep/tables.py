@@ -13,8 +13,7 @@ from rodwell.studies.drag.plain import CONVENTION, UNIT, number
 from rodwell.studies.drag.sweep.points import OperationAt, WellPoint
 from rodwell.studies.drag.sweep.study import DragStudy
 from rodwell.studies.drag.sweep.words import sentences
-from rodwell.studies.drag.tables import units
-from rodwell.studies.drag.words import FAILS
+from rodwell.studies.drag.words import FAILS, units
 from rodwell.studies.varied import Varied
 
 NOTES = (
