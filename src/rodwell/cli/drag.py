@@ -107,11 +107,16 @@ def drag(
 
 
 def _print_friction(found: Calibration) -> None:
-    """Friction factors that were found."""
+    """Friction factors that were found, how well they meet the measurements, and what makes them doubtful."""
+    from rodwell.studies.drag.words import scatter  # noqa: PLC0415
+
     for name, value in zip(found.names, found.friction, strict=True):
         known = value.error == value.error and value.error < float("inf")
         error = f" ± {plain(value.error, 2)} (standard error)" if known else ": nothing is measured that depends on it"
         click.echo(f"friction factor of {name}: {plain(value.value)}{error}")
+    click.echo(f"{scatter(found.well, found)} about those computed ({len(found.measured)} measurements).")
+    for note in found.notes:
+        click.echo(note)
 
 
 def _print(found: Drag) -> None:

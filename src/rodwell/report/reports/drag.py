@@ -25,6 +25,7 @@ from rodwell.studies.drag.words import (
     force,
     level_of_one,
     not_judged,
+    scatter,
     sentences,
     sentences_of,
     torque,
@@ -226,15 +227,14 @@ def _calibration(found: Calibration) -> ReportSection:
         (name, plain(value.value), "not told" if not math.isfinite(value.error) else plain(value.error, 2))
         for name, value in zip(found.names, found.friction, strict=True)
     )
-    hook, torque = found.spread
-    spread = f"Hook loads scatter by {plain(hook / 1e3, 3)} kN"
-    if any(math.isfinite(one.torque) for one in found.measured):
-        spread += f", torques by {plain(torque / 1e3, 3)} kN·m"
+    doubts: list[Block] = [Words(note, "warning") for note in found.notes]
     return ReportSection("Friction from measurements", (
+        *doubts,
         Grid(("section", "friction factor", "± standard error"), rows, numeric=(1, 2)),
         Picture("calibration", "Measured and computed hook loads against the depth of the bit",
                 "Measured loads (points) and those computed with the friction factors found (lines)."),
-        Words(f"{spread} about those computed with these factors ({len(found.measured)} measurements). The standard "
+        Words(f"{scatter(found.well, found)} about those computed with these factors "
+              f"({len(found.measured)} measurements). The standard "
               "error is that of the scatter alone: it does not cover what the model leaves out.", "small"),
     ))  # fmt: skip
 

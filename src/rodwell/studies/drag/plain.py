@@ -115,6 +115,7 @@ def _calibration(found: Calibration) -> dict[str, Any]:
         ],
         "correlation": [listed(row) for row in found.correlation],
         "standard_deviation": {"hook_load": found.spread[0], "surface_torque": found.spread[1]},
+        "notes": list(found.notes),
         "measurements": len(found.measured),
         "residuals": {"hook_load": listed(found.residuals[:, 0]), "surface_torque": listed(found.residuals[:, 1])},
     }

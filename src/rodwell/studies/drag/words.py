@@ -8,6 +8,7 @@ import numpy as np
 
 from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
+from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
 from rodwell.studies.drag.well_case import DOWNWARD, Well
@@ -21,6 +22,16 @@ STEEP = 0.3
 
 SMALL_TRANSFER = 0.01
 """Below this part of a force at surface that arrives at the bit, practice speaks of lock-up."""
+
+
+def scatter(well: Well, found: Calibration) -> str:
+    """How far measured loads lie from those computed with the factors found."""
+    said = f"Hook loads scatter by {force(well, Value(found.spread[0]))}"
+    if not any(math.isfinite(one.hook_load) for one in found.measured):
+        return f"Torques scatter by {torque(well, Value(found.spread[1]))}"
+    if any(math.isfinite(one.torque) for one in found.measured):
+        said += f", torques by {torque(well, Value(found.spread[1]))}"
+    return said
 
 
 def level_of_one(one: OperationResult) -> str:
