@@ -58,12 +58,18 @@ def test_a_good_file_is_read() -> None:
         ({"string__0": PIPE}, "[[string]] 1, length", "only the uppermost"),
         ({"string__0": {**PIPE, "joints": 9}}, "[[string]] 1, joint_length", "is missing"),
         ({"string__0__ends": "clamped-clamped"}, "[[string]] 1, ends", "is not known"),
-        ({"string__0__outer_diameter": "9 in"}, "[[hole.section]], section 1, diameter", "does not fit"),
+        ({"string__0__outer_diameter": "9 in"}, "hole.diameter", "does not fit"),
+        ({"hole__section": [{"to": "9 m"}, {"diameter": "4 in"}]}, "[[hole.section]] 2, diameter", "does not fit"),
         ({"well__operation__0__bit_force": "50 kN"}, "[[well.operation]] 1, bit_force", 'write "-50 kN"'),
         ({"well__operation__0__bit_depth": "9000 m"}, "[[well.operation]] 1, bit_depth", "below the last station"),
         ({"well__operation__0__kind": "run-out"}, "[[well.operation]] 1, kind", "must be"),
         ({"well__operation__0__rpm": 60}, "[[well.operation]] 1, rpm", "does not turn"),
         ({"well__operation": [{"kind": "ream", "rpm": 60}]}, "[[well.operation]] 1, speed", "is missing"),
+        (
+            {"well__operation": [{"kind": "ream", "rpm": 0, "speed": "1 m/h"}]},
+            "[[well.operation]] 1, rpm",
+            "must be above 0",
+        ),
         ({"well__operation": [{"kind": "run-in", "bit_force": "-5 kN"}]}, "[[well.operation]] 1, bit_force", "slide"),
         ({"well__block": "200 kN"}, "well.block", "did you mean 'block_weight'?"),
         ({"rod": {}}, "rod", "[[string]]"),
@@ -77,6 +83,15 @@ def test_bad_input_is_explained(changes: dict[str, Any], field: str, says: str) 
         read(**changes)
     assert told.value.field == field
     assert says in told.value.reason
+
+
+def test_what_was_written_in_the_section_of_the_hole_is_named() -> None:
+    with pytest.raises(InputError, match=r"hole\.diameter = '4\.5 in'"):
+        read(hole__diameter="4.5 in")
+    data = copy.deepcopy(GOOD)
+    data["hole"]["survey"] = "horizontl.csv"
+    with pytest.raises(InputError, match=r"hole\.survey"):
+        Well.from_dict(data)
 
 
 def test_a_well_without_operations_says_so() -> None:

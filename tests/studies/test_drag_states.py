@@ -6,19 +6,25 @@ import math
 
 import numpy as np
 import pytest
-from drag_wells import CLEARANCE, FRICTION, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
+from drag_wells import CLEARANCE, FRICTION, PIPE, STIFFNESS, WEIGHT, cutter, operation, well, well_a_survey
 from scipy.integrate import quad, solve_ivp
+from scipy.optimize import minimize_scalar
 
 from rodwell.analysis.endless.local import LIMITS, local_state
+from rodwell.answers.words.advice import OPEN
+from rodwell.quantities.value import Value
+from rodwell.report.reports.drag import drag_report
 from rodwell.studies.drag.contact import HELICAL, SINUSOIDAL
 from rodwell.studies.drag.drag import drag
 from rodwell.studies.drag.history import History, run_with_history, states_differ
 from rodwell.studies.drag.laws import CHEN, STRAIGHT_LAW, correlation, exact
 from rodwell.studies.drag.limits import limit_compression
 from rodwell.studies.drag.lock_up import reach, transfer
-from rodwell.studies.drag.plain import drag_dict
+from rodwell.studies.drag.plain import drag_dict, number
 from rodwell.studies.drag.run import balance, run
 from rodwell.studies.drag.strength import load_of
+from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import force
 from rodwell.survey.survey import Survey
 
 UNIT = math.sqrt(STIFFNESS * WEIGHT / CLEARANCE)
@@ -95,6 +101,51 @@ def test_where_the_push_ends_the_force_at_surface_is_the_push() -> None:
     assert found.lock_up is None
     assert found.push_ends is not None
     assert found.push_ends.value == pytest.approx(50e3 / (FRICTION * WEIGHT), rel=1e-9)
+
+
+def stairs() -> Survey:
+    """Vertical to 200 m, level from 400 to 2400 m, 20° from 2700 to 4000 m: below, the string pulls itself on."""
+    return Survey.of([0.0, 200.0, 400.0, 2400.0, 2700.0, 4000.0], [0.0, 0.0, 90.0, 90.0, 20.0, 20.0])
+
+
+def test_what_stops_on_the_way_is_not_possible_below() -> None:
+    """At 4000 m the string hangs in the drop, but it comes no deeper than in the same hole without one."""
+    free = {"kind": "run-in", "bit_depth": "4000 m"}
+    found = drag(well(stairs(), free, {"kind": "slide", "bit_force": "-20 kN"}, friction=0.35))
+    run_in, slide = found.operations
+    assert run_in.possible_at_depth
+    assert slide.possible_at_depth
+    assert not run_in.possible
+    assert not slide.possible
+    level = Survey.of([0.0, 200.0, 400.0, 2400.0], [0.0, 0.0, 90.0, 90.0])
+    alone = reach(cutter(level, friction=0.35), operation("run-in", level), exact(), "early", 2400.0)
+    assert alone.push_ends is not None
+    data = drag_dict(found)
+    assert data["verdict"] == "fails"
+    for one in data["operations"]:
+        assert one["push_ends_depth"]["value"] == pytest.approx(alone.push_ends.value, rel=1e-9)
+    assert "cannot get to 4000 m" in data["summary"][0]
+    assert data["summary"][0].endswith("2 of 2 operations fail.")
+    assert any(line.startswith("Slide cannot get to") for line in data["summary"])
+    assert [one["verdict"] for one in data["operations"]] == ["fails", "fails"]
+    assert data["operations"][1]["why"] in " ".join(data["summary"])
+    assert not any("push enough" in line for line in data["summary"])
+
+
+def test_a_dip_between_the_depths_looked_at_is_found() -> None:
+    """The force at surface is least within the drop: a push that is 5 N short of it ends for a metre or two."""
+    survey = stairs()
+    cut = cutter(survey, friction=0.35)
+
+    def force(depth: float) -> float:
+        return run(cut, operation("run-in", survey), STRAIGHT_LAW, depth=depth, coarse=True, record=False).force
+
+    least = minimize_scalar(force, bounds=(2400.0, 2700.0), method="bounded")
+    cut = cutter(survey, friction=0.35, push=f"{-least.fun - 5.0} N")
+    found = reach(cut, operation("run-in", survey), STRAIGHT_LAW, "early", 4000.0)
+    assert found.on_the_way
+    assert found.push_ends is not None
+    assert 0.0 < least.x - found.push_ends.value < 3.0
 
 
 def test_transfer_is_the_derivative_of_the_forces_at_both_ends() -> None:
@@ -186,6 +237,12 @@ def test_a_string_that_locks_up_says_so_and_keeps_what_was_computed() -> None:
     assert data["operations"][0]["lock_up_depth"]["value"] < 6000.0
 
 
+def test_an_error_that_is_not_known_is_null_in_json_and_units_are_those_of_the_tables() -> None:
+    assert number(Value(2.0, math.inf)) == {"value": 2.0, "error": None}
+    made = well(horizontal(100.0), {"kind": "run-in"})
+    assert force(made.in_units("mm"), Value(2e3)) == force(made, Value(2e3)) == "2 kN"
+
+
 def test_stretch_and_twist_of_a_hanging_string() -> None:
     """Vertical: ∫F/EA = wL²/2EA; a torque at the bit twists it by TL/GJ."""
     survey = Survey.of([0.0, 2000.0], [0.0, 0.0])
@@ -213,6 +270,22 @@ def test_limits_of_buckling_in_a_build_and_in_a_drop(side: float) -> None:
     half = 0.5 * side * beta**2 * STIFFNESS / (CLEARANCE * radius)
     exact_limit = half + np.sqrt(half**2 + beta**2 * STIFFNESS / CLEARANCE * WEIGHT * np.sin(alpha))
     assert limit_compression(one, beta) == pytest.approx(exact_limit, rel=1e-9)
+
+
+def test_sections_without_yield_strength_are_named() -> None:
+    """A strong collar below a pipe of which no grade is given: the collar alone is judged, and it is said."""
+    collar = {**PIPE, "name": "collar", "length": "30 m", "yield_strength": "750 MPa"}
+    data = {"hole": {"diameter": "8.5 in", "friction": 0.0}, "string": [collar, {**PIPE, "name": "pipe"}],
+            "well": {"operation": [{"kind": "pull-out", "bit_force": "1500 kN"}]}}  # fmt: skip
+    found = drag(Well.from_dict(data, survey=Survey.of([0.0, 1000.0], [0.0, 0.0])))
+    assert found.operations[0].strength.not_judged == ("pipe",)
+    told = drag_dict(found)
+    assert told["operations"][0]["not_judged"] == ["pipe"]
+    assert "not judged in pipe" in told["summary"][0]
+    assert any("for pipe, so stresses there (up to" in line for line in told["summary"])
+    status = drag_report(found).front.statuses[2]
+    assert status.level == OPEN
+    assert "for pipe" in status.reason
 
 
 def test_limits_in_a_vertical_hole_are_zero() -> None:

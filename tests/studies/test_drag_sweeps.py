@@ -69,6 +69,7 @@ def test_a_road_map_marks_where_an_operation_is_not_possible() -> None:
         ({"friction": [3.0]}, "well.road_map.friction"),
         ({"friction": [0.2], "friction_times": [1.0]}, "well.road_map.friction_times"),
         ({"kinds": ["ream"]}, "well.road_map.kinds"),
+        ({"kinds": ["slide"], "bit_force": "50 kN"}, "well.road_map.bit_force"),
     ],
 )
 def test_bad_road_maps_are_explained(asked: dict[str, object], field: str) -> None:
@@ -98,6 +99,7 @@ def test_friction_that_made_the_loads_is_found(tmp_path: Path) -> None:
     made = two_frictions()
     found = calibrate(made, read_measured(measurements(tmp_path, 0.0), made))
     assert [value.value for value in found.friction] == pytest.approx([0.17, 0.31], abs=1e-7)
+    assert found.notes == ()
 
 
 def test_its_uncertainty_covers_the_noise(tmp_path: Path) -> None:
@@ -123,6 +125,27 @@ def test_sections_that_nothing_is_measured_of_keep_their_friction_and_say_so(tmp
     assert np.isnan(found.friction[1].error)
 
 
+def test_a_fit_at_its_bound_says_so(tmp_path: Path) -> None:
+    """Hook loads a tenth of what hangs there, as with a wrong unit: no friction explains them."""
+    file = tmp_path / "wrong.csv"
+    lines = ["bit_depth [m],kind,hook_load [kN]", *(f"{depth},pull-out,40" for depth in (1600, 1700, 1800))]
+    file.write_text("\n".join(lines), encoding="utf-8")
+    made = two_frictions()
+    notes = calibrate(made, read_measured(file, made)).notes
+    assert "casing is at its bound, 0" in notes[0]
+    assert any("All measured hook loads are below" in note for note in notes)
+    assert any("of their size" in note for note in notes)
+
+
+def test_the_torque_of_the_bit_is_no_friction(tmp_path: Path) -> None:
+    made = two_frictions()
+    line = "bit_depth [m],kind,torque [kN m],bit_torque [kN m],bit_force [kN]\n3000,drill,12,3,-50\n"
+    file = tmp_path / "drill.csv"
+    file.write_text(line, encoding="utf-8")
+    one = read_measured(file, made)[0]
+    assert (one.operation.bit_torque, one.operation.bit_force, one.torque) == (3e3, -50e3, 12e3)
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -135,6 +158,9 @@ def test_sections_that_nothing_is_measured_of_keep_their_friction_and_say_so(tmp
         ("bit_depth [m],kind,hook_load [kN]\n1500,run-in,\n", "measures nothing"),
         ("bit_depth [m],kind,hook_load [kN]\n1500,run-in,300\n2500,run-in,300\n", "too few"),
         ("bit_depth [m],kind,hook_load [kN]\n1500,rotate-off-bottom,300\n1600,rotate-off-bottom,300\n", "depends on"),
+        ("bit_depth [m],kind,torque [kN m]\n1500,drill,9\n", "bit_torque"),
+        ("bit_depth [m],kind,hook_load [kN],wob [kN]\n1500,run-in,9,-5\n", "off bottom"),
+        ("bit_depth [m],kind,hook_load [kN],wob [kN]\n1500,pull-out,9,-5\n", "overpull is positive"),
         ("", "has no measurements"),
     ],
 )

@@ -99,7 +99,7 @@ def drag(
         _print(found)
         if fitted is not None:
             _print_friction(fitted)
-        print_written(folder, "report.html")
+        print_written(folder, "report.html", with_pdf)
     from rodwell.studies.drag.drag import BALANCED  # noqa: PLC0415
     from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
 
@@ -107,11 +107,16 @@ def drag(
 
 
 def _print_friction(found: Calibration) -> None:
-    """Friction factors that were found."""
+    """Friction factors that were found, how well they meet the measurements, and what makes them doubtful."""
+    from rodwell.studies.drag.words import scatter  # noqa: PLC0415
+
     for name, value in zip(found.names, found.friction, strict=True):
         known = value.error == value.error and value.error < float("inf")
         error = f" ± {plain(value.error, 2)} (standard error)" if known else ": nothing is measured that depends on it"
         click.echo(f"friction factor of {name}: {plain(value.value)}{error}")
+    click.echo(f"{scatter(found.well, found)} about those computed ({len(found.measured)} measurements).")
+    for note in found.notes:
+        click.echo(note)
 
 
 def _print(found: Drag) -> None:
@@ -137,8 +142,7 @@ def _table(found: Drag) -> object:
     from rich.table import Table  # noqa: PLC0415
 
     from rodwell.quantities.value import Value  # noqa: PLC0415
-    from rodwell.studies.drag.tables import units  # noqa: PLC0415
-    from rodwell.studies.drag.words import FAILS, level_of_one  # noqa: PLC0415
+    from rodwell.studies.drag.words import FAILS, level_of_one, units  # noqa: PLC0415
 
     by = units(found.well)
     (n, force), (nm, torque) = by["force"], by["torque"]
@@ -158,7 +162,8 @@ def _table(found: Drag) -> object:
             *(cell(one.compared[name].hook_load, n) if name in one.compared else "" for name in
               ("straight", "correlation")),
             cell(one.ends.torque, nm), f"{plain(buckled)} {by['depth'][1]}" if buckled else "no",
-            ("–" if not used else "beyond" if max(used) >= FAR else f"{plain(100.0 * max(used), 3)} %"),
+            ("–" if not used else "beyond" if max(used) >= FAR else f"{plain(100.0 * max(used), 3)} %")
+            + (" of some" if used and one.strength.not_judged else ""),
             style="bold red" if level_of_one(one) == FAILS else None,
         )  # fmt: skip
     return table

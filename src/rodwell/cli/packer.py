@@ -59,7 +59,7 @@ def packer(case: Path, out: Path | None, with_pdf: bool, units: str | None, as_j
         print_json(result.as_dict())
     else:
         _print(result)
-        print_written(folder, "report.html")
+        print_written(folder, "report.html", with_pdf)
     check_missed([] if result.converged else ["a change of length, or the packer's force"], 1e-4)
 
 

@@ -15,8 +15,8 @@ from rodwell.studies.drag.contact import BUCKLES, NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
 from rodwell.studies.drag.limits import limit_compression
 from rodwell.studies.drag.road_map import RoadMap
-from rodwell.studies.drag.tables import units
 from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import units
 
 SHADES = {1: "#f3d9b8", 2: "#eab5a8"}
 """Behind sinusoidal and helical intervals."""

@@ -18,8 +18,7 @@ from rodwell.plots.wells.drag import DASHES
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.sweep.points import OperationAt
 from rodwell.studies.drag.sweep.study import DragStudy
-from rodwell.studies.drag.tables import units
-from rodwell.studies.drag.words import FAILS
+from rodwell.studies.drag.words import FAILS, units
 
 Number = Callable[[OperationAt], Value | None]
 

@@ -16,17 +16,22 @@ from rodwell.report.reports.texts import short
 from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
-from rodwell.studies.drag.tables import operations_table, units
+from rodwell.studies.drag.tables import operations_table
 from rodwell.studies.drag.words import (
     FAILS,
     assumptions,
     depth,
+    failure,
     force,
     level_of_one,
+    not_judged,
+    scatter,
     sentences,
     sentences_of,
     torque,
     unbalanced,
+    units,
+    way_left_out,
     yields,
 )
 
@@ -91,6 +96,9 @@ def _reached(found: Drag) -> Status:
     bad = [one.operation.name for one in found.operations if not one.possible]
     if bad:
         return Status("Depth", BAD, "not reached", f"not possible: {', '.join(bad)}")
+    if way_left_out(found):
+        what = "every operation is possible with the bit at its depth; the way down of a stiff string is not looked at"
+        return Status("Depth", OPEN, "way not looked at", what)
     return Status("Depth", GOOD, "reached", "every operation is possible with the push there is")
 
 
@@ -109,12 +117,11 @@ def _strength(found: Drag) -> Status:
     if bad:
         return Status("Stress", BAD, "beyond yield", f"in {', '.join(bad)}")
     most = max(float(v) for one in known for v in one.strength.used if math.isfinite(v))
-    return Status(
-        "Stress",
-        GOOD,
-        "below yield",
-        f"the largest von Mises stress is {plain(100.0 * most, 3)} % of the yield strength",
-    )
+    reason = f"the largest von Mises stress is {plain(100.0 * most, 3)} % of the yield strength"
+    if not_judged(found):
+        what = f"no yield strength is given for {', '.join(not_judged(found))}; elsewhere {reason}"
+        return Status("Stress", OPEN, "not judged everywhere", what)
+    return Status("Stress", GOOD, "below yield", reason)
 
 
 def _numbers(found: Drag) -> Status:
@@ -168,7 +175,7 @@ def _operation(found: Drag, one: OperationResult, number: int) -> ReportSection:
     blocks: list[Block] = []
     text = sentences_of(well, one)
     if level_of_one(one) == FAILS:
-        blocks.append(Words("This operation fails.", "warning"))
+        blocks.append(Words(f"This operation {failure(well, one)}.", "warning"))
     if text:
         blocks.append(Items(tuple(text)))
     blocks.append(Picture(
@@ -220,15 +227,14 @@ def _calibration(found: Calibration) -> ReportSection:
         (name, plain(value.value), "not told" if not math.isfinite(value.error) else plain(value.error, 2))
         for name, value in zip(found.names, found.friction, strict=True)
     )
-    hook, torque = found.spread
-    spread = f"Hook loads scatter by {plain(hook / 1e3, 3)} kN"
-    if any(math.isfinite(one.torque) for one in found.measured):
-        spread += f", torques by {plain(torque / 1e3, 3)} kN·m"
+    doubts: list[Block] = [Words(note, "warning") for note in found.notes]
     return ReportSection("Friction from measurements", (
+        *doubts,
         Grid(("section", "friction factor", "± standard error"), rows, numeric=(1, 2)),
         Picture("calibration", "Measured and computed hook loads against the depth of the bit",
                 "Measured loads (points) and those computed with the friction factors found (lines)."),
-        Words(f"{spread} about those computed with these factors ({len(found.measured)} measurements). The standard "
+        Words(f"{scatter(found.well, found)} about those computed with these factors "
+              f"({len(found.measured)} measurements). The standard "
               "error is that of the scatter alone: it does not cover what the model leaves out.", "small"),
     ))  # fmt: skip
 

@@ -29,9 +29,12 @@ STEP, MOST_STEPS, SETTLED = 1e-5, 60, 1e-10
 LARGEST, WEAK = 1.0, 1e-10
 """Largest friction factor; eigenvalue of the normal matrix, as a part of the largest, below which nothing is told."""
 
+FEW, LARGE_SPREAD = 3, 0.2
+"""Residuals of one sign from which on they are an offset; mean residual, as a part of the loads, that is large."""
+
 COLUMNS = {"bit_depth": ("bit_depth", "depth", "md"), "kind": ("kind", "operation"),
            "hook_load": ("hook_load", "hookload"), "torque": ("torque", "surface_torque"),
-           "bit_force": ("bit_force", "wob")}  # fmt: skip
+           "bit_force": ("bit_force", "wob"), "bit_torque": ("bit_torque", "torque_on_bit", "tob")}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,8 @@ class Calibration:
         Standard deviations of the residuals in N and in N m.
     not_told
         Sections on whose factors the measurements say nothing: they keep that of the file.
+    notes
+        What makes the factors doubtful: one at its bound, a fit that has not settled, residuals of one sign.
     """
 
     well: Well
@@ -74,6 +79,7 @@ class Calibration:
     residuals: FloatArray
     spread: tuple[float, float]
     not_told: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 def read_measured(path: Path, well: Well) -> tuple[Measured, ...]:
@@ -111,7 +117,7 @@ def _columns(head: Sequence[str], path: Path) -> dict[str, tuple[int, str]]:
         meaning = next((key for key, names in COLUMNS.items() if plain in names), None)
         if meaning is None:
             raise InputError(f"{path.name}, column {i + 1}", title.strip(), "is not known; columns are bit_depth [m], "
-                             "kind, hook_load [kN], torque [kN m], bit_force [kN]")  # fmt: skip
+                             "kind, hook_load [kN], torque [kN m], bit_force [kN], bit_torque [kN m]")  # fmt: skip
         found[meaning] = (i, unit.rstrip("] ").strip())
     for need in ("bit_depth", "kind"):
         if need not in found:
@@ -126,7 +132,8 @@ def _columns(head: Sequence[str], path: Path) -> dict[str, tuple[int, str]]:
     return found
 
 
-_KIND = {"bit_depth": "length", "hook_load": "force", "torque": "moment", "bit_force": "force"}
+_KIND = {"bit_depth": "length", "hook_load": "force", "torque": "moment", "bit_force": "force",
+         "bit_torque": "moment"}  # fmt: skip
 
 
 def _measured(row: Sequence[str], columns: dict[str, tuple[int, str]], line: int, path: Path, well: Well) -> Measured:
@@ -150,12 +157,30 @@ def _measured(row: Sequence[str], columns: dict[str, tuple[int, str]], line: int
     depth, force = number("bit_depth"), number("bit_force")
     if not 0.0 < depth <= well.end * (1.0 + 1e-12):
         raise InputError(f"{where}, bit_depth", cell("bit_depth"), f"must be above 0 and at most {well.end:g} m")
-    if force > 0.0:
-        raise InputError(f"{where}, bit_force", cell("bit_force"), "puts the bit in tension: weight on bit is negative")
-    hook, torque = number("hook_load"), number("torque")
+    _check_bit_force(f"{where}, bit_force", cell("bit_force"), kind, force)
+    hook, torque, bit_torque = number("hook_load"), number("torque"), number("bit_torque")
+    if kind == "drill" and not math.isnan(torque) and math.isnan(bit_torque):
+        what = "is missing: the torque at surface is that of the bit and that of friction; give a column bit_torque, " \
+               "or leave the torque of this line empty"  # fmt: skip
+        raise InputError(f"{where}, bit_torque", None, what)
+    if (kind != "drill" and bit_torque > 0.0) or bit_torque < 0.0:
+        what = "must be 0 or more, and is given where the string drills only"
+        raise InputError(f"{where}, bit_torque", cell("bit_torque"), what)
     if math.isnan(hook) and math.isnan(torque):
         raise InputError(where, None, "measures nothing: give a hook load or a torque, or remove the line")
-    return Measured(Operation(kind, kind, depth, 0.0 if math.isnan(force) else force), hook, torque, line)
+    at_bit = (0.0 if math.isnan(value) else value for value in (force, bit_torque))
+    return Measured(Operation(kind, kind, depth, *at_bit), hook, torque, line)
+
+
+def _check_bit_force(field: str, written: str, kind: str, force: float) -> None:
+    """Raise an InputError for a force at the bit that the operation cannot have; NaN is none."""
+    if kind == "pull-out":
+        if force < 0.0:
+            raise InputError(field, written, "pushes the bit while the string is pulled out: an overpull is positive")
+    elif force > 0.0:
+        raise InputError(field, written, "puts the bit in tension: weight on bit is negative")
+    elif kind in ("run-in", "rotate-off-bottom") and force < 0.0:
+        raise InputError(field, written, "has no meaning off bottom: the bit is free; take slide or drill")
 
 
 def calibrate(
@@ -184,7 +209,7 @@ def calibrate(
     scale, mu = np.array([1.0, 1.0]), start.copy()
     for again in range(2):
         tell("friction factors", 0.5 * again)
-        mu, jacobian, left = _fitted(well, measured, mu, told, scale)
+        mu, jacobian, left, settled = _fitted(well, measured, mu, told, scale)
         scale = _spread(left, int(np.sum(told)))
     weighed = (jacobian / scale[None, :, None]).reshape(-1, int(np.sum(told)))
     weighed = weighed[~np.isnan(left).ravel()]
@@ -202,7 +227,29 @@ def calibrate(
         replace(well, hole=hole), names, tuple(Value(float(m), float(e)) for m, e in zip(mu, errors, strict=True)),
         inverse / np.outer(safe, safe), tuple(measured), left, (float(scale[0]), float(scale[1])),
         tuple(name for name, one in zip(names, told, strict=True) if not one),
+        _notes(np.array(names)[told], mu[told], left, _given(measured), settled),
     )  # fmt: skip
+
+
+def _notes(names: Sequence[str], mu: FloatArray, left: FloatArray, given: FloatArray, settled: bool) -> tuple[str, ...]:
+    """What makes the factors doubtful, in words."""
+    check = "check units, block weight and string"
+    out = [
+        f"The friction factor of {name} is at its bound, {value:g}: no factor between 0 and {LARGEST:g} meets the "
+        f"measurements, and its standard error means nothing; {check}."
+        for name, value in zip(names, mu, strict=True) if value in (0.0, LARGEST)
+    ]  # fmt: skip
+    if not settled:
+        out.append(f"The fit has not settled in {MOST_STEPS} steps: the factors are no best ones.")
+    for what, column, values in zip(("hook loads", "torques"), left.T, given.T, strict=True):
+        known = column[~np.isnan(column)]
+        if len(known) >= FEW and (np.all(known > 0.0) or np.all(known < 0.0)):
+            side = "above" if known[0] > 0.0 else "below"
+            out.append(f"All measured {what} are {side} those computed: an offset, no scatter; {check}.")
+        share = math.sqrt(float(np.mean(known**2) / np.nanmean(values**2))) if np.any(known) else 0.0
+        if share > LARGE_SPREAD:
+            out.append(f"Measured {what} are off those computed by {100.0 * share:.0f} % of their size: {check}.")
+    return tuple(out)
 
 
 def _computed(well: Well, measured: Sequence[Measured], mu: FloatArray) -> FloatArray:
@@ -236,11 +283,12 @@ def _given(measured: Sequence[Measured]) -> FloatArray:
 
 def _fitted(
     well: Well, measured: Sequence[Measured], start: FloatArray, told: FloatArray, scale: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Factors, derivatives (m, 2, k) of what was computed, residuals (m, 2)."""
+) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
+    """Factors, derivatives (m, 2, k) of what was computed, residuals (m, 2), and whether the fit has settled."""
     mu, given = start.copy(), _given(measured)
     which = np.flatnonzero(told)
     jacobian = np.zeros((len(measured), 2, len(which)))
+    settled = False
     for _ in range(MOST_STEPS):
         base = _computed(well, measured, mu)
         for j, k in enumerate(which):
@@ -253,11 +301,11 @@ def _fitted(
         step = np.linalg.lstsq(rows[known], left[known], rcond=1e-8)[0]
         new = mu.copy()
         new[which] = np.clip(mu[which] + step, 0.0, LARGEST)
-        settled = np.max(np.abs(new - mu)) <= SETTLED
+        settled = bool(np.max(np.abs(new - mu)) <= SETTLED)
         mu = new
         if settled:
             break
-    return mu, jacobian, given - _computed(well, measured, mu)
+    return mu, jacobian, given - _computed(well, measured, mu), settled
 
 
 def _spread(left: FloatArray, factors: int) -> FloatArray:

@@ -21,7 +21,7 @@ from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.road_map import RoadMap, road_map
 from rodwell.studies.drag.run import Run, balance, error_of, errors_along, run
 from rodwell.studies.drag.strength import Strength, strength_of
-from rodwell.studies.drag.well_case import Operation, Well
+from rodwell.studies.drag.well_case import DOWNWARD, Operation, Well
 
 if TYPE_CHECKING:
     from rodwell.faces import Axes
@@ -65,7 +65,8 @@ class OperationResult:
     balance
         How far the work of the ends differs from that of gravity and friction, as a part of all work; None if locked.
     margin
-        Push that is left in N, before that of string, block and injector ends: worse of the bounds; None if locked.
+        Push that is left in N with the bit at its depth, before that of string, block and injector ends: worse of the
+        bounds; None if locked.
     force_errors
         Errors of the forces along the string in N, (m,), for the rows of ``run``.
     settled
@@ -87,8 +88,18 @@ class OperationResult:
 
     @property
     def possible(self) -> bool:
-        """Whether the string gets there, by the worse of the bounds."""
+        """Whether the string gets there, past every depth looked at on the way, by the worse of the bounds."""
+        return self.possible_at_depth and not self.stopped
+
+    @property
+    def possible_at_depth(self) -> bool:
+        """Whether the push there is suffices with the bit at its depth, by the worse of the bounds."""
         return self.margin is not None and self.margin.value >= 0.0
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the string, its bit free, cannot get past a depth on the way, by the worse of the bounds."""
+        return any(found.on_the_way for found in self.reach.values())
 
     @property
     def locked(self) -> bool:
@@ -168,14 +179,16 @@ def _computed(well: Well, cutter: Cutter, history: History, operation: Operation
     others = [law for law in (STRAIGHT_LAW, correlation(), contact) if law.name != contact.name]
     compared = {law.name: _by_rule(cutter, operation, law, "equal-energy") for law in others}
     compared[contact.name] = ends
-    down = operation.kind in ("run-in", "slide", "ream") or (operation.kind == "drill" and operation.speed > 0.0)
+    margin = _margin(well, ends, bounds)
+    down = operation.kind in DOWNWARD
     reaches = {}
     if down:
         deepest = min(well.end, float(cutter.string_ends[-1]))
         first = reach(cutter, operation, contact, "early", deepest)
-        reaches = {"early": first, "late": first if contact.one_state else
-                   reach(cutter, operation, contact, "late", deepest)}  # fmt: skip
-    margin = _margin(well, ends, bounds)
+        # the helix presses more than the sinusoidal state: what passes with it everywhere passes with the other
+        passes = first.push_ends is None and margin is not None and margin.value >= 0.0
+        same = contact.one_state or passes
+        reaches = {"early": first, "late": first if same else reach(cutter, operation, contact, "late", deepest)}
     return OperationResult(
         operation, one, ends, bounds, compared, reaches,
         transfer(cutter, operation, contact, rule) if down else None,

@@ -16,7 +16,8 @@ from rodwell.studies.drag.drag import Drag, Ends, OperationResult
 from rodwell.studies.drag.lock_up import Reach
 from rodwell.studies.drag.road_map import RoadMap
 from rodwell.studies.drag.tables import worst_depth
-from rodwell.studies.drag.words import assumptions, level_of, sentences
+from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.words import FAILS, assumptions, failure, level_of, level_of_one, sentences
 
 UNIT = {"force": "N", "force_per_length": "N/m", "torque": "N m", "depth": "m", "stress": "Pa", "angle": "rad"}
 CONVENTION = (
@@ -42,13 +43,13 @@ def drag_dict(found: Drag, calibration: Calibration | None = None) -> dict[str, 
         "state_rule": well.settings.state_rule,
         "block_weight": well.settings.block_weight,
         "survey": well.survey.source,
-        "operations": [operation_dict(one) for one in found.operations],
+        "operations": [operation_dict(well, one) for one in found.operations],
         "road_map": None if found.road_map is None else _road_map(found.road_map),
         "calibration": None if calibration is None else _calibration(calibration),
     }
 
 
-def operation_dict(one: OperationResult) -> dict[str, Any]:
+def operation_dict(well: Well, one: OperationResult) -> dict[str, Any]:
     """What was found of one operation."""
     operation, run, strength = one.operation, one.run, one.strength
     return {
@@ -57,6 +58,8 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "bit_depth": operation.bit_depth,
         "bit_force": number(Value(operation.bit_force)),
         "bit_torque": number(Value(operation.bit_torque)),
+        "verdict": level_of_one(one),
+        "why": failure(well, one) if level_of_one(one) == FAILS else None,
         "possible": one.possible,
         "hook_load": number(one.ends.hook_load),
         "surface_torque": number(one.ends.torque),
@@ -73,6 +76,7 @@ def operation_dict(one: OperationResult) -> dict[str, Any]:
         "largest_contact_force": number(largest(run.contacts)) if run.arrived else None,
         "largest_von_mises": number(largest(strength.von_mises)) if run.arrived else None,
         "largest_used": number(largest(strength.used)) if run.arrived else None,
+        "not_judged": list(strength.not_judged),
         "stretch": number(strength.stretch) if run.arrived else None,
         "twist": number(strength.twist) if run.arrived else None,
         "balance": number(one.balance),
@@ -111,16 +115,17 @@ def _calibration(found: Calibration) -> dict[str, Any]:
         ],
         "correlation": [listed(row) for row in found.correlation],
         "standard_deviation": {"hook_load": found.spread[0], "surface_torque": found.spread[1]},
+        "notes": list(found.notes),
         "measurements": len(found.measured),
         "residuals": {"hook_load": listed(found.residuals[:, 0]), "surface_torque": listed(found.residuals[:, 1])},
     }
 
 
-def number(value: Value | None) -> dict[str, float] | None:
-    """A number with its error; null where there is none."""
+def number(value: Value | None) -> dict[str, float | None] | None:
+    """A number with its error; null where there is none, and for an error that is not known."""
     if value is None or not math.isfinite(value.value):
         return None
-    return {"value": value.value, "error": value.error}
+    return {"value": value.value, "error": value.error if math.isfinite(value.error) else None}
 
 
 def listed(values: FloatArray) -> list[float | None]:
@@ -135,7 +140,8 @@ def _ends(ends: Ends) -> dict[str, Any]:
 def _reach(found: Reach) -> dict[str, Any]:
     return {
         "lock_up_depth": number(found.lock_up), "push_ends_depth": number(found.push_ends),
-        "searched_from": found.searched_from, "searched_to": found.searched_to,
+        "searched_from": found.searched_from, "searched_to": found.searched_to, "looked_at": found.looked_at,
+        "on_the_way": found.on_the_way,
     }  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.studies.drag.laws import contact_named
 from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.run import Run, run
-from rodwell.studies.drag.well_case import Operation, Well
+from rodwell.studies.drag.well_case import Operation, Well, check_weight_on_bit
 
 RULE = "early"
 """Where two local states are stable the map takes the one with more contact: it stands for a limit."""
@@ -73,8 +73,9 @@ def road_map(well: Well, progress: Callable[[str, float], None] | None = None) -
         raise InputError("well.road_map.to", f"{last:g} m", f"is below what survey and string reach, {deepest:g} m")
     if not 0.0 < first < last:
         raise InputError(
-            "well.road_map.from", f"{first:g} m", f"must be above 0 m and above well.road_map.to, {last:g} m"
+            "well.road_map.from", f"{first:g} m", f"must be more than 0 m and less than well.road_map.to, {last:g} m"
         )
+    check_weight_on_bit("well.road_map.bit_force", asked.bit_force or 0.0)
     depths = np.linspace(first, last, asked.depths)
     tell = progress or (lambda _what, _done: None)
     curves = []

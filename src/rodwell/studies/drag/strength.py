@@ -34,6 +34,9 @@ class Strength:
         angle in rad by which the upper end is turned against the bit; None where a section is not known.
     helix_slope
         Largest slope of a helical interval against the hole, that of a helix without weight, r √(P/2B); 0 without one.
+    not_judged
+        Sections of the string in this run whose yield strength, or wall, is not given: nothing is known of their
+        ``used``.
     """
 
     true_force: FloatArray
@@ -44,6 +47,7 @@ class Strength:
     stretch: Value | None
     twist: Value | None
     helix_slope: float
+    not_judged: tuple[str, ...]
 
 
 def strength_of(well: Well, one: Run, bent: FloatArray | None = None) -> Strength:
@@ -56,12 +60,14 @@ def strength_of(well: Well, one: Run, bent: FloatArray | None = None) -> Strengt
         curvature = np.where(one.states == STRAIGHT, bent, np.maximum(curvature, bent))
     true, bending, mises, used = (np.full(rows, np.nan) for _ in range(4))
     strain, turn = np.zeros(rows), np.zeros(rows)
-    known = True
+    known, not_judged = True, []
     for i, part in enumerate(well.string):
         here = section == i
         if not np.any(here):
             continue
         rod, ring = part.rod, section_of(part.rod)
+        if ring is None or rod.yield_strength is None:
+            not_judged.append(part.name)
         inside, outside = part.fluids.pressures(well.gravity, depth[here])
         if ring is None:
             known = False
@@ -78,7 +84,9 @@ def strength_of(well: Well, one: Run, bent: FloatArray | None = None) -> Strengt
         torsion = rod.torsion if rod.torsion is not None else 1.0 / (1.0 + rod.poisson)
         turn[here] = one.torques[here] / (torsion * rod.stiffness)
     stretch = _sum(one, strain) if known else None
-    return Strength(true, curvature, bending, mises, used, stretch, _sum(one, turn), _helix_slope(well, one))
+    return Strength(
+        true, curvature, bending, mises, used, stretch, _sum(one, turn), _helix_slope(well, one), tuple(not_judged)
+    )
 
 
 def local_curvature(one: Run) -> FloatArray:

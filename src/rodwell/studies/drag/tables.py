@@ -10,19 +10,7 @@ from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import Drag, OperationResult
 from rodwell.studies.drag.road_map import RoadMap
-from rodwell.studies.drag.well_case import Well
-from rodwell.studies.drag.words import assumptions, level_of_one
-
-
-def units(well: Well) -> dict[str, tuple[float, str]]:
-    """SI value and text of the units of tables, for depth, force, force per length, torque and stress."""
-    system = well.system
-    if system.name == "field":
-        names = {"depth": "length", "force": "force", "per_length": "force_per_length", "torque": "moment",
-                 "stress": "stress"}  # fmt: skip
-        return {key: system.unit(name) for key, name in names.items()}
-    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN·m"),
-            "stress": (1e6, "MPa")}  # fmt: skip
+from rodwell.studies.drag.words import assumptions, level_of_one, units
 
 
 def operations_table(found: Drag) -> Table:
@@ -34,7 +22,7 @@ def operations_table(found: Drag) -> Table:
         f"hook load, helix early [{force}]", f"hook load, helix late [{force}]", f"without buckling [{force}]",
         f"by correlation [{force}]", f"torque at surface [{torque}]", f"± error [{torque}]", f"push left [{force}]",
         f"locks up at bit depth [{depth}]", f"push ends at bit depth [{depth}]", f"largest von Mises stress [{stress}]",
-        "part of yield strength", f"stretch [{depth}]", "twist [turns]", "verdict",
+        "part of yield strength", "stress not judged in", f"stretch [{depth}]", "twist [turns]", "verdict",
     )  # fmt: skip
     rows = []
     for one in found.operations:
@@ -45,8 +33,8 @@ def operations_table(found: Drag) -> Table:
             *_both(one.ends.hook_load, n), *(_cell(one.bounds[rule].hook_load, n) for rule in ("early", "late")),
             _cell(compared.get("straight"), n), _cell(compared.get("correlation"), n), *_both(one.ends.torque, nm),
             _cell(one.margin, n), _cell(worst_depth(one, "lock_up"), m), _cell(worst_depth(one, "push_ends"), m),
-            *((_peak(s.von_mises, pa), _peak(s.used, 1.0), _cell(s.stretch, m), _cell(s.twist, 2.0 * math.pi))
-              if one.run.arrived else (None,) * 4), level_of_one(one),
+            *((_peak(s.von_mises, pa), _peak(s.used, 1.0), ", ".join(s.not_judged) or None, _cell(s.stretch, m),
+               _cell(s.twist, 2.0 * math.pi)) if one.run.arrived else (None,) * 5), level_of_one(one),
         ))  # fmt: skip
     marked = frozenset(i for i, one in enumerate(found.operations) if level_of_one(one) == "fails")
     return Table("Operations", columns, tuple(rows), marked, tuple(assumptions(found)))

@@ -16,7 +16,7 @@ from rodwell.case.checks.signs import unsigned
 from rodwell.case.file import CaseText, read_case
 from rodwell.case.well import schema
 from rodwell.case.well.file import in_file, named, read_well
-from rodwell.case.well.hole_sections import HoleSection, hole_sections
+from rodwell.case.well.hole_sections import HoleSection, hole_sections, key_of_hole
 from rodwell.case.well.string_sections import StringSection, string_sections
 from rodwell.errors import InputError
 from rodwell.quantities.units import SI, SYSTEMS, System
@@ -24,6 +24,7 @@ from rodwell.survey.survey import Survey
 
 ROTATING = ("rotate-off-bottom", "drill", "ream", "back-ream")
 UPWARD = ("pull-out", "back-ream")
+DOWNWARD = ("run-in", "slide", "drill", "ream")
 
 CLOSE_FIT = 1e-6
 """Clearance below this part of the hole's diameter is none."""
@@ -160,15 +161,17 @@ class Well:
             data = {**data, "hole": {"survey": survey.source, **data["hole"]}}
         given = read_well(data, source)
         try:
-            return _assemble(given, survey, source, text, Path(folder))
+            return _assemble(given, data, survey, source, text, Path(folder))
         except InputError as error:
             raise in_file(source, error) from None
 
 
-def _assemble(given: schema.WellFile, survey: Survey | None, source: str, text: str, folder: Path) -> Well:
+def _assemble(
+    given: schema.WellFile, written: Mapping[str, Any], survey: Survey | None, source: str, text: str, folder: Path
+) -> Well:
     catalogue = package_catalogue() if given.catalogue is None else read_catalogue(given.catalogue.files, folder)
     gravity = given.hole.gravity
-    path = survey or Survey.read(folder / given.hole.survey, depth_unit=given.hole.depth_unit, well=given.hole.well)
+    path = survey or _survey(given.hole, folder)
     string = string_sections(given.string, gravity, given.mud, given.pressure, catalogue)
     hole = hole_sections(given.hole.section, given.hole.diameter, given.hole.friction)
     path = from_surface(path)
@@ -184,7 +187,7 @@ def _assemble(given: schema.WellFile, survey: Survey | None, source: str, text: 
     for i, one in enumerate(operations):
         _check_operation(one, i, given.well.operation[i], end, length)
     for section in string:
-        _check_fit(section, hole, end)
+        _check_fit(section, hole, end, written["hole"])
     title = given.title or (Path(source).stem if text else "Well")
     said = None if given.report is None else given.report.model_dump(exclude_none=True)
     system = System(given.units or "si")
@@ -233,9 +236,8 @@ def _check_operation(one: Operation, number: int, given: schema.OperationInput, 
     if one.bit_depth > length * (1.0 + 1e-12):
         what = f"cannot be reached: the string is {length:g} m long; leave the length of its uppermost section out"
         raise InputError(key("bit_depth"), f"{one.bit_depth:g} m", what)
-    if one.bit_force > 0.0 and one.kind != "pull-out":
-        what = f'puts the bit in tension: weight on bit is negative, write "-{unsigned(_force(one.bit_force))}"'
-        raise InputError(key("bit_force"), _force(one.bit_force), what)
+    if one.kind != "pull-out":
+        check_weight_on_bit(key("bit_force"), one.bit_force)
     if one.kind in ("run-in", "rotate-off-bottom") and one.bit_force != 0.0:
         what = 'has no meaning off bottom: the bit is free; take kind = "slide" or "drill", or leave it out'
         raise InputError(key("bit_force"), _force(one.bit_force), what)
@@ -250,24 +252,51 @@ def _check_operation(one: Operation, number: int, given: schema.OperationInput, 
     if given.rpm is not None and not (math.isfinite(given.rpm) and given.rpm >= 0.0):
         raise InputError(key("rpm"), given.rpm, "must be 0 or more")
     if one.kind in ("ream", "back-ream") and not (one.speed > 0.0 and one.turning > 0.0):
-        missing = "speed" if not one.speed > 0.0 else "rpm"
-        raise InputError(key(missing), None, f"is missing: {one.kind} needs speed and rpm, which divide the friction")
+        name = "speed" if not one.speed > 0.0 else "rpm"
+        what = f"{one.kind} needs speed and rpm, which divide the friction"
+        raise InputError(key(name), getattr(given, name), f"{_lacking(getattr(given, name))}: {what}")
     if one.kind == "drill" and one.speed > 0.0 and not one.turning > 0.0:
-        raise InputError(key("rpm"), None, "is missing: with a speed, friction is divided between the two")
+        what = f"{_lacking(given.rpm)}: with a speed, friction is divided between the two"
+        raise InputError(key("rpm"), given.rpm, what)
     if one.kind == "rotate-off-bottom" and one.speed > 0.0:
         raise InputError(key("speed"), given.speed, "has no meaning: the bit stays where it is; take ream or back-ream")
+
+
+def _lacking(value: float | None) -> str:
+    """What is wrong with a value that is missing, or 0."""
+    return "is missing" if value is None else "must be above 0"
+
+
+def check_weight_on_bit(field: str, force: float) -> None:
+    """Raise an InputError for ``field`` if a force at the bit in N would pull at what goes down."""
+    if force > 0.0:
+        what = f'puts the bit in tension: weight on bit is negative, write "-{unsigned(_force(force))}"'
+        raise InputError(field, _force(force), what)
 
 
 def _force(value: float) -> str:
     return f"{value / 1e3:g} kN"
 
 
-def _check_fit(section: StringSection, hole: tuple[HoleSection, ...], end: float) -> None:
+def _survey(hole: schema.WellHole, folder: Path) -> Survey:
+    """The path of the hole; errors about the file are about its key."""
+    try:
+        return Survey.read(folder / hole.survey, depth_unit=hole.depth_unit, well=hole.well)
+    except InputError as error:
+        if error.field != "survey":
+            raise
+        raise InputError("hole.survey", error.value, error.reason) from None
+
+
+def _check_fit(section: StringSection, hole: tuple[HoleSection, ...], end: float, written: Mapping[str, Any]) -> None:
+    """Raise an InputError for a diameter of the hole, as ``written`` in [hole], that the string does not fit."""
     outer = section.rod.outer_diameter
     if outer is None:
         what = "is missing: torque, clearance and stress need it"
         raise InputError(f"[[string]], {section.name}, outer_diameter", None, what)
-    for part in hole:
+    for i, part in enumerate(hole):
         if part.start < end and not part.diameter - outer > CLOSE_FIT * part.diameter:
+            own = written["section"][i].get("diameter") if written.get("section") else None
+            key, value = ("hole.diameter", written["diameter"]) if own is None else (key_of_hole(i, "diameter"), own)
             what = f"must be above the outer diameter of {section.name}, {outer:g} m: the string does not fit"
-            raise InputError(f"[[hole.section]], {part.name}, diameter", f"{part.diameter:g} m", what)
+            raise InputError(key, value, what)

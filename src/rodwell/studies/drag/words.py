@@ -8,9 +8,10 @@ import numpy as np
 
 from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
+from rodwell.studies.drag.calibration import Calibration
 from rodwell.studies.drag.contact import NAMES
 from rodwell.studies.drag.drag import BALANCED, Drag, OperationResult
-from rodwell.studies.drag.well_case import Well
+from rodwell.studies.drag.well_case import DOWNWARD, Well
 
 FAILS, BUCKLES, PASSES = "fails", "buckles", "passes"
 LEVELS = (FAILS, BUCKLES, PASSES)
@@ -21,6 +22,16 @@ STEEP = 0.3
 
 SMALL_TRANSFER = 0.01
 """Below this part of a force at surface that arrives at the bit, practice speaks of lock-up."""
+
+
+def scatter(well: Well, found: Calibration) -> str:
+    """How far measured loads lie from those computed with the factors found."""
+    said = f"Hook loads scatter by {force(well, Value(found.spread[0]))}"
+    if not any(math.isfinite(one.hook_load) for one in found.measured):
+        return f"Torques scatter by {torque(well, Value(found.spread[1]))}"
+    if any(math.isfinite(one.torque) for one in found.measured):
+        said += f", torques by {torque(well, Value(found.spread[1]))}"
+    return said
 
 
 def level_of_one(one: OperationResult) -> str:
@@ -48,20 +59,39 @@ def force(well: Well, value: Value) -> str:
 
 def torque(well: Well, value: Value) -> str:
     """A torque likewise."""
-    return _in(well, value, "moment")
+    return _in(well, value, "torque")
 
 
 def depth(well: Well, value: float, error: float = 0.0) -> str:
     """A measured depth in metres or feet."""
-    unit, text = (0.3048, "ft") if well.system.name == "field" else (1.0, "m")
+    unit, text = units(well)["depth"]
     return f"{amount(Value(value / unit, error / unit), 6)} {text}"
 
 
-def _in(well: Well, value: Value, dimension: str) -> str:
-    if well.system.name == "si":
-        scale, text = (1e3, "kN" if dimension == "force" else "kN·m")
-    else:
-        scale, text = well.system.unit(dimension)
+def stress(well: Well, value: float) -> str:
+    """A stress in the well's units."""
+    scale, text = units(well)["stress"]
+    return f"{plain(value / scale, 3)} {text}"
+
+
+def not_judged(found: Drag) -> tuple[str, ...]:
+    """Sections of the string of which no yield strength is given, from the bit up."""
+    return tuple(dict.fromkeys(name for one in found.operations for name in one.strength.not_judged))
+
+
+def units(well: Well) -> dict[str, tuple[float, str]]:
+    """SI value and text of the units of sentences and tables: depth, force, force per length, torque and stress."""
+    system = well.system
+    if system.name == "field":
+        names = {"depth": "length", "force": "force", "per_length": "force_per_length", "torque": "moment",
+                 "stress": "stress"}  # fmt: skip
+        return {key: system.unit(name) for key, name in names.items()}
+    return {"depth": (1.0, "m"), "force": (1e3, "kN"), "per_length": (1.0, "N/m"), "torque": (1e3, "kN·m"),
+            "stress": (1e6, "MPa")}  # fmt: skip
+
+
+def _in(well: Well, value: Value, kind: str) -> str:
+    scale, text = units(well)[kind]
     return f"{amount(value.times(1.0 / scale), 5)} {text}"
 
 
@@ -70,6 +100,8 @@ def sentences(found: Drag) -> list[str]:
     worst = min(found.operations, key=lambda one: LEVELS.index(level_of_one(one)))
     out = [_verdict(found, worst)]
     for one in found.operations:
+        if level_of_one(one) == FAILS and one is not worst:
+            out.append(f"{_capital(one.operation.name)} {failure(found.well, one)}.")
         out += sentences_of(found.well, one)
     return out
 
@@ -78,11 +110,24 @@ def _verdict(found: Drag, worst: OperationResult) -> str:
     well, name = found.well, worst.operation.name
     level = level_of(found)
     if level == FAILS:
-        return f"{_capital(name)} {failure(well, worst)}."
+        failing = sum(level_of_one(one) == FAILS for one in found.operations)
+        several = f" {failing} of {len(found.operations)} operations fail." if failing > 1 else ""
+        return f"{_capital(name)} {failure(well, worst)}.{several}"
+    open_ = not_judged(found)
+    unknown = f"; stresses are not judged in {', '.join(open_)} (no yield strength)" if open_ else ""
+    possible = f"Every operation is possible{AT_DEPTH if way_left_out(found) else ''}"
     if level == BUCKLES:
         names = ", ".join(one.operation.name for one in found.operations if one.run.buckled)
-        return f"Every operation is possible; the string buckles: {names}."
-    return "Every operation is possible, and the string stays straight on the wall of its hole in all of them."
+        return f"{possible}; the string buckles: {names}{unknown}."
+    return f"{possible}, and the string stays straight on the wall of its hole in all of them{unknown}."
+
+
+AT_DEPTH = " with the bit at its depth (stiff string: the way down is not looked at)"
+
+
+def way_left_out(found: Drag) -> bool:
+    """Whether something goes down whose way was not looked at: that is done for the soft string only."""
+    return any(one.operation.kind in DOWNWARD and not one.reach for one in found.operations)
 
 
 def failure(well: Well, one: OperationResult) -> str:
@@ -94,9 +139,13 @@ def failure(well: Well, one: OperationResult) -> str:
             else f", its compression grows beyond bounds at {depth(well, one.run.locked_at)}"
         )
         return f"is not possible: the string locks up{at}; no push at surface moves it"
-    if not one.possible and one.margin is not None:
+    if not one.possible_at_depth and one.margin is not None:
         lacking = force(well, one.margin.times(-1.0))
         return f"is not possible: {lacking} more push is needed at surface than there is"
+    if one.stopped:
+        free = " with its bit free" if one.operation.bit_force else ""
+        stops = " or ".join(f"{what} with the bit at {text}" for what, text in _stops(well, one))
+        return f"cannot get to {depth(well, one.operation.bit_depth)}: on the way down{free} the string {stops}"
     used = 100.0 * float(np.nanmax(one.strength.used))
     return f"exceeds the yield strength: the largest von Mises stress is {plain(used, 3)} % of it"
 
@@ -146,22 +195,32 @@ def _bounds(well: Well, one: OperationResult, name: str) -> list[str]:
 def _reach(well: Well, one: OperationResult, name: str) -> list[str]:
     if not one.reach:
         return []
+    searched = next(iter(one.reach.values()))
+    free = ", its bit free," if one.stopped and one.operation.bit_force else ""
+    out = [f"{name}{free} {what} with the bit at {text}." for what, text in _stops(well, one)]
+    if not out and one.possible:
+        way = ", on the way to its depth with the bit free" if one.operation.bit_force else ""
+        out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, at every one of "
+                   f"{searched.looked_at} depths looked at{way}.")  # fmt: skip
+    elif not out:
+        out.append(f"{name}: not possible at any depth looked at.")
+    if one.transfer is not None and one.run.buckled:
+        part = f"{plain(100.0 * one.transfer, 3)} %"
+        low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
+        out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
+    return out
+
+
+def _stops(well: Well, one: OperationResult) -> list[tuple[str, str]]:
+    """What ends the way down, and with the bit at which depth, by both bounds where they differ."""
     out = []
-    for key, what in (("lock_up", "locks up"), ("push_ends", "needs more push than there is")):
+    for key, what in (("push_ends", "needs more push than there is"), ("lock_up", "locks up")):
         depths = sorted((d.value, d.error) for r in one.reach.values() if (d := getattr(r, key)) is not None)
         if depths:
             text = depth(well, *depths[0])
             if len(depths) > 1 and depths[-1][0] > depths[0][0] * (1.0 + 1e-6):
                 text += f" to {depth(well, *depths[-1])}, by the local state"
-            out.append(f"{name} {what} with the bit at {text}.")
-    if not out:
-        searched = next(iter(one.reach.values()))
-        out.append(f"{name}: no lock-up, and push enough, down to {depth(well, searched.searched_to)}, the last depth "
-                   "looked at." if one.possible else f"{name}: not possible at any depth looked at.")  # fmt: skip
-    if one.transfer is not None and one.run.buckled:
-        part = f"{plain(100.0 * one.transfer, 3)} %"
-        low = ": practice calls that locked up" if one.transfer < SMALL_TRANSFER else ""
-        out.append(f"{name}: {part} of a force added at surface arrives at the bit{low}.")
+            out.append((what, text))
     return out
 
 
@@ -176,8 +235,12 @@ def _marked(well: Well, one: OperationResult, name: str) -> list[str]:
         used = float(np.nanmax(one.strength.used))
         out.append(f"{name}: the von Mises stress reaches {plain(100.0 * used, 3)} % of the yield strength: beyond it "
                    "nothing here holds.")  # fmt: skip
-    if not np.any(np.isfinite(one.strength.used)):
-        out.append(f"{name}: no yield strength is given, so stresses are not judged.")
+    if one.strength.not_judged:
+        part = "" if not np.any(np.isfinite(one.strength.used)) else " there"
+        known = one.strength.von_mises[np.isfinite(one.strength.von_mises) & ~np.isfinite(one.strength.used)]
+        largest = f" (up to {stress(well, float(np.max(known)))})" if len(known) and one.run.arrived else ""
+        out.append(f"{name}: no yield strength is given for {', '.join(one.strength.not_judged)}, so stresses{part}"
+                   f"{largest} are not judged.")  # fmt: skip
     steepest = one.strength.helix_slope
     if steepest > STEEP:
         angle = plain(math.degrees(math.atan(steepest)), 3)
@@ -189,7 +252,8 @@ SOFT_STRING = "Soft string: it follows the hole and bends without resistance."
 STIFF_STRING = (
     "Stiff string: where it is straight it lies in the hole's clearance with its bending stiffness, hinged in the "
     "middle at surface, free at the bit; where it is buckled the local state counts. What it remembers of its loads is "
-    "that of the soft string; how deep it can go is not searched: take the soft string for that."
+    "that of the soft string; how deep it can go, and whether it gets to its depth, is not searched: take the soft "
+    "string for that."
 )
 
 

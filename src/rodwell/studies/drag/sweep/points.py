@@ -35,6 +35,8 @@ class OperationAt:
     contact, von_mises, used
         Largest contact force in N/m and stress in Pa along the string, and the part of the yield strength; None where
         unknown.
+    not_judged
+        Sections of the string whose yield strength is not given.
     level, why
         Verdict, and why the operation fails; "" if it does not.
     """
@@ -51,6 +53,7 @@ class OperationAt:
     contact: Value | None
     von_mises: Value | None
     used: Value | None
+    not_judged: tuple[str, ...]
     level: str
     why: str
 
@@ -93,5 +96,5 @@ def operation_at(well: Well, one: OperationResult) -> OperationAt:
     return OperationAt(
         one.operation, one.ends.hook_load, one.ends.torque, one.bounds["early"].hook_load,
         one.bounds["late"].hook_load, one.margin, worst_depth(one, "lock_up"), worst_depth(one, "push_ends"), buckled,
-        contact, von_mises, used, level, failure(well, one) if level == FAILS else "",
+        contact, von_mises, used, one.strength.not_judged, level, failure(well, one) if level == FAILS else "",
     )  # fmt: skip

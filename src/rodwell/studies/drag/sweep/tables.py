@@ -13,8 +13,7 @@ from rodwell.studies.drag.plain import CONVENTION, UNIT, number
 from rodwell.studies.drag.sweep.points import OperationAt, WellPoint
 from rodwell.studies.drag.sweep.study import DragStudy
 from rodwell.studies.drag.sweep.words import sentences
-from rodwell.studies.drag.tables import units
-from rodwell.studies.drag.words import FAILS
+from rodwell.studies.drag.words import FAILS, units
 from rodwell.studies.varied import Varied
 
 NOTES = (
@@ -132,6 +131,6 @@ def _operation(one: OperationAt) -> dict[str, Any]:
         "surface_torque": number(one.torque), "bounds": {"early": number(one.early), "late": number(one.late)},
         "margin": number(one.margin), "lock_up_depth": number(one.lock_up), "push_ends_depth": number(one.push_ends),
         "buckled_length": one.buckled, "largest_contact_force": number(one.contact),
-        "largest_von_mises": number(one.von_mises), "largest_used": number(one.used), "verdict": one.level,
-        "why": one.why or None,
+        "largest_von_mises": number(one.von_mises), "largest_used": number(one.used),
+        "not_judged": list(one.not_judged), "verdict": one.level, "why": one.why or None,
     }  # fmt: skip

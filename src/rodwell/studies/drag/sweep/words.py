@@ -5,7 +5,7 @@ from __future__ import annotations
 from rodwell.quantities.value import Value
 from rodwell.studies.drag.sweep.points import OperationAt, WellPoint
 from rodwell.studies.drag.sweep.study import DragStudy
-from rodwell.studies.drag.words import BUCKLES, FAILS, depth, force
+from rodwell.studies.drag.words import AT_DEPTH, BUCKLES, FAILS, depth, force
 
 NO_ROAD_MAP = "A study computes the operations; the road map of the file is left out."
 
@@ -15,6 +15,9 @@ def sentences(study: DragStudy) -> list[str]:
     out = [_verdict(study)]
     for number in range(len(study.names)):
         out += _of_operation(study, number)
+    open_ = dict.fromkeys(name for point in study.points for one in point.operations for name in one.not_judged)
+    if open_:
+        out.append(f"No yield strength is given for {', '.join(open_)}: stresses there are not judged.")
     lacking = [point for point in study.points if point.reason]
     if lacking:
         out.append(f"{len(lacking)} of {len(study.points)} points could not be computed; the table says why.")
@@ -44,7 +47,8 @@ def _verdict(study: DragStudy) -> str:
         )
     buckled = sum(any(one.level == BUCKLES for one in point.operations) for point in computed)
     where = f"the string buckles at {buckled} of them" if buckled else "the string stays straight on the wall"
-    return f"Every operation is possible at every one of {len(computed)} points computed; {where}."
+    way = AT_DEPTH if study.well.settings.string == "stiff" else ""
+    return f"Every operation is possible{way} at every one of {len(computed)} points computed; {where}."
 
 
 def _of_operation(study: DragStudy, number: int) -> list[str]:
