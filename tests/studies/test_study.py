@@ -19,7 +19,7 @@ from pypdf import PdfReader
 
 import rodwell
 from rodwell import InputError, NotConvergedError
-from rodwell.answers.result import arms
+from rodwell.analysis.loads import arms
 from rodwell.answers.result.assessment import BUCKLED, LEFT, STRAIGHT, UNKNOWN
 from rodwell.cli.main import cli
 from rodwell.plots.study import plot_study
