@@ -47,7 +47,7 @@ def test_diagram_in_words_and_its_netcdf(place: Path) -> None:
     options = ("--ends", "clamped-pinned", "--modes", "2", "--until", "-180", "--out", "here")
     done = run("diagram", "--weight", "15", "--alpha", "60", *options)
     assert done.exit_code == 0, done.output
-    assert "end s = 0 clamped, end s = 1 pinned" in done.output
+    assert "end s = 0 clamped, end s = 1 pinned" in " ".join(done.output.split())
     with xr.open_dataset(place / "here/branches.nc") as data:
         assert list(data["branch_name"].values) == ["mode 1", "mode 2"]
         assert data.attrs["ends"] == "clamped-pinned"
