@@ -30,7 +30,7 @@ CASE = HERE.parent / "examples" / "drill-string.toml"
 RESULTS = HERE / "results" / "explore.json"
 FLAGS = [
     "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-precise-memory-info",
-    "--js-flags=--expose-gc",
+    "--js-flags=--expose-gc", "--disable-gpu-rasterization",
 ]  # fmt: skip
 DRAG = """async (seconds) => {
     const rw = window.__rodwell, slider = document.querySelector("#load-control input[type=range]");

@@ -292,6 +292,27 @@ def test_the_load_plays_and_stops(page: Any) -> None:
     assert page.locator("#play").get_attribute("aria-pressed") == "false"
 
 
+DRAG = """async () => {
+    const rw = window.__rodwell, slider = document.querySelector("#load-control input[type=range]");
+    const field = document.querySelector("#input-load"), first = rw.updates, out = [];
+    for (let k = 0; k < 150; k++) {
+        slider.value = Number(slider.min) + (0.4 + 0.001 * k) * (slider.max - slider.min);
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((done) => setTimeout(done, 10));
+        if (rw.values) out.push([rw.updates - first, rw.values.load, Number(field.value)]);
+    }
+    return out;
+}"""
+
+
+def test_a_load_that_moves_faster_than_states_are_computed_shows_states_on_the_way(page: Any) -> None:
+    """A load every 10 ms, a state takes longer: of those asked for some are shown, each with its own load."""
+    seen = page.evaluate(DRAG)
+    assert seen[-1][0] >= 2
+    assert all(field == pytest.approx(load, rel=1e-11) for _, load, field in seen)
+    until(page, READY)
+
+
 def test_beyond_lift_off(page: Any) -> None:
     """The whole loop, while the wall's states can be moved; reference loads from theory-2, section 1."""
     go(page, "#load=140")

@@ -1,10 +1,14 @@
 // The connection to the server: requests of one kind take each other's place, answers that come too late are dropped.
+// States on the way to the newest load are shown: a load that is dragged asks for more than can be computed.
+
+const ON_THE_WAY = "state";
 
 export class Link {
   constructor(heard, lost) {
     this.heard = heard; // (message) => void, for answers that are still wanted
     this.lost = lost; // (isLost) => void
     this.newest = {}; // number of the newest request of each kind
+    this.dropped = {}; // number of the last request of each kind that is no longer wanted, whatever comes
     this.number = 0;
     this.waiting = {}; // requests not sent yet: one of each kind
     this.running = {}; // kind → number of the request that is being answered
@@ -33,7 +37,8 @@ export class Link {
     if (message.kind === "hello") { this.lost(false); this.heard(message); return; }
     const kind = Object.keys(this.running).find((each) => this.running[each] === message.id);
     if (message.last && kind) delete this.running[kind];
-    const wanted = kind && this.newest[kind] === message.id;
+    const late = kind === ON_THE_WAY && this.newest[kind] && message.id > (this.dropped[kind] ?? 0);
+    const wanted = kind && (this.newest[kind] === message.id || late);
     if (wanted && message.kind !== "cancelled") this.heard({ ...message, of: kind });
     if (message.last) this.next(kind);
   }
@@ -49,7 +54,7 @@ export class Link {
 
   // What is no longer wanted, whatever comes.
   drop(...kinds) {
-    kinds.forEach((kind) => { this.newest[kind] = null; delete this.waiting[kind]; });
+    kinds.forEach((kind) => { this.newest[kind] = null; this.dropped[kind] = this.number; delete this.waiting[kind]; });
   }
 
   next(kind) {

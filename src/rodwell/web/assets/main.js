@@ -20,7 +20,8 @@ let diagram = null, diagramOf = ""; // the diagram shown, and for which inputs i
 let shown = null; // the state shown
 let rod = null; // the viewer, false without WebGL
 let known = false; // whether the viewer has the triangles of the scene
-let asked = 0; // when the newest load was asked for
+const sent = new Map(); // when which load was asked for, by number of request
+let askedOf = ""; // of which branch
 const controls = new Map();
 let load = null; // its control
 let settle = 0;
@@ -180,15 +181,18 @@ function askState() {
     show();
     return;
   }
-  asked = performance.now();
-  link.ask("state", { ...request(), known });
+  const of = JSON.stringify({ ...request(), load: null });
+  if (of !== askedOf) link.drop("state"); // states on the way to a load are those of its branch and inputs
+  askedOf = of;
+  sent.set(link.ask("state", { ...request(), known }), performance.now());
 }
 
-function haveState({ state: found }) {
+function haveState({ state: found, id }) {
   if (snaps.holds(found, shown)) return; // shown once the rod has gone over
   shown = found;
-  if (!load.slider.matches(":active")) load.set(state.load);
-  load.field.value = String(Number(state.load.toPrecision(12)));
+  const passing = id !== undefined && id !== link.newest.state; // the slider is farther already
+  if (!passing && !load.slider.matches(":active")) load.set(state.load);
+  load.field.value = String(Number((passing ? found.load : state.load).toPrecision(12)));
   figure.point(found);
   curves.show(found.curves);
   scene(found);
@@ -202,11 +206,12 @@ function haveState({ state: found }) {
   hooks.values.load = found.load;
   hooks.values.index = found.index;
   hooks.updates += 1;
-  hooks.ready = $("busy").textContent === "";
-  const began = asked;
+  hooks.ready = $("busy").textContent === "" && !passing;
+  const began = sent.get(id) ?? performance.now();
+  for (const each of sent.keys()) if (each <= id) sent.delete(each);
   requestAnimationFrame(() => { hooks.times.push(performance.now() - began); if (hooks.times.length > 500) hooks.times.shift(); });
   clearTimeout(settle);
-  settle = setTimeout(settled, 120);
+  if (!passing) settle = setTimeout(settled, 120);
 }
 
 // The load stands still: what takes longer is asked for, and the address follows.
