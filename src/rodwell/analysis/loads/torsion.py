@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +27,10 @@ STEP = 1e-4
 
 NO_RATE = 1e-6
 """A rate below this part of the largest distributed force times the clearance counts as none."""
+
+
+def _places(places: Sequence[float]) -> str:
+    return " and ".join(f"s = {plain(s)}" for s in places)
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,7 @@ class Torsion:
     @property
     def meaning(self) -> str:
         """The outcome in words."""
-        places = " and ".join(f"s = {plain(s)}" for s in self.prepared.s)
+        places = _places(self.prepared.s)
         if self.sense == 0 and len(self.rates) > 1:
             return (
                 f"Twist of either sign makes the rod lift off at once: it is about to at {places}, and what presses "
@@ -79,9 +84,8 @@ class Torsion:
         if self.again is None:
             assert self.branch is not None
             return text + f" No second lift-off was found up to T₁ = {plain(float(self.branch.values[-1]))} B/L."
-        again = " and ".join(f"s = {plain(s)}" for s in self.again.s)
         moment = with_error(Value(self.again.value, self.again.error), 8)
-        return text + f" It lifts off again at T₁ = {moment} B/L, at {again}."
+        return text + f" It lifts off again at T₁ = {moment} B/L, at {_places(self.again.s)}."
 
     def as_dict(self) -> dict[str, Any]:
         """Return the outcome as plain data, for JSON."""

@@ -26,7 +26,7 @@ MANY_JOINTS = 6
 
 ENDLESS = (
     "Not computed here is the endless string of such joints, to whose buckling load that of long strings comes down: "
-    "`rodwell endless --joint CASE.toml` has it, for a case with joints = 1."
+    "`rodwell endless --joint CASE.toml` has it, for a case of these joints alone."
 )
 """Where to find what many equal joints come to."""
 
