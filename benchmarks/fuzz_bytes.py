@@ -74,7 +74,7 @@ def reader(name: str) -> Callable[[Path], object]:
     """What reads a file of a target."""
     import rodwell  # noqa: PLC0415
     from rodwell.case.catalogue import read_catalogue  # noqa: PLC0415
-    from rodwell.studies.drag.calibration import read_measured  # noqa: PLC0415
+    from rodwell.studies.drag.measured import read_measured  # noqa: PLC0415
     from rodwell.studies.drag.well_case import Well  # noqa: PLC0415
     from rodwell.survey.centerline import read_centerline  # noqa: PLC0415
 

@@ -17,8 +17,9 @@ from rodwell.case.keys import key_of_field
 from rodwell.case.schema import StringInput
 from rodwell.case.well import hole_sections
 from rodwell.case.well import schema as well_schema
-from rodwell.studies.drag.calibration import calibrate, read_measured
+from rodwell.studies.drag.calibration import calibrate
 from rodwell.studies.drag.laws import CHEN
+from rodwell.studies.drag.measured import read_measured
 from rodwell.studies.drag.road_map import road_map
 
 ROOT = Path(__file__).resolve().parent.parent

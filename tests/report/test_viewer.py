@@ -66,7 +66,7 @@ def decode(part: dict[str, Any]) -> np.ndarray:
 def test_page_needs_nothing_from_elsewhere(page: str) -> None:
     parts = Parts(page)
     assert parts.loaded == []
-    assert len(parts.scripts) == 2
+    assert len(parts.scripts) == 3
     assert "three.js authors" in parts.scripts[0]
     assert "Permission is hereby granted" in parts.scripts[0]  # the licence goes where the code goes
     assert not re.search(r"https?://(?!www\.w3\.org/1999/xhtml)", "".join(parts.scripts))

@@ -10,9 +10,10 @@ import pytest
 from drag_wells import FRICTION, PIPE, WEIGHT, operation, well, well_a_survey
 
 from rodwell.errors import InputError
-from rodwell.studies.drag.calibration import calibrate, read_measured
+from rodwell.studies.drag.calibration import calibrate
 from rodwell.studies.drag.drag import drag
 from rodwell.studies.drag.laws import exact
+from rodwell.studies.drag.measured import read_measured
 from rodwell.studies.drag.pieces import Cutter
 from rodwell.studies.drag.road_map import road_map
 from rodwell.studies.drag.run import run

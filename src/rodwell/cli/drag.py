@@ -86,7 +86,7 @@ def drag(
     with progress_bar(not quiet and not as_json, "operations") as tell:
         if calibrate is not None:
             from rodwell.studies.drag.calibration import calibrate as fit  # noqa: PLC0415
-            from rodwell.studies.drag.calibration import read_measured  # noqa: PLC0415
+            from rodwell.studies.drag.measured import read_measured  # noqa: PLC0415
 
             fitted = fit(read, read_measured(calibrate, read), tell)
             read = fitted.well

@@ -82,11 +82,8 @@ class Hole:
         build = checked_number("build", build, -MOST_CURVATURE, MOST_CURVATURE, allowed)
         walk = checked_number("walk", walk, -MOST_CURVATURE, MOST_CURVATURE, allowed)
         if walk != 0.0 and alpha in (0.0, 180.0):
-            raise InputError(
-                "walk",
-                walk,
-                f"must be 0 at alpha = {alpha:g}: a vertical hole has no high side to walk from; give build",
-            )
+            what = f"must be 0 at alpha = {alpha:g}: a vertical hole has no high side to walk from; give build"
+            raise InputError("walk", walk, what)
         return cls(alpha, build, walk)
 
     @classmethod

@@ -185,10 +185,10 @@ def path_of_survey(survey: Survey, tortuosity: Tortuosity | None = None) -> Hole
         raise InputError("survey", survey.source, f"{what}, which leaves open where it goes: add stations between")
     depths, directions = survey.md, station_directions(survey)
     if tortuosity is not None:
-        depths, directions = _tortuous(survey, depths, directions, tortuosity)
+        depths, directions = _tortuous(depths, directions, tortuosity)
     start = np.array([survey.east[0], survey.north[0], -survey.tvd[0]])
-    return HolePath(_smooth(depths - depths[0], directions, start), float(depths[0]), depths - depths[0], survey,
-                    survey.source)  # fmt: skip
+    knots = depths - depths[0]
+    return HolePath(_smooth(knots, directions, start), float(depths[0]), knots, survey, survey.source)
 
 
 def path_of_points(points: FloatArray, source: str = "centre line") -> HolePath:
@@ -223,25 +223,21 @@ def minimum_curvature(survey: Survey, depths: FloatArray) -> FloatArray:
     return np.asarray(stations[i] + width[:, None] * (sums * directions[i] + other * directions[i + 1]))
 
 
-def _tortuous(
-    survey: Survey, depths: FloatArray, directions: FloatArray, tortuosity: Tortuosity
-) -> tuple[FloatArray, FloatArray]:
+def _tortuous(depths: FloatArray, directions: FloatArray, tortuosity: Tortuosity) -> tuple[FloatArray, FloatArray]:
     """Depths and directions with places between stations, at which directions deviate at random."""
     if not 0.0 < tortuosity.size <= LARGEST_TORTUOSITY:
         allowed = f"must be above 0 and at most {math.degrees(LARGEST_TORTUOSITY):g} deg, a standard deviation"
         raise InputError("tortuosity", f"{math.degrees(tortuosity.size):g} deg", allowed)
     smooth = _smooth(depths - depths[0], directions, np.zeros(3))
-    parts = np.maximum(1, np.rint(np.diff(survey.md) / tortuosity.step)).astype(int)
+    parts = np.maximum(1, np.rint(np.diff(depths) / tortuosity.step)).astype(int)
     if int(np.sum(parts)) + 1 > MOST_POINTS:
         what = f"makes {int(np.sum(parts)) + 1} places along the hole; at most {MOST_POINTS} are taken"
         raise InputError("tortuosity_step", f"{tortuosity.step:g} m", what)
-    finer = [
-        low + width * np.arange(n) / n for low, width, n in zip(survey.md, np.diff(survey.md), parts, strict=False)
-    ]
-    places = np.concatenate([*finer, survey.md[-1:]])
+    finer = [low + width * np.arange(n) / n for low, width, n in zip(depths, np.diff(depths), parts, strict=False)]
+    places = np.concatenate([*finer, depths[-1:]])
     _, frames, _ = smooth.at(places - depths[0])
     moved = np.random.default_rng(tortuosity.seed).normal(0.0, tortuosity.size, (places.size, 2))
-    moved[np.isin(places, survey.md)] = 0.0
+    moved[np.isin(places, depths)] = 0.0
     out = frames[:, 2] + np.einsum("ni,nic->nc", moved, frames[:, :2])
     return places, out / np.linalg.norm(out, axis=1, keepdims=True)
 

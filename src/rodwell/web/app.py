@@ -26,7 +26,7 @@ LARGEST_REQUEST = 20_000
 
 TYPES = {"html": "text/html", "js": "text/javascript", "css": "text/css", "txt": "text/plain", "svg": "image/svg+xml"}
 
-FROM_REPORT = ("three.min.js", "viewer.js", "viewer.css", "LICENSE-three.txt")
+FROM_REPORT = ("three.min.js", "parts.js", "viewer.js", "viewer.css", "LICENSE-three.txt")
 """What the page shares with reports: three.js and the rod in its cylinder."""
 
 

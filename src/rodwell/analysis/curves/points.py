@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.curves.curve import CurvePoint
+from rodwell.analysis.curves.secant import FARTHEST, MOST_SECANTS, PROBE, SETTLED, CurveLostError, zero_at
 from rodwell.analysis.discrete.measures import pressure_maxima
 from rodwell.analysis.straight.scale import EULER
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN
@@ -26,8 +27,6 @@ MOST_REFINEMENTS = 3
 NEAR = 0.03
 """Maxima of the contact pressure closer than this, or than this part of a half wave if they are short, are one."""
 
-Function = Callable[[Family, State], float]
-
 
 class NearbyStates(NamedTuple):
     """Coefficients close to a point of the curve on both meshes, and states near it along the load."""
@@ -35,10 +34,6 @@ class NearbyStates(NamedTuple):
     coarse: FloatArray
     fine: FloatArray
     near: tuple[State | None, State | None] = (None, None)
-
-
-class CurveLostError(RuntimeError):
-    """A point of the curve could not be found."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +150,8 @@ class ContactMaximum:
 def _maxima(family: Family, state: State) -> tuple[FloatArray, FloatArray, float]:
     """Maxima of the contact pressure: places, of a symmetric state folded onto the first half, values, lowest value."""
     places, values, lowest = pressure_maxima(family, state)
-    return (np.minimum(places, 1.0 - places) if state.symmetry != 0 else places), values, lowest
+    symmetric = family.parity != 0 or state.symmetry != 0
+    return (np.minimum(places, 1.0 - places) if symmetric else places), values, lowest
 
 
 class Zero(ABC):
@@ -200,15 +196,14 @@ class Zero(ABC):
         for refinement in range(MOST_REFINEMENTS + 1):
             line = self.meshes(meshes, spot)
             if travel is None:
-                coarse = _zero_at(line.coarse, guess.coarse, spot.value, guess.near[0], self.function)
-                fine = _zero_at(line.fine, guess.fine, coarse.lam, guess.near[1], self.function)
+                coarse = zero_at(line.coarse, guess.coarse, spot.value, guess.near[0], self.function)
+                fine = zero_at(line.fine, guess.fine, coarse.lam, guess.near[1], self.function)
                 places = spot.x, spot.x
             else:
-                first, coarse = self.zero_across(meshes, guess, spot, travel, 0)
-                same = NearbyStates(
-                    coarse.c, meshes.up(coarse.c)
-                )  # the same hyperplane, not another place along the curve
-                second, fine = self.zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1)
+                first, coarse, slope = self.zero_across(meshes, guess, spot, travel, 0)
+                # the same hyperplane, not another place along the curve
+                same = NearbyStates(coarse.c, meshes.up(coarse.c))
+                second, fine, _ = self.zero_across(meshes, same, PlanePoint(first, coarse.lam), travel, 1, slope)
                 places, line = (first, second), self.meshes(meshes, PlanePoint(second, fine.lam))
             point = line.point(coarse, fine)
             finer = None if point.accurate or refinement == MOST_REFINEMENTS else line.refined(point)
@@ -221,18 +216,25 @@ class Zero(ABC):
             spot = PlanePoint(places[1], float(fine.lam))
             if travel is not None:
                 travel = replace(travel, coarse=up(travel.coarse), fine=up_fine(travel.fine))
-        there = PlanePoint(places[1], float(fine.lam))
-        error = float(point.lam_gap + 2e-13 * abs(fine.lam))
+        there, error = PlanePoint(places[1], float(fine.lam)), float(point.lam_gap + 2e-13 * abs(fine.lam))
         solution = self.solution(line, point, there)
         touching = solution.highest_pressure[2] if self.touch else ()
         return SolvedPoint(there, error, abs(places[1] - places[0]) / CLAIMED_GAIN, solution, touching)
 
     def zero_across(
-        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
-    ) -> tuple[float, State]:
-        """Zero on the hyperplane normal to ``travel``, by the secant method in the parameter, on one of both meshes."""
-        c = (guess.coarse, guess.fine)[mesh]
-        family = _meshes(meshes)[mesh]
+        self,
+        meshes: TwoMeshes,
+        guess: NearbyStates,
+        spot: PlanePoint,
+        travel: CurveTangent,
+        mesh: int,
+        slope: float = math.inf,
+    ) -> tuple[float, State, float]:
+        """Zero on the hyperplane normal to ``travel``, by the secant method in the parameter, on one of both meshes.
+
+        Returns the parameter, the state and the slope of the function; ``slope`` is that on the other mesh, if known.
+        """
+        c, family = (guess.coarse, guess.fine)[mesh], _meshes(meshes)[mesh]
         row, row_lam, _, _ = family.covector((travel.coarse, travel.fine)[mesh], travel.value)
         target = float(row @ c) + row_lam * spot.value
 
@@ -243,19 +245,20 @@ class Zero(ABC):
                 raise CurveLostError(family.advice(outcome))
             return state, self.function(family, state)
 
-        x, step = spot.x, PROBE * travel.unit
+        x, farthest = spot.x, FARTHEST * travel.unit
         state, value = at(x, c, spot.value)
+        step = PROBE * travel.unit if math.isinf(slope) else float(np.clip(-value / slope, -farthest, farthest))
         for _ in range(MOST_SECANTS):
             x += step
             state, new = at(x, state.c, state.lam)
             if abs(step) <= SETTLED * travel.unit:
-                return float(x), state
+                return float(x), state, slope
             if new == value:
                 raise CurveLostError("the function does not change along the line")
-            farthest = FARTHEST * travel.unit
-            before, value, step = step, new, float(np.clip(-new * step / (new - value), -farthest, farthest))
+            slope = (new - value) / step
+            before, value, step = step, new, float(np.clip(-new / slope, -farthest, farthest))
             if 2.0 * abs(step) >= abs(before) and abs(before) <= self.noise * travel.unit:
-                return float(x), state  # round-off: no nearer than that
+                return float(x), state, slope  # round-off: no nearer than that
         raise CurveLostError("the secant method did not settle")
 
 
@@ -266,38 +269,3 @@ def _meshes(meshes: TwoMeshes) -> tuple[Family, Family]:
 def _carried(family: Family, state: State, up: Prolongation) -> State:
     """A state as one of a finer mesh, with its tangent: close to an equilibrium there."""
     return family.state(up(state.c), state.lam, up(state.tangent), state.tangent_lam, state.index)
-
-
-def _zero_at(family: Family, c: FloatArray, lam: float, near: State | None, function: Function) -> State:
-    """Zero of a function of the equilibria of a family, by the secant method in arclength from ``(c, λ)``.
-
-    It begins on the hyperplane normal to the tangent of ``near``, so it works where the equilibria fold too; without
-    such a state, at λ.
-    """
-    if near is None or near.space is not family.space:
-        outcome, state, _ = family.at(c, lam)
-    else:
-        outcome, state, _ = family.correct(c, lam, near.row, near.row_lam, float(near.row @ c) + near.row_lam * lam)
-    if state is None:
-        raise CurveLostError(family.advice(outcome))
-    return zero_from(family, state, function)
-
-
-def zero_from(family: Family, state: State, function: Function) -> State:
-    """Zero of a function of the equilibria of a family, by the secant method in arclength from one of them."""
-    value, step = function(family, state), PROBE
-    for _ in range(MOST_SECANTS):
-        new = family.step(state, step)
-        if new is None:
-            raise CurveLostError("a state near the curve could not be solved")
-        if abs(step) <= SETTLED:
-            return new
-        f = function(family, new)
-        if f == value:
-            raise CurveLostError("the function does not change along the line")
-        state, value, step = new, f, float(np.clip(-f * step / (f - value), -FARTHEST, FARTHEST))
-    raise CurveLostError("the secant method did not settle")
-
-
-PROBE, SETTLED, FARTHEST, MOST_SECANTS = 1e-5, 1e-9, 0.1, 30
-"""First step, last step (the error left is about its square) and longest step of the secant method, in the metric."""

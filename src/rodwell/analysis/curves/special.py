@@ -9,7 +9,8 @@ from rodwell.analysis.branch.special import BRANCH_POINT, EQUAL_ENERGY, FOLD, LI
 from rodwell.analysis.branch.starts import beside
 from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.curves.curve import OVER, TURN, Curve, CurvePoint, Mark, Progress, checked_range
-from rodwell.analysis.curves.points import CurveLostError, CurveStart, Zero
+from rodwell.analysis.curves.points import CurveStart, Zero
+from rodwell.analysis.curves.secant import CurveLostError
 from rodwell.analysis.curves.tracing import trace_curve
 from rodwell.analysis.curves.zeros import Branching, Folding, Touching, Vanishing
 from rodwell.errors import InputError, NotConvergedError

@@ -19,7 +19,6 @@ from rodwell.analysis.curves.checks import BECOMES_STRAIGHT, bracket, carried, l
 from rodwell.analysis.curves.curve import SWITCH, TURN, CurvePoint, Mark, Progress
 from rodwell.analysis.curves.points import (
     NEAR,
-    CurveLostError,
     CurveStart,
     CurveTangent,
     NearbyStates,
@@ -27,6 +26,7 @@ from rodwell.analysis.curves.points import (
     SolvedPoint,
     Zero,
 )
+from rodwell.analysis.curves.secant import CurveLostError
 from rodwell.errors import InputError
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,15 +11,8 @@ import numpy as np
 from rodwell.analysis.branch.functionals import Number, value_on
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.symmetry import kept_parity
-from rodwell.analysis.curves.points import (
-    CurveLostError,
-    CurveStart,
-    CurveTangent,
-    NearbyStates,
-    PlanePoint,
-    Zero,
-    zero_from,
-)
+from rodwell.analysis.curves.points import CurveStart, CurveTangent, NearbyStates, PlanePoint, Zero
+from rodwell.analysis.curves.secant import CurveLostError, zero_from
 from rodwell.analysis.discrete.family import path, spline_ends
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
@@ -111,17 +105,23 @@ class Folding(AlongForce):
         return state.tangent_lam / family.lam_scale
 
     def zero_across(
-        self, meshes: TwoMeshes, guess: NearbyStates, spot: PlanePoint, travel: CurveTangent, mesh: int
-    ) -> tuple[float, State]:
+        self,
+        meshes: TwoMeshes,
+        guess: NearbyStates,
+        spot: PlanePoint,
+        travel: CurveTangent,
+        mesh: int,
+        slope: float = math.inf,
+    ) -> tuple[float, State, float]:
         """The fold on the hyperplane normal to ``travel``; where that fails, the one at the end force of ``spot``.
 
         Where branches meet, or a closed loop is born, the curve turns back in the parameter, and equilibria along the
         end force are not regular. Those along the parameter are, and their folds are the same: the Hessian is singular.
         """
         try:
-            return super().zero_across(meshes, guess, spot, travel, mesh)
+            return super().zero_across(meshes, guess, spot, travel, mesh, slope)
         except CurveLostError:
-            return self._zero_at_load(meshes, (guess.coarse, guess.fine)[mesh], spot, travel, mesh)
+            return *self._zero_at_load(meshes, (guess.coarse, guess.fine)[mesh], spot, travel, mesh), math.inf
 
     def _zero_at_load(
         self, meshes: TwoMeshes, c: FloatArray, spot: PlanePoint, travel: CurveTangent, mesh: int

@@ -171,8 +171,7 @@ def critical_loads(problem: Problem, count: int = 5, *, rtol: float = RTOL) -> C
     NotConvergedError
         If the tolerance cannot be met.
     """
-    rtol = checked_rtol(rtol)
-    count = checked_whole("modes", count, 1, MOST_MODES)
+    rtol, count = checked_rtol(rtol), checked_whole("modes", count, 1, MOST_MODES)
     problem.refuse_bridges("critical loads of the straight rod")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
@@ -297,6 +296,5 @@ def _mode(
     if _sense(problem, space, vector) < 0.0:
         vector = -vector
     wavenumber = space.wavenumber(vector)
-    if problem.weight == 0.0 and wavenumber < RIGID:
-        load = Value(0.0, load.error)
+    load = Value(0.0, load.error) if problem.weight == 0.0 and wavenumber < RIGID else load
     return Mode(problem, number, load, parity, wavenumber, space, vector, coarse, together)

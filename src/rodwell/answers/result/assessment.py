@@ -179,11 +179,9 @@ class Assessment:
             return AtLoad(load, PULLED)
         if load.force >= self.buckling.value:
             lying = self.computed.lying
-            return (
-                AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
-                if lying is None
-                else self._lies(load, name)
-            )
+            if lying is not None:
+                return self._lies(load, name)
+            return AtLoad(load, STRAIGHT, LoadedRod(name, problem, load.force))
         return self._buckled(load, name)
 
     def _lies(self, load: AppliedLoad, name: str) -> AtLoad:

@@ -28,7 +28,16 @@ class LocationError(RuntimeError):
 
 
 class LeftTheBranchError(LocationError):
-    """The two ends of a step are not on one branch."""
+    """The two ends of a step are not on one branch.
+
+    The sign of det H, which the index tells, and the sense of travel in λ change together along a branch of regular
+    points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there.
+    What may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods
+    in Bifurcation Problems* (1987), chapter 5.
+    """
+
+    STEP = "the step has left the branch: the stability index and the sense in λ do not go together"
+    FIRST_STEP = "the first step has left the branch: its stability index is not that of a branch that crosses there"
 
 
 @dataclass(frozen=True)

@@ -47,14 +47,6 @@ singular and round-off hides the place from there on: what is exact there is the
 SHORT_OF = 0.98
 """Part of the way to where a branch meets its mirror image, or rest, up to which its index is looked at."""
 
-LEFT_THE_BRANCH = "the step has left the branch: the stability index and the sense in λ do not go together"
-"""The sign of det H, which the index tells, and the sense of travel in λ change together along a branch of regular
-points, since the bordered determinant keeps its sign: the index changes by one where λ turns back, and only there. What
-may branch, or meet its mirror image, does so by a symmetry. See H. B. Keller, *Lectures on Numerical Methods in
-Bifurcation Problems* (1987), chapter 5."""
-
-LEFT_THE_START = "the first step has left the branch: its stability index is not that of a branch that crosses there"
-
 TINY = 1e-300
 """Stands for zero in a denominator."""
 
@@ -126,7 +118,7 @@ class _Stretch:
         if turn is not None and not any(found.fold for _, found in placed):
             meets = self.meshes.fine.meets_mirror_image(turn.fine, NEARLY)
             if not (meets or self.doubted) and all(found.certain for _, found in placed):
-                raise LeftTheBranchError(LEFT_THE_BRANCH)
+                raise LeftTheBranchError(LeftTheBranchError.STEP)
             index = index_at(turn.t, self.before.fine.index, placed)
             placed.append((turn.t, found_at(TURN, self.meshes, turn, index, index)))
         return placed
@@ -160,7 +152,7 @@ class _Stretch:
                 placed.insert(0, (early, LocatedEvent(INDEX, point, self.meshes, error, *index, certain=False)))
             return placed
         if strayed:
-            raise LeftTheBranchError(LEFT_THE_START)
+            raise LeftTheBranchError(LeftTheBranchError.FIRST_STEP)
         return []
 
     def _is_steep(self, state: State) -> bool:

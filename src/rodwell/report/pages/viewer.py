@@ -48,7 +48,7 @@ class Viewer:
 
     markup: str
     css: str
-    scripts: tuple[str, str]
+    scripts: tuple[str, ...]
     caption: str
 
 
@@ -101,7 +101,7 @@ def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
         data=data, bar=seen.bar, still=still, full=full, says=seen.data["says"], enlarged=seen.data["enlarged"] != 1.0
     )
     three = f"/*\n{_asset('LICENSE-three.txt')}\n*/\n{_asset('three.min.js')}"
-    return Viewer(markup, _asset("viewer.css"), (three, _asset("viewer.js")), seen.caption)
+    return Viewer(markup, _asset("viewer.css"), (three, _asset("parts.js"), _asset("viewer.js")), seen.caption)
 
 
 def write_viewer(path: Path, seen: View, title: str = "", *, still: str = "") -> None:

@@ -70,16 +70,8 @@ def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False
 
 def _in_space(answer: Answer) -> ReportSection:
     at = shown_text(answer)
-    return ReportSection(
-        "The rod in its cylinder",
-        (
-            Picture(
-                "rod-3d",
-                "The rod in its cylinder, coloured by how hard it is pressed to the wall",
-                f"The rod in its cylinder{at}.",
-            ),
-        ),
-    )
+    seen = "The rod in its cylinder, coloured by how hard it is pressed to the wall"
+    return ReportSection("The rod in its cylinder", (Picture("rod-3d", seen, f"The rod in its cylinder{at}."),))
 
 
 def shown_text(computed: Computed) -> str:

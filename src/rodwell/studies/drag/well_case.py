@@ -179,10 +179,8 @@ def _assemble(
     _check_reach(hole, end)
     length = sum(section.rod.length for section in string)
     if length > end * (1.0 + 1e-12) and math.isfinite(length):
-        what = (
-            f"is {length:g} m long, the well {end:g} m: shorten it, leave the length of the uppermost section out, or "
-        )
-        raise InputError("string", None, what + "give a survey that goes on")
+        what = f"is {length:g} m long, the well {end:g} m: shorten it, leave the length of the uppermost section out, "
+        raise InputError("string", None, what + "or give a survey that goes on")
     operations = tuple(_operation(one, i, end, length) for i, one in enumerate(given.well.operation))
     for i, one in enumerate(operations):
         _check_operation(one, i, given.well.operation[i], end, length)

@@ -1,0 +1,109 @@
+// What the viewer's scene is made of: meshes and lines of data as made by rodwell.report.viewer, light, labels, the dot
+// at the place that is read. Needs THREE (three.min.js).
+"use strict";
+
+function bytes(text) {
+  const raw = atob(text), out = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) out[i] = raw.charCodeAt(i);
+  return out.buffer;
+}
+
+// Positions come as 16-bit numbers between the corners of the part's box.
+function positions(part) {
+  const q = new Uint16Array(bytes(part.positions)), out = new Float32Array(q.length);
+  for (let i = 0; i < q.length; i++) {
+    const k = i % 3;
+    out[i] = part.low[k] + (q[i] / 65535) * (part.high[k] - part.low[k]);
+  }
+  return out;
+}
+
+function mesh(part) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions(part), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(part.triangles)), 1));
+  geometry.computeVertexNormals();
+  const clear = part.opacity < 1;
+  const material = new THREE.MeshStandardMaterial({
+    metalness: 0, roughness: 0.55, transparent: clear, opacity: part.opacity, depthWrite: !clear,
+    side: clear ? THREE.DoubleSide : THREE.FrontSide, vertexColors: typeof part.colours === "string",
+    forceSinglePass: true, // three.js draws what is clear twice, from behind and in front: for a thin wall that is one
+  });
+  if (material.vertexColors) {
+    geometry.setAttribute("color", new THREE.BufferAttribute(colours(part), 3));
+  } else {
+    material.color.setRGB(...part.colours, "srgb");
+  }
+  const out = new THREE.Mesh(geometry, material);
+  out.renderOrder = clear ? 1 : 0;
+  out.userData.triangles = part.triangles;
+  return out;
+}
+
+// Another shape of a part that has as many vertices: false if it has not, or its triangles are others.
+function renewed(old, part) {
+  const at = old.geometry.getAttribute("position"), moved = positions(part);
+  if (at.array.length !== moved.length || (part.triangles && part.triangles !== old.userData.triangles)) {
+    part.triangles = part.triangles || old.userData.triangles;
+    return false;
+  }
+  at.array.set(moved);
+  at.needsUpdate = true;
+  old.geometry.computeVertexNormals();
+  old.geometry.computeBoundingSphere();
+  if (typeof part.colours === "string") {
+    const colour = old.geometry.getAttribute("color");
+    colour.array.set(colours(part));
+    colour.needsUpdate = true;
+  }
+  return true;
+}
+
+function discard(item) {
+  item.removeFromParent();
+  item.traverse((each) => {
+    if (each.geometry) each.geometry.dispose();
+    if (each.material) each.material.dispose();
+  });
+}
+
+function colours(part) {
+  const rgb = new Uint8Array(bytes(part.colours)), out = new Float32Array(rgb.length), c = new THREE.Color();
+  for (let i = 0; i < rgb.length; i += 3) c.setRGB(rgb[i] / 255, rgb[i + 1] / 255, rgb[i + 2] / 255, "srgb").toArray(out, i);
+  return out;
+}
+
+function curve(line, material) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(line.points.flat()), 3));
+  return new THREE.Line(geometry, material);
+}
+
+function light(scene) {
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xc3ccd6, 2.2));
+  const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+  sun.position.set(-0.6, 1.4, 1.0);
+  scene.add(sun);
+}
+
+function tag(stage, label) {
+  const box = document.createElement("span");
+  box.className = label.above ? "tag above" : "tag";
+  box.textContent = label.text;
+  stage.appendChild(box);
+  return { box, at: new THREE.Vector3(...label.at) };
+}
+
+// A dot at the place that is read.
+function readingMark() {
+  const size = 0.012, corners = [size, 0, 0, -size, 0, 0, 0, size, 0, 0, -size, 0, 0, 0, size, 0, 0, -size];
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+  geometry.setIndex([0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5]);
+  geometry.computeVertexNormals();
+  const material = new THREE.MeshStandardMaterial({ emissive: 0xeb7500, color: 0xeb7500, depthTest: false });
+  const dot = new THREE.Mesh(geometry, material);
+  dot.renderOrder = 2;
+  dot.visible = false;
+  return dot;
+}
