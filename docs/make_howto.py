@@ -56,7 +56,7 @@ COMMANDS = {
     "critical-steps": "critical --weight 1000 --alpha 90 --sections 0.3:1:1:1,0.4:1:1:0.6,0.3:1:1:1 "
     "--out results/critical-steps",
     "two-casings": "run examples/tubing-two-casings.toml --out results/two-casings",
-    "string": "run examples/bottom-hole-assembly.toml --out results/string",
+    "string": "run examples/bottom-hole-assembly.toml --no-path --out results/string",
     "export": "export examples/drill-string.toml --to results/space/rod.glb --to results/space/rod.png",
 }
 """Output shown on the pages, by name of the file; run in the order given."""

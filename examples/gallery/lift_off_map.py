@@ -12,7 +12,7 @@ from rodwell.studies.maps.jumps import MODE
 
 def main():
     found = rodwell.map(
-        rodwell.Problem(15, 90), "lift-off", over={"weight": "5..120 in 24", "alpha": "45..90 in 10"},
+        rodwell.Problem(15, 90), "lift-off", over={"weight": "5..120 in 17", "alpha": "45..90 in 7"},
     )  # fmt: skip
     ax = new_axes((7.2, 4.8))
     found.plot(ax, load=-160.0)

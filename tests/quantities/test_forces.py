@@ -32,6 +32,16 @@ def test_a_horizontal_rod_has_one_force_and_research_has_its_own_sign() -> None:
     assert Forces(None, 40.0).axis == "end compression −F at s = 1"
 
 
+def test_messages_of_the_engine_name_forces_in_the_readers_words() -> None:
+    """The rod of 40 N bears 40 N more compression at the bottom than the 100 B/L² at s = 1."""
+    message = "the rod gives way at F = -100 B/L², beyond F = 1.5e-05 B/L²: F = ma stays"
+    said = "the rod gives way at 140 N of compression at the bottom, beyond 40 N of compression at the bottom"
+    assert Forces(AT_BOTTOM, 40.0).retold(message) == f"{said}: F = ma stays"
+    assert Forces(None, 40.0).retold(message) == (
+        "the rod gives way at F = −100 B/L², beyond F = 1.5 × 10⁻⁵ B/L²: F = ma stays"
+    )
+
+
 @given(st.floats(-1e4, 1e4), st.floats(0.0, 1e4), st.booleans(), st.sampled_from(["si", "field", "mm"]))
 def test_both_ends_differ_by_the_axial_weight(force: float, weight: float, bottom: bool, system: str) -> None:
     said = Forces(Scales(2.0, 3.0, system=System(system), bottom=bottom), weight)

@@ -8,6 +8,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.errors import InputError
+from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
@@ -96,7 +97,8 @@ def print_path(result: LoadPath) -> None:
             "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
         ))  # fmt: skip
     else:
-        wrapped(f"Not followed to the end: {result.ended_because}.")
+        said = Forces(None, result.problem.hung_weight)
+        wrapped(f"Not followed to the end: {said.retold(result.ended_because)}.")
     if result.problem.twist != 0.0:
         arm = "without" if result.mirror else "with"
         wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")

@@ -7,12 +7,16 @@ told as research does: the end force F at s = 1, tension positive.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
+
+NAMED = re.compile(r"F = (-?[\d.]+(?:e[-+]?\d+)?) B/L²")
+"""How the engine, which knows no units, names an end force in a message."""
 
 
 @dataclass(frozen=True)
@@ -104,6 +108,13 @@ class Forces:
         if self.compression(force).value < 0.0:
             return f"the tension{self.at_end} above {self.size(force)}{self.other(force)}"
         return f"the compression{self.at_end} below {self.size(force)}{self.other(force)}"
+
+    def retold(self, message: str) -> str:
+        """A message of the engine with every end force that it names said as here."""
+        return NAMED.sub(lambda found: self._named(float(found[1])), message)
+
+    def _named(self, force: float) -> str:
+        return self.label(force) if self.scales is None else self.load(Value(force))
 
     def _size(self, compression: Value) -> str:
         size = Value(abs(compression.value), compression.error)

@@ -59,9 +59,9 @@ def story(case: Case, found: Beyond) -> str:
         parts.append(f"{keeps}snaps{'' if i == 0 else f' again at {where}'} to {_named(snap)}")
     if snaps:
         parts[-1] += _back(case, found, down)
-    ended = "" if path.reached else f"; it was not followed to the end: {path.ended_because}"
-    at = forces_of(case).at_end
-    return f"As compression{at} grows, the rod {'; '.join(parts)}{ended} ({ends_text(case.problem)}; {HOW})."
+    said = forces_of(case)
+    ended = "" if path.reached else f"; it was not followed to the end: {said.retold(path.ended_because)}"
+    return f"As compression{said.at_end} grows, the rod {'; '.join(parts)}{ended} ({ends_text(case.problem)}; {HOW})."
 
 
 def _back(case: Case, found: Beyond, down: Sequence[PathPoint]) -> str:

@@ -58,7 +58,7 @@ def verdict(found: Bridged) -> str:
     """In one sentence: whether it buckles under the loads that act, and when."""
     said = forces_of(found.case)
     if found.buckling is None:
-        why = found.path.ended_because or "no load was found at which it does"
+        why = said.retold(found.path.ended_because) or "no load was found at which it does"
         return f"Whether the string buckles was not found: {why}."
     load = said.load(found.buckling[0].force, other=True)
     if not found.applied:
@@ -135,7 +135,8 @@ def bridged_statuses(found: Bridged) -> tuple[Status, ...]:
     """Buckling, strength and the numbers, each in a word with its reason."""
     shares = [share for load, _ in found.applied if (share := found.share(load)) is not None]
     if found.buckling is None:
-        buckling = Status("Buckling", OPEN, "not found", found.path.ended_because or "no load was found")
+        why = forces_of(found.case).retold(found.path.ended_because)
+        buckling = Status("Buckling", OPEN, "not found", why or "no load was found")
     elif not shares:
         buckling = Status("Buckling", OPEN, "no load given", "load.applied says what acts")
     else:
