@@ -30,6 +30,10 @@ LONG = 257
 ABOUT = 1e-6
 LEAST_ELEMENTS = 8
 
+SMOOTH = 2
+"""Elements of a section from which on it takes as few Gauss points as a uniform rod: y″ of one element between two
+steps has more shapes than these see, and those unseen would cost nothing."""
+
 LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {
     False: ((0.04, 7), (0.015, 5)),
     True: ((0.12, 7), (0.015, 5)),
@@ -139,5 +143,6 @@ def _space(problem: Problem, loads: tuple[float, float], least: float, per_radia
         mesh[starts] = breaks[:-1]
     shortest = float(np.min(lengths)) * float(phase[-1])
     degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
-    per_element = POINTS_OF_BRANCH if branch and degree == DEGREE else None
+    few = branch and degree == DEGREE and int(np.min(counts)) >= SMOOTH
+    per_element = POINTS_OF_BRANCH if few else None
     return SplineSpace(mesh, degree, per_element, mesh[starts[1:]])
