@@ -58,10 +58,8 @@ def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
 def _local(problem: Problem, places: FloatArray, section: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """B(s)/B, N(s) at F = 0, and wₗ/Δ with its sign at places, (m,) each."""
     rod = problem.rod
-    offset, weight = rod.lever.coefficients[section].T
-    axial = problem.axial_weight * (offset + weight * (places - 1.0))
-    foundation = problem.foundation / problem.clearance * rod.weight.coefficients[section, 0]
-    return rod.stiffness.coefficients[section, 0], axial, foundation
+    stiffness, weight, lever = (one.in_pieces(places, section) for one in (rod.stiffness, rod.weight, rod.lever))
+    return stiffness, problem.axial_weight * lever, problem.foundation / problem.clearance * weight
 
 
 def wkb_load(problem: Problem, number: float) -> float:
@@ -106,7 +104,7 @@ def free_space(problem: Problem, count: int) -> SplineSpace:
     weight, alpha = abs(problem.axial_weight), 0.0 if problem.axial_weight >= 0.0 else 180.0
     upright = problem.but(weight=weight, alpha=alpha, twist=0.0, on_top=False)
     load = wkb_load(upright, count)
-    least = LEAST_WAVENUMBER + abs(problem.twist) / min(section[1] for section in problem.sections)
+    least = LEAST_WAVENUMBER + abs(problem.twist) / problem.rod.stiffness_range[0]
     return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, branch=False)
 
 

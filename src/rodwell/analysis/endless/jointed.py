@@ -172,8 +172,10 @@ def _traces(problem: Problem, compression: float) -> tuple[float, float]:
     spring, whole = np.eye(4), np.eye(4)
     spring[3, 0] = -_edge_force(problem) / _radius(problem)
     last = len(problem.sections) - 1
-    for i, (length, stiffness, *_) in enumerate(problem.sections):
-        whole = _along(length, stiffness, 0.0, compression)[:4, :4] @ whole
+    for i, ((length, *_), stiffness) in enumerate(
+        zip(problem.sections, problem.rod.stiffness.coefficients, strict=True)
+    ):
+        whole = _along(length, float(stiffness[0]), 0.0, compression)[:4, :4] @ whole
         if i in (0, last - 1):
             whole = spring @ whole
     trace = float(np.trace(whole))
@@ -216,7 +218,7 @@ def _lying(problem: Problem, compression: float, samples: int) -> tuple[float, f
     rod, force = problem.rod, _edge_force(problem)
     places, shapes, now, breaks = [0.0], [np.eye(5)], np.eye(5), rod.breaks
     for i, (left, right) in enumerate(pairwise(breaks)):
-        _, stiffness, weight, *_ = problem.sections[i]
+        stiffness, weight = (float(profile.coefficients[i, 0]) for profile in (rod.stiffness, rod.weight))
         for s in np.linspace(float(left), float(right), samples)[1:]:
             here = _along(float(s) - places[-1], stiffness, weight * problem.lateral_weight, compression)
             now = here @ now
