@@ -73,7 +73,7 @@ def test_it_touches_the_opposite_wall(clearance: float) -> None:
     state = arch(clearance, exact + 0.3 * (-4.0 * np.pi**2 - exact))
 
     def gap(one) -> float:
-        return apart(PatternedState(state.pattern, state.elements, one), 0).value
+        return apart(PatternedState(state.pattern, state.elements, one), [0])[0].value
 
     found = search(state.model, state.solved, tangent_in_load(state.solved, -1.0), gap, 1e-4, 0.5)
     assert found.shape.load == pytest.approx(exact, rel=1e-11)

@@ -29,6 +29,7 @@ def show_joints(file: str, as_json: bool) -> None:
         print_json({"title": case.title, **found.as_dict(), **si})
     else:
         sag, room = (_size(case, number, "length", "L") for number in (found.sag, found.room))
+        spread = _size(case, found.spread.times(-1.0))
         waves = "neighbouring bodies bow to opposite sides"
         if math.pi - found.phase > NEARLY:
             waves = f"in waves of {plain(2.0 * math.pi / found.phase, 3)} joints"
@@ -39,9 +40,9 @@ def show_joints(file: str, as_json: bool) -> None:
             f"its ends there, and would touch the wall at {room}."
         )
         wrapped(
-            f"With the weight spread along the tool joints' clearance it would be {_size(case, -found.spread)}: that "
-            "is no bound. Looked at are disturbances out of the vertical plane, of any wavelength. Frictionless, small "
-            "slopes; the axial force is taken as constant over some joints."
+            f"With the weight spread along the tool joints' clearance it would be {spread}: that is no bound. "
+            "Looked at are disturbances out of the vertical plane, of any wavelength. Frictionless, small slopes; "
+            "the axial force is taken as constant over some joints."
         )
 
 
@@ -62,5 +63,5 @@ def _load(case: Case, load: Value) -> str:
     return f"{amount(load, 6)} B/L²" if case.scales is None else case.scales.amount(load, "force", 6)
 
 
-def _size(case: Case, value: float, dimension: str = "force", unit: str = "B/L²") -> str:
-    return f"{plain(value, 4)} {unit}" if case.scales is None else case.scales.text(value, dimension)
+def _size(case: Case, number: Value, dimension: str = "force", unit: str = "B/L²") -> str:
+    return f"{amount(number)} {unit}" if case.scales is None else case.scales.amount(number, dimension)

@@ -73,7 +73,8 @@ def problem_options(required: bool = True, coiled: bool = False) -> Callable[[An
                 "--sections",
                 metavar="L:B:W,…",
                 help="String of sections from s = 0, each length:stiffness[:weight[:clearance[:torsion]]]; lengths in "
-                "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5.",
+                "L add up to 1, the others are ratios, 1 where left out: 0.6:1:1,0.4:0.3:0.5. A taper has 2 to 5 "
+                "values at even places along the section: 0.6:1:1,0.4:1/0.3:1/0.5.",
             ),
             click.option(
                 "--build",
@@ -137,14 +138,16 @@ def check_torsion(given: Mapping[str, Any]) -> None:
         raise InputError("--poisson", given["poisson"], "has no effect beside --torsion, C/B as measured: give one")
 
 
-def _sections(text: str) -> list[list[float]]:
+def _sections(text: str) -> list[list[float | list[float]]]:
     """Numbers of ``--sections``, section by section; what they must be is checked with the problem."""
     found = []
     for number, section in enumerate(text.split(","), 1):
         try:
-            found.append([float(part) for part in section.split(":")])
+            parts = [[float(one) for one in part.split("/")] for part in section.split(":")]
+            found.append([part if len(part) > 1 else part[0] for part in parts])
         except ValueError:
-            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, sections parted by commas"
+            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, a taper's parted by /, sections "
+            what += "parted by commas"
             raise InputError(f"--sections, section {number}", section, what) from None
     return found
 

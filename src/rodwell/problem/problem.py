@@ -13,14 +13,17 @@ from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole, Points
 from rodwell.problem.lying import rise_of_lying_rod
-from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section
+from rodwell.problem.profile import Ratio
+from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, seen_from_s_1
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
     """End conditions in words: names, or what ``words`` says of each; how many sections, and whether the rod floats."""
     first, last = (words[end] if words else end for end in problem.ends)
     ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
-    ends += f", string of {len(problem.sections)} sections" if problem.sections else ""
+    if problem.sections:
+        ends += f", string of {len(problem.sections)} sections" if len(problem.sections) > 1 else ", one section"
+        ends += ", tapered" if problem.tapered else ""
     return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
 
 
@@ -67,7 +70,8 @@ class Problem:
         has no effect. None: that of ``poisson``.
     sections
         A string of sections from s = 0: (length, stiffness, weight, clearance, torsion) of each, the lengths in L,
-        adding up to 1, the others ratios to the data of the problem, 1 where left out. ``weight`` is then that of a
+        adding up to 1, the others ratios to the data of the problem, 1 where left out; all but the clearance may vary
+        along the section, as two to five values at evenly spaced places of it, a polynomial. ``weight`` is that of a
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
@@ -145,6 +149,19 @@ class Problem:
                 f"must have one clearance: {what} are those of a rod that stays on the wall, and a string bridges "
                 "steps of the clearance, off the wall. How it lies there, and when it buckles: `rodwell run` "
                 "of a case; `rodwell path`, `rodwell critical`, rodwell.load_path",
+            )  # fmt: skip
+
+    @property
+    def tapered(self) -> bool:
+        """Whether stiffness, weight or torsion vary along a section."""
+        return bool(self.sections) and self.rod.tapered
+
+    def refuse_tapers(self, what: str) -> None:
+        """Raise where a section tapers: ``what`` are computed of sections of one stiffness and weight each."""
+        if self.tapered:
+            raise InputError(
+                "sections", "tapered", f"must have one stiffness, weight and torsion in each: {what} are not "
+                "computed of sections that taper",
             )  # fmt: skip
 
     @property
@@ -234,7 +251,9 @@ class Problem:
         also the mirror image, so that it winds in the same sense; with half a turn over, it begins on the other side.
         """
         on_top = self.on_top != ((2.0 * self.turns) % 2.0 == 1.0)
-        return self.but(alpha=180.0 - self.alpha, ends=self.ends[::-1], sections=self.sections[::-1], on_top=on_top)
+        return self.but(
+            alpha=180.0 - self.alpha, ends=self.ends[::-1], sections=seen_from_s_1(self.sections), on_top=on_top
+        )
 
     @property
     def foundation(self) -> float:
@@ -256,12 +275,12 @@ class Problem:
         """Torsional stiffness of the whole straight rod, whose end s = 1 turns by T₁ over it: C, or 1/∫ ds/C(s)."""
         if not self.sections:
             return self.torsional_stiffness
-        return self.torsional_stiffness / sum(length / torsion for length, *_, torsion in self.sections)
+        return self.torsional_stiffness / self.rod.twisting_compliance
 
     @property
-    def given_more(self) -> dict[str, float | list[float]]:
+    def given_more(self) -> dict[str, float | list[Ratio]]:
         """What was given besides, by name: C/B where it does not follow from ν, and each column of the sections."""
-        out: dict[str, float | list[float]] = {} if self.torsion is None else {"torsion": self.torsion}
+        out: dict[str, float | list[Ratio]] = {} if self.torsion is None else {"torsion": self.torsion}
         if self.sections:
             columns = zip(*self.sections, strict=True)
             out |= {f"section_{name}": list(column) for name, column in zip(COLUMNS, columns, strict=True)}

@@ -9,9 +9,19 @@ from functools import cached_property
 import numpy as np
 
 from rodwell.errors import InputError, checked_number
-from rodwell.quantities.arrays import FloatArray, IntArray
+from rodwell.problem.profile import (
+    MOST_VALUES,
+    Profile,
+    Ratio,
+    ReciprocalIntegral,
+    along,
+    extremes,
+    integral_from_1,
+    powers,
+)
+from rodwell.quantities.arrays import FloatArray
 
-Section = tuple[float, float, float, float, float]
+Section = tuple[float, Ratio, Ratio, float, Ratio]
 """Length in L, and ratios to the problem's data: bending stiffness, weight, clearance, torsional stiffness."""
 
 RATIOS = ("stiffness", "weight", "clearance", "torsion")
@@ -25,47 +35,21 @@ ROUNDED = 1e-9
 EQUAL_LENGTHS = 1e-12
 """Lengths that differ by less count as equal."""
 
+SMOOTH = 1e-12
+"""Kinks of the stiffness below this part of the largest stiffness over a section's length are round-off."""
+
 PLAIN: tuple[Section, ...] = ((1.0, 1.0, 1.0, 1.0, 1.0),)
 """The one section of a uniform rod."""
 
 FORM = (
-    "must be a sequence of (length, stiffness, weight, clearance, torsion), from s = 0; "
-    "all but the length may be left out"
+    "must be a sequence of (length, stiffness, weight, clearance, torsion), from s = 0; all but the length may be left "
+    f"out, and all but length and clearance may be 2 to {MOST_VALUES} values at evenly spaced places of the section"
 )
 
 
 @dataclass(frozen=True)
-class Profile:
-    """A function of s in pieces, each a polynomial.
-
-    Attributes
-    ----------
-    breaks
-        Where pieces begin and end, rising from 0 to 1, (n + 1,).
-    coefficients
-        Of the powers 0, 1, … of s − 1, for each piece, (n, k): a piece is a function of all s, prolonged to s = 1.
-    """
-
-    breaks: FloatArray
-    coefficients: FloatArray
-
-    def piece_of(self, places: FloatArray) -> IntArray:
-        """Number of the piece in which each place (m,) lies; where two meet, that towards s = 1."""
-        inner = self.breaks[1:-1]
-        return np.searchsorted(inner, places, side="right").astype(np.int64)
-
-    def __call__(self, places: FloatArray) -> FloatArray:
-        """Values (m,) at places (m,)."""
-        own = self.coefficients[self.piece_of(places)]
-        value = np.zeros(own.shape[0])
-        for k in range(own.shape[1] - 1, -1, -1):
-            value = value * (places - 1.0) + own[:, k]
-        return value
-
-
-@dataclass(frozen=True)
 class Rod:
-    """A rod of sections: B, C and weight as ratios, constant in each section, with jumps between them.
+    """A rod of sections: B, C and weight as ratios, constant or a polynomial in each section, with jumps between them.
 
     Attributes
     ----------
@@ -85,19 +69,35 @@ class Rod:
         return np.array([section[which] for section in self.sections])
 
     @cached_property
+    def tapered(self) -> bool:
+        """Whether a ratio varies along a section."""
+        return any(isinstance(ratio, tuple) for section in self.sections for ratio in section)
+
+    def _profile(self, which: int) -> Profile:
+        if self.tapered:
+            return along(self.breaks, [section[which] for section in self.sections])
+        return Profile(self.breaks, self._ratios(which)[:, None])
+
+    @cached_property
     def stiffness(self) -> Profile:
         """B(s)/B."""
-        return Profile(self.breaks, self._ratios(1)[:, None])
+        return self._profile(1)
+
+    @cached_property
+    def stiffness_range(self) -> tuple[float, float]:
+        """The least and the largest B(s)/B."""
+        ranges = [extremes(section[1]) for section in self.sections]
+        return min(least for least, _, _ in ranges), max(most for _, _, most in ranges)
 
     @cached_property
     def weight(self) -> Profile:
         """w(s)/w."""
-        return Profile(self.breaks, self._ratios(2)[:, None])
+        return self._profile(2)
 
     @cached_property
     def torsion(self) -> Profile:
         """C(s)/C."""
-        return Profile(self.breaks, self._ratios(4)[:, None])
+        return self._profile(4)
 
     @cached_property
     def clearance(self) -> Profile:
@@ -111,8 +111,10 @@ class Rod:
         return np.asarray(self.breaks[1:-1][clearance[1:] != clearance[:-1]])
 
     @cached_property
-    def turned(self) -> Profile:
+    def turned(self) -> Profile | ReciprocalIntegral:
         """∫₀ˢ ds/(C(s)/C), in L: how far a torque along the whole rod has turned it, over what it turns C by in L."""
+        if self.tapered:
+            return ReciprocalIntegral(self.torsion)
         softness = 1.0 / self._ratios(4)
         below = np.concatenate([[0.0], np.cumsum(softness * np.diff(self.breaks))[:-1]])
         return Profile(self.breaks, np.stack([below - softness * (self.breaks[:-1] - 1.0), softness], axis=1))
@@ -121,8 +123,11 @@ class Rod:
     def lever(self) -> Profile:
         """h(s) = −∫ₛ¹ w(s)/w ds, in L: the axial resultant is N(s) = F + wₐ h(s).
 
-        In a section it is d + (w/w₀)(s − 1): that of a uniform rod of this section, with another end force F + wₐ d.
+        In a section of one weight it is d + (w/w₀)(s − 1): that of a uniform rod of this section, with another end
+        force F + wₐ d.
         """
+        if self.tapered:
+            return integral_from_1(self.weight)
         weight = self._ratios(2)
         hung = weight * np.diff(self.breaks)
         above = np.concatenate([np.cumsum(hung[::-1])[::-1][1:], [0.0]])  # weight of the sections above each
@@ -131,10 +136,24 @@ class Rod:
         return Profile(self.breaks, np.stack([offset, weight], axis=1))
 
     @cached_property
+    def stiffness_sides(self) -> FloatArray:
+        """B(s)/B on both sides of each step between sections, towards s = 0 and towards s = 1, (2, n − 1)."""
+        before, after = ([_at(section[1], end) for section in self.sections] for end in (-1, 0))
+        return np.array([before[:-1], after[1:]])
+
+    @cached_property
+    def stiffness_rate_sides(self) -> FloatArray:
+        """The same of its derivative by s, (2, n − 1); what differs by round-off is one."""
+        sides = self.stiffness.derivative.sides
+        steepest = self.stiffness_range[1] / np.diff(self.breaks)
+        alike = np.abs(sides[1] - sides[0]) <= SMOOTH * np.maximum(steepest[1:], steepest[:-1])
+        return np.where(alike, np.mean(sides, axis=0), sides)
+
+    @cached_property
     def stiffness_steps(self) -> FloatArray:
         """Where the bending stiffness has a step, (k,), in L."""
-        stiffness = self._ratios(1)
-        return np.asarray(self.breaks[1:-1][stiffness[1:] != stiffness[:-1]])
+        before, after = self.stiffness_sides
+        return np.asarray(self.breaks[1:-1][after != before])
 
     @property
     def stepped(self) -> bool:
@@ -144,17 +163,28 @@ class Rod:
     @cached_property
     def whole_weight(self) -> float:
         """∫ w(s)/w ds: weight of the whole, as a ratio to that of a uniform rod."""
+        if self.tapered:
+            return -float(self.lever(np.zeros(1))[0])
         return float(self._ratios(2) @ np.diff(self.breaks))
 
     @cached_property
     def compliance(self) -> float:
         """∫ ds/(B(s)/B): how much more the rod bends under a moment that is the same everywhere."""
+        if self.tapered:
+            return float(ReciprocalIntegral(self.stiffness)(np.ones(1))[0])
         return float(np.diff(self.breaks) @ (1.0 / self._ratios(1)))
+
+    @cached_property
+    def twisting_compliance(self) -> float:
+        """∫ ds/(C(s)/C)."""
+        if self.tapered:
+            return float(self.turned(np.ones(1))[0])
+        return float(sum(section[0] / ratio for section, ratio in zip(self.sections, self._ratios(4), strict=True)))
 
     @cached_property
     def symmetric(self) -> bool:
         """Whether the rod is the same seen from either end."""
-        mirrored = self.sections[::-1]
+        mirrored = seen_from_s_1(self.sections)
         alike = all(a[1:] == b[1:] for a, b in zip(self.sections, mirrored, strict=True))
         return alike and bool(np.max(np.abs(self.breaks + self.breaks[::-1] - 1.0)) <= EQUAL_LENGTHS)
 
@@ -162,6 +192,23 @@ class Rod:
     def plain(self) -> bool:
         """Whether it is the uniform rod that everything is a ratio to."""
         return self.sections == PLAIN
+
+
+def _at(ratio: Ratio, end: int) -> float:
+    """A ratio at the lower (0) or upper (−1) end of its section."""
+    return ratio[end] if isinstance(ratio, tuple) else ratio
+
+
+def seen_from_s_1(sections: tuple[Section, ...]) -> tuple[Section, ...]:
+    """Sections of the rod turned round."""
+    return tuple(
+        (length, _turned(stiffness), _turned(weight), clearance, _turned(torsion))
+        for length, stiffness, weight, clearance, torsion in sections[::-1]
+    )
+
+
+def _turned(ratio: Ratio) -> Ratio:
+    return ratio[::-1] if isinstance(ratio, tuple) else ratio
 
 
 def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
@@ -172,10 +219,23 @@ def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
 
 def lower_half(sections: tuple[Section, ...]) -> tuple[Section, ...]:
     """Sections of the half from s = 0 to ½, with lengths in its own length."""
-    breaks = Rod(sections).breaks if sections else np.array([0.0])
-    inside = [i for i in range(len(sections)) if breaks[i] < 0.5]
-    lengths = [2.0 * (min(float(breaks[i + 1]), 0.5) - float(breaks[i])) for i in inside]
-    return tuple((length, *sections[i][1:]) for i, length in zip(inside, lengths, strict=True))
+    breaks, out = Rod(sections).breaks if sections else np.array([0.0]), []
+    for i in (i for i in range(len(sections)) if breaks[i] < 0.5):
+        length = min(float(breaks[i + 1]), 0.5) - float(breaks[i])
+        _, stiffness, weight, clearance, torsion = sections[i]
+        part = length / float(breaks[i + 1] - breaks[i])
+        ratios = stiffness, weight, torsion
+        b, q, c = ratios if part == 1.0 else (_first_part(ratio, part) for ratio in ratios)
+        out.append((2.0 * length, b, q, clearance, c))
+    return tuple(out)
+
+
+def _first_part(ratio: Ratio, part: float) -> Ratio:
+    """A ratio in so much of its section, from the lower end."""
+    if isinstance(ratio, float):
+        return ratio
+    found = np.polynomial.Polynomial(powers(ratio))
+    return tuple(map(float, found(part * np.linspace(0.0, 1.0, len(ratio)))))
 
 
 def checked_sections(sections: object) -> tuple[Section, ...]:
@@ -202,7 +262,7 @@ def checked_sections(sections: object) -> tuple[Section, ...]:
         )
     joined: list[Section] = []
     for section in whole:
-        if joined and joined[-1][1:] == section[1:]:
+        if joined and joined[-1][1:] == section[1:] and not any(isinstance(ratio, tuple) for ratio in section):
             joined[-1] = (joined[-1][0] + section[0], *section[1:])
         else:
             joined.append(section)
@@ -221,9 +281,30 @@ def _checked(section: object, number: int) -> Section:
     length = checked_number(
         f"section {number}, length", values[0], 1e-9, 1.0, "above 0 and at most 1, a part of the length"
     )
-    ratios = []
-    for name, value in zip(RATIOS, [*values[1:], *[1.0] * 4], strict=False):
-        low = 0.0 if name == "weight" else SMALLEST_RATIO
-        allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
-        ratios.append(checked_number(f"section {number}, {name}", value, low, LARGEST_RATIO, allowed))
-    return (length, ratios[0], ratios[1], ratios[2], ratios[3])
+    b, q, d, c = (
+        _checked_ratio(f"section {number}, {name}", name, value)
+        for name, value in zip(RATIOS, [*values[1:], *[1.0] * 4], strict=False)
+    )
+    assert isinstance(d, float)
+    return (length, b, q, d, c)
+
+
+def _checked_ratio(field: str, name: str, value: object) -> Ratio:
+    """A ratio: a number, or its values along the section; values that are all alike are a number."""
+    low = 0.0 if name == "weight" else SMALLEST_RATIO
+    allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
+    if name == "clearance" or isinstance(value, str) or not isinstance(value, Iterable):
+        return float(checked_number(field, value, low, LARGEST_RATIO, allowed))
+    given = list(value)
+    if not 1 <= len(given) <= MOST_VALUES:
+        what = f"must be a number, or 2 to {MOST_VALUES} of them, its values at evenly spaced places of the section"
+        raise InputError(field, f"{len(given)} values", f"{what}: part the section for more")
+    ratio = tuple(float(checked_number(field, one, low, LARGEST_RATIO, allowed)) for one in given)
+    if min(ratio) == max(ratio):
+        return ratio[0]
+    least, where, most = extremes(ratio)
+    if least < low or most > LARGEST_RATIO:
+        found = f"{least:.4g} at {where:.4g}" if least < low else f"{most:.4g} at most"
+        what = f"the polynomial through them is {found} of the section's length: part the section, or give fewer values"
+        raise InputError(field, " / ".join(f"{one:g}" for one in ratio), what)
+    return ratio

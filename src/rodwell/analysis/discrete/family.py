@@ -15,6 +15,7 @@ from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.model import RodOfSections, RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
+from rodwell.physics.on_wall.tapered import TERMS, RodOfTapers
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
@@ -169,9 +170,11 @@ def _autonomous(problem: Problem) -> bool:
     return problem.axial_weight == 0.0 and not problem.sections and problem.hole is None
 
 
-def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodInCurvedHole:
+def _model(problem: Problem) -> RodOnCylinder | RodOfSections | RodOfTapers | RodInCurvedHole:
     if problem.hole is not None:
         return RodInCurvedHole()
+    if problem.tapered:
+        return RodOfTapers()
     return RodOfSections() if problem.sections else RodOnCylinder()
 
 
@@ -190,19 +193,37 @@ def _cells(problem: Problem) -> tuple[int, ...]:
 def given_along(problem: Problem) -> Given | None:
     """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3).
 
-    Of a curved hole, what :mod:`rodwell.physics.on_wall.curved` names, (m, 44).
+    Of sections that taper, what :mod:`rodwell.physics.on_wall.tapered` names, (m, 17); of a curved hole, what
+    :mod:`rodwell.physics.on_wall.curved` does, (m, 44).
     """
     if problem.hole is not None:
         return along_rod(problem)
+    if problem.tapered:
+        return partial(_columns_at, _polynomials(problem.rod), problem.rod)
     return given_of(problem.rod) if problem.sections else None
 
 
+def _polynomials(rod: Rod) -> FloatArray:
+    """Origin and coefficients of each section that may taper, (n, 17)."""
+    columns = [rod.breaks[:-1, None]]
+    for profile, terms in ((rod.stiffness, TERMS), (rod.weight, TERMS), (rod.lever, TERMS + 1)):
+        columns.append(np.pad(profile.coefficients, ((0, 0), (0, terms - profile.coefficients.shape[1]))))
+    return np.concatenate(columns, axis=1)
+
+
 def given_of(rod: Rod) -> Given:
-    """The same of a rod of sections."""
+    """b, q and d of a rod of sections at places (m,), (m, 3)."""
+    if rod.tapered:
+        return partial(_of_tapers, rod)
     columns = np.stack(
         [rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0], rod.lever.coefficients[:, 0]], 1
     )
     return partial(_columns_at, columns, rod)
+
+
+def _of_tapers(rod: Rod, places: FloatArray) -> FloatArray:
+    weight = rod.weight(places)
+    return np.stack([rod.stiffness(places), weight, rod.lever(places) - weight * (places - 1.0)], axis=1)
 
 
 def _columns_at(columns: FloatArray, rod: Rod, places: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ from rodwell.analysis.discrete.pressures import COEFFICIENT_NOISE, STIFFNESS
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.physics.on_wall.parameters import RAMP
+from rodwell.physics.on_wall.tapered import RodOfTapers, here
 
 SIDE = 1e-4
 """Part of the load over which the gradient, which is linear in it or nearly so, is differenced."""
@@ -26,7 +27,9 @@ def load_noise(family: Family, fold: State) -> float:
     functions = np.repeat(space.starts, space.per_element)[:, None] + np.arange(space.degree + 1)
     terms = np.abs(space.table[:, 2] * c[functions]).sum(axis=1)
     stiffness = 1.0 / (1.0 - (slope + family.parameters(fold.lam)[RAMP]) ** 2)
-    if family.mesh.given.shape[1]:
+    if isinstance(family.model, RodOfTapers):
+        stiffness = stiffness * here(space.points, family.mesh.given.T)[0]
+    elif family.mesh.given.shape[1]:
         stiffness = stiffness * family.mesh.given[:, STIFFNESS]
     work = 4.0 * COEFFICIENT_NOISE * float(np.linalg.norm(space.weights * bend * stiffness * terms))
     step, free = SIDE * max(abs(fold.lam), family.lam_scale), family.held

@@ -9,7 +9,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rodwell.analysis.discrete import curved_measures
+from rodwell.analysis.discrete import by_arrays
 from rodwell.analysis.discrete.pressures import (
     COEFFICIENT_NOISE,
     balanced,
@@ -31,6 +31,7 @@ from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
 from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
+from rodwell.physics.on_wall.tapered import RodOfTapers
 from rodwell.quantities.arrays import FloatArray
 
 NEAR_THE_TOP = 0.05
@@ -45,6 +46,10 @@ SOFT = 2e-12
 OTHER_END = 4.0
 """How many times the moment that the spline has at an end that turns freely, where there is none, the error of the
 curvature at the other end may be."""
+
+
+BY_ARRAYS = RodInCurvedHole, RodOfTapers
+"""Models that are measured by arrays: kernels know coefficients that are constant in each section."""
 
 
 class Measured(IntEnum):
@@ -198,8 +203,8 @@ def measure(family: Family, state: State) -> FloatArray:
     """
     space, p = state.space, family.parameters(state.lam)
     found = _maxima(family, state.c, p)
-    if isinstance(family.model, RodInCurvedHole):
-        return _in_curved_hole(family, state, found)
+    if isinstance(family.model, BY_ARRAYS):
+        return _by_arrays(family, state, found)
     probes = _probed.get(space)
     if probes is None:
         probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
@@ -208,15 +213,15 @@ def measure(family: Family, state: State) -> FloatArray:
     return np.asarray(numbers)
 
 
-def _in_curved_hole(family: Family, state: State, found: tuple[FloatArray, FloatArray, float]) -> FloatArray:
-    """The same of a rod in a curved hole, from plain arrays."""
+def _by_arrays(family: Family, state: State, found: tuple[FloatArray, FloatArray, float]) -> FloatArray:
+    """The same from plain arrays."""
     places, values, lowest = found
-    clearance = float(family.parameters(state.lam)[CLEARANCE])
+    clearance, ramp = (float(family.parameters(state.lam)[which]) for which in (CLEARANCE, RAMP))
     out = np.zeros((3, PROBED + len(PROBES)))
     numbers, scales, noise = out
-    known = curved_measures.totals(family, state)
-    probed, left = curved_measures.pressures(family, state, np.array([*PROBES, *places]))
-    bends = curved_measures.curvatures_at(family, state, np.array([0.0, 1.0]))[1]
+    known = by_arrays.totals(family, state)
+    probed, left = by_arrays.pressures(family, state, np.array([*PROBES, *places]))
+    bends = by_arrays.end_curvatures(family, state)
     mesh = family.mesh
     _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     numbers[Measured.P_MAX], scales[Measured.P_MAX] = np.max(values), HALF * max(abs(np.max(values)), abs(lowest))
@@ -228,6 +233,7 @@ def _in_curved_hole(family: Family, state: State, found: tuple[FloatArray, Float
         numbers[which], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, 0.0)
         scales[which] = max(known["sharpest"], known["steepest"] ** 2 / clearance)
     middle = float(state.space.evaluate(state.c, np.array([0.5]), 1)[0, 0])
+    middle += 0.5 * ramp
     numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = middle / clearance, known["widest"]
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = known["torque"], known["torque_size"]
     for soft in (Measured.ANGLE_MID, Measured.TORQUE_0):
@@ -266,7 +272,7 @@ def pressure_maxima(
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
     space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
     places, _, lowest = _maxima(family, state.c, p)
-    if isinstance(family.model, RodInCurvedHole):
-        return places, curved_measures.pressures(family, state, places)[0], float(lowest)
+    if isinstance(family.model, BY_ARRAYS):
+        return places, by_arrays.pressures(family, state, places)[0], float(lowest)
     values = balanced_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
     return places, values, float(lowest)

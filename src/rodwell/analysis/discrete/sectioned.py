@@ -30,6 +30,10 @@ LONG = 257
 ABOUT = 1e-6
 LEAST_ELEMENTS = 8
 
+SMOOTH = 2
+"""Elements of a section from which on it takes as few Gauss points as a uniform rod: y″ of one element between two
+steps has more shapes than these see, and those unseen would cost nothing."""
+
 LOWER_DEGREES: dict[bool, tuple[tuple[float, int], ...]] = {
     False: ((0.04, 7), (0.015, 5)),
     True: ((0.12, 7), (0.015, 5)),
@@ -54,10 +58,8 @@ def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
 def _local(problem: Problem, places: FloatArray, section: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """B(s)/B, N(s) at F = 0, and wₗ/Δ with its sign at places, (m,) each."""
     rod = problem.rod
-    offset, weight = rod.lever.coefficients[section].T
-    axial = problem.axial_weight * (offset + weight * (places - 1.0))
-    foundation = problem.foundation / problem.clearance * rod.weight.coefficients[section, 0]
-    return rod.stiffness.coefficients[section, 0], axial, foundation
+    stiffness, weight, lever = (one.in_pieces(places, section) for one in (rod.stiffness, rod.weight, rod.lever))
+    return stiffness, problem.axial_weight * lever, problem.foundation / problem.clearance * weight
 
 
 def wkb_load(problem: Problem, number: float) -> float:
@@ -102,7 +104,7 @@ def free_space(problem: Problem, count: int) -> SplineSpace:
     weight, alpha = abs(problem.axial_weight), 0.0 if problem.axial_weight >= 0.0 else 180.0
     upright = problem.but(weight=weight, alpha=alpha, twist=0.0, on_top=False)
     load = wkb_load(upright, count)
-    least = LEAST_WAVENUMBER + abs(problem.twist) / min(section[1] for section in problem.sections)
+    least = LEAST_WAVENUMBER + abs(problem.twist) / problem.rod.stiffness_range[0]
     return _space(upright, (load, load), least, LINEAR_ELEMENTS_PER_RADIAN, branch=False)
 
 
@@ -139,5 +141,6 @@ def _space(problem: Problem, loads: tuple[float, float], least: float, per_radia
         mesh[starts] = breaks[:-1]
     shortest = float(np.min(lengths)) * float(phase[-1])
     degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
-    per_element = POINTS_OF_BRANCH if branch and degree == DEGREE else None
+    few = branch and degree == DEGREE and int(np.min(counts)) >= SMOOTH
+    per_element = POINTS_OF_BRANCH if few else None
     return SplineSpace(mesh, degree, per_element, mesh[starts[1:]])

@@ -31,7 +31,7 @@ SMALL = 4.0
 """What small slopes leave out of a load, in largest slopes squared of that load."""
 
 ROUND_OFF = 1e-14
-"""Of the traces, in their squares."""
+"""Of the traces, in their squares; of numbers in closed form, in these."""
 
 SAMPLES = 33
 """Places in each section at which the shape is looked at."""
@@ -64,23 +64,32 @@ class JointedString:
     problem: Problem
     load: Value
     phase: float
-    edge_force: float
-    sag: float
-    room: float
-    spread: float
+    edge_force: Value
+    sag: Value
+    room: Value
+    spread: Value
 
     def as_dict(self) -> dict[str, Any]:
         """All numbers, units B = L = 1 of one period."""
         return {
-            "load": {"value": self.load.value, "error": self.load.error},
+            "load": _plain(self.load),
             "phase": self.phase,
-            "edge_force": self.edge_force,
-            "sag": self.sag,
-            "room": self.room,
-            "spread_load": self.spread,
+            "edge_force": _plain(self.edge_force),
+            "sag": _plain(self.sag),
+            "room": _plain(self.room),
+            "spread_load": _plain(self.spread),
             "unit": "B/L^2, lengths in L, the length of one joint",
             "convention": "axial force, tension positive",
         }
+
+
+def _plain(number: Value) -> dict[str, float]:
+    return {"value": number.value, "error": number.error}
+
+
+def _closed(number: float) -> Value:
+    """A number in closed form, with round-off."""
+    return Value(number, ROUND_OFF * abs(number))
 
 
 def jointed_string(problem: Problem) -> JointedString:
@@ -113,12 +122,12 @@ def jointed_string(problem: Problem) -> JointedString:
     rate = (_least(problem, compression + step) - _least(problem, compression - step)) / (2.0 * step)
     trace, rest = _traces(problem, compression)
     noise = ROUND_OFF * (1.0 + trace**2 + abs(rest)) / abs(rate)
-    sag, slope = _lying(problem, compression)
+    sag, slope = _sag(problem, compression, noise)
     rod = problem.rod
     mean = math.sqrt(problem.lateral_weight * rod.whole_weight / (rod.compliance * _radius(problem)))
     return JointedString(
         problem, Value(-compression, noise + SMALL * slope**2 * compression), math.acos(0.5 * _softest(trace)),
-        _edge_force(problem), sag, _room(problem), -2.0 * mean,
+        _closed(_edge_force(problem)), sag, _closed(_room(problem)), _closed(-2.0 * mean),
     )  # fmt: skip
 
 
@@ -163,8 +172,10 @@ def _traces(problem: Problem, compression: float) -> tuple[float, float]:
     spring, whole = np.eye(4), np.eye(4)
     spring[3, 0] = -_edge_force(problem) / _radius(problem)
     last = len(problem.sections) - 1
-    for i, (length, stiffness, *_) in enumerate(problem.sections):
-        whole = _along(length, stiffness, 0.0, compression)[:4, :4] @ whole
+    for i, ((length, *_), stiffness) in enumerate(
+        zip(problem.sections, problem.rod.stiffness.coefficients, strict=True)
+    ):
+        whole = _along(length, float(stiffness[0]), 0.0, compression)[:4, :4] @ whole
         if i in (0, last - 1):
             whole = spring @ whole
     trace = float(np.trace(whole))
@@ -183,7 +194,20 @@ def _least(problem: Problem, compression: float) -> float:
     return mu**2 - trace * mu + rest - 2.0
 
 
-def _lying(problem: Problem, compression: float) -> tuple[float, float]:
+def _sag(problem: Problem, compression: float, noise: float) -> tuple[Value, float]:
+    """The sag at a load that is known to ``noise``, and the largest slope.
+
+    Its error is what small slopes leave out of it, itself and by the load, and what more places change.
+    """
+    sag, slope = _lying(problem, compression, SAMPLES)
+    finer, _ = _lying(problem, compression, 2 * SAMPLES - 1)
+    step = SMALL * slope**2 * compression + noise
+    other, _ = _lying(problem, compression - step, SAMPLES)
+    error = abs(finer - sag) + abs(other - sag) + (SMALL * slope**2 + ROUND_OFF) * abs(sag)
+    return Value(finer, error), slope
+
+
+def _lying(problem: Problem, compression: float, samples: int) -> tuple[float, float]:
     """Sag of the body under its ends, and the largest slope, of the string in its plane.
 
     Raises
@@ -194,8 +218,8 @@ def _lying(problem: Problem, compression: float) -> tuple[float, float]:
     rod, force = problem.rod, _edge_force(problem)
     places, shapes, now, breaks = [0.0], [np.eye(5)], np.eye(5), rod.breaks
     for i, (left, right) in enumerate(pairwise(breaks)):
-        _, stiffness, weight, *_ = problem.sections[i]
-        for s in np.linspace(float(left), float(right), SAMPLES)[1:]:
+        stiffness, weight = (float(profile.coefficients[i, 0]) for profile in (rod.stiffness, rod.weight))
+        for s in np.linspace(float(left), float(right), samples)[1:]:
             here = _along(float(s) - places[-1], stiffness, weight * problem.lateral_weight, compression)
             now = here @ now
             places.append(float(s))
@@ -208,7 +232,7 @@ def _lying(problem: Problem, compression: float) -> tuple[float, float]:
     height, slope = (by_load + moment * by_moment).T
     s = np.array(places)
     edge = float(breaks[1])
-    height = height - float(height[SAMPLES - 1])
+    height = height - float(height[samples - 1])
     beside = (s <= edge) | (s >= float(breaks[-2]))
     sag = -float(np.min(height[~beside]))
     if float(np.min(height[beside])) < -1e-12 * problem.clearance:

@@ -74,14 +74,14 @@ def section_pressure_rates(
     Returned as by :func:`pressure_rates`. States move along δc = −H⁻¹ ∂g/∂q.
     """
     problem, at = solution.problem, np.array(places)
-    which = 1 + SECTION_RATIOS.index(ratio)
-    size = problem.sections[number][which] or 1.0
+    own = {name: float(getattr(problem.rod, name).coefficients[number, 0]) for name in SECTION_RATIOS}
+    size = own[ratio] or 1.0
 
     def changed(step: float) -> Rod:
         sections = list(problem.sections)
-        length, stiffness, weight, clearance, twisting = sections[number]
-        more = (step, 0.0) if ratio == "stiffness" else (0.0, step)
-        sections[number] = (length, stiffness + more[0], weight + more[1], clearance, twisting)
+        length, _, _, clearance, twisting = sections[number]
+        moved = own | {ratio: own[ratio] + step}
+        sections[number] = (length, moved["stiffness"], moved["weight"], clearance, twisting)
         return Rod(tuple(sections))  # not checked: a weight may be below zero by the step
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:

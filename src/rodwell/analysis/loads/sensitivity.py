@@ -163,7 +163,7 @@ def of_critical_load(mode: Mode) -> Sensitivity:
 def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
     """Derivatives of a critical load by the data of each section."""
     problem = mode.problem
-    if not problem.sections:
+    if not problem.sections or problem.tapered:
         return ()
     fine, coarse = (section_slopes(problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
     size = abs(mode.force) + load_scale(problem)
@@ -212,7 +212,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         if np.ptp(each) > 10.0 * np.max(spread):
             note = "lifts off at several places at once: the derivative by α is that towards smaller α"
     by_section = []
-    for i in range(len(solution.problem.sections)):
+    for i in range(0 if solution.problem.tapered else len(solution.problem.sections)):
         each = {}
         for name in SECTION_RATIOS:
             rates, errors = (np.array(part) for part in section_pressure_rates(solution, lift.s, i, name))

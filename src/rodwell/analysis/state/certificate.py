@@ -120,13 +120,15 @@ def own_units(problem: Problem, load: Load, s: FloatArray) -> tuple[float | Floa
         return 1.0, load
     rod = problem.rod
     b, q = rod.stiffness(s), rod.weight(s)
-    offset = rod.lever(s) - q * (s - 1.0)
+    offset, rate = rod.lever(s) - q * (s - 1.0), rod.stiffness.derivative
     return b, load._replace(
         force=(load.force + load.axial_weight * offset) / b,
         twist=load.twist / b,
         axial_weight=load.axial_weight * q / b,
         lateral_weight=load.lateral_weight * q / b,
         C=load.C * rod.torsion(s) / b,
+        stiffness_rate=rate(s) / b,
+        stiffness_bend=rate.derivative(s) / b,
     )
 
 
@@ -197,9 +199,8 @@ def _moment_at_steps(solution: Equilibrium, size: float) -> float:
     steps = rod.breaks[1:-1]
     if not steps.size:
         return 0.0
-    stiffness = rod.stiffness.coefficients[:, 0]
     moments = []
-    for places, b in ((np.nextafter(steps, 0.0), stiffness[:-1]), (steps, stiffness[1:])):
+    for places, b in zip((np.nextafter(steps, 0.0), steps), rod.stiffness_sides, strict=True):
         _, y1, y2 = shape(solution.meshes.fine, solution.point.fine, places, 3)
         moments.append(b * y2 / np.sqrt(1.0 - y1**2))
     return float(np.max(np.abs(moments[1] - moments[0]))) / (size + _TINY)

@@ -16,9 +16,8 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall import braid
-from rodwell.physics.on_wall.parameters import CLEARANCE
+from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT
 from rodwell.physics.on_wall.sections import of_section, step_loads
-from rodwell.physics.on_wall.strand import contact_pressure
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray, IntArray
@@ -60,14 +59,19 @@ class Local:
     stiffness: float | FloatArray
     torsion: float | FloatArray
     piece: IntArray | None
+    taper: braid.Taper | None = None
 
 
 def local(rod: Rod, parameters: FloatArray, s: FloatArray) -> Local:
     """The rod at places ``s`` (m,), with ``parameters`` as kernels take them; C as a ratio."""
     if rod.plain:
         return Local(parameters, 1.0, 1.0, None)
-    own = given_of(rod)(s).T
-    return Local(of_section(own, parameters), own[0], rod.torsion(s), rod.stiffness.piece_of(s))
+    own, taper = given_of(rod)(s).T, None
+    if rod.tapered:
+        rate = rod.stiffness.derivative
+        lateral = parameters[LATERAL_WEIGHT] * rod.weight.derivative(s)
+        taper = braid.Taper(rate(s), rate.derivative(s), lateral)
+    return Local(of_section(own, parameters), own[0], rod.torsion(s), rod.stiffness.piece_of(s), taper)
 
 
 def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
@@ -77,9 +81,10 @@ def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
         shear, moment, angle, eta = (float(last[name][0]) for name in ("rod_F3", "rod_M2", "xi2", "eta"))
         return braid.EndForce(shear, moment, angle, float(np.sin(eta)))
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
-    stiffness = float(problem.sections[-1][1]) if problem.sections else 1.0
+    profile = problem.rod.stiffness
+    stiffness, rate = (float(along(np.ones(1))[0]) for along in (profile, profile.derivative))
     moment, reaction = _end_reactions(family, state)
-    return braid.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), stiffness)
+    return braid.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), (stiffness, rate))
 
 
 def _end_reactions(family: Family, state: State) -> tuple[float, float]:
@@ -97,7 +102,7 @@ def _end_reactions(family: Family, state: State) -> tuple[float, float]:
 def pressure_at(rod: Rod, parameters: FloatArray, s: FloatArray, u: FloatArray) -> FloatArray:
     """Contact pressure (m,) at ``s`` (m,) from y and three derivatives there, (4, m)."""
     here = local(rod, parameters, s)
-    return np.asarray(contact_pressure(s, u[0], u[1], u[2], u[3], here.parameters, here.stiffness))
+    return np.asarray(braid.wall_pressure(s, u, here.parameters, here.stiffness, here.taper))
 
 
 def total_wall_force(problem: Problem, family: Family, state: State) -> float:
@@ -119,9 +124,9 @@ def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray
     """
     rod, parameters = problem.rod, family.parameters(state.lam)
     y, y1, y2 = shape(family, state, rod.breaks[1:-1], 3)
-    stiffness = rod.stiffness.coefficients[:, 0]
-    moment = -stiffness[1:] * y2 / np.sqrt(1.0 - y1**2)
-    couple, radial = step_loads(y1, moment, np.array([stiffness[:-1], stiffness[1:]]), parameters)
+    stiffness = rod.stiffness_sides
+    moment = -stiffness[1] * y2 / np.sqrt(1.0 - y1**2)
+    couple, radial = step_loads(y1, moment, stiffness, parameters, rod.stiffness_rate_sides)
     return couple, radial, braid.step_jumps(y, y1, (couple, radial), float(parameters[CLEARANCE]))
 
 
@@ -135,7 +140,7 @@ def _with_steps(
     jumps = steps_of(problem, family, state)[2]
     above = np.concatenate([np.cumsum(jumps[:, ::-1], axis=1)[:, ::-1], np.zeros((2, 1))], axis=1)
     right = right.copy()
-    right[6:] += above[:, problem.rod.stiffness.piece_of(s)]
+    right[6:8] += above[:, problem.rod.stiffness.piece_of(s)]
     return left, right
 
 
@@ -252,7 +257,7 @@ def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rat
     def rates(s: FloatArray, u: FloatArray) -> FloatArray:
         here = local(problem.rod, parameters, s)
         torsion = problem.torsional_stiffness * here.torsion
-        return braid.rates(s, u, here.parameters, torsion, end, here.stiffness)
+        return braid.rates(s, u, here.parameters, torsion, end, here.stiffness, here.taper)
 
     return rates
 
@@ -267,7 +272,7 @@ def _rebuilt(
 ) -> dict[str, FloatArray]:
     here = local(problem.rod, parameters, s)
     torsion = problem.torsional_stiffness * here.torsion
-    out = braid.reconstruct(s, u, *integrals, here.parameters, torsion, end, here.stiffness, here.piece)
+    out = braid.reconstruct(s, u, *integrals, here.parameters, torsion, end, here.stiffness, here.piece, here.taper)
     if problem.on_top:
         out["xi2"] = out["xi2"] + np.pi
     return out

@@ -126,7 +126,7 @@ class CylinderLoads:
 
 @dataclass(frozen=True)
 class StepLoad:
-    """What the wall exerts on the rod where its bending stiffness has a step, to keep it on the wall.
+    """What the wall exerts on the rod where its bending stiffness has a step, or a kink, to keep it on the wall.
 
     Attributes
     ----------
@@ -137,7 +137,7 @@ class StepLoad:
         which pulls. A wall only pushes: where it is not zero the true rod, unless something there holds its slope
         across the wall, leaves the wall over a short stretch beside the step.
     force
-        Force towards the axis in B/L²; zero without twist.
+        Force towards the axis in B/L²; zero without twist, if the stiffness does not begin or cease to taper there.
     """
 
     s: float
@@ -146,8 +146,8 @@ class StepLoad:
 
     @property
     def lifts(self) -> bool:
-        """Whether the rod, held by nothing else there, leaves the wall beside the step."""
-        return abs(self.couple.value) > self.couple.error
+        """Whether the rod, held by nothing else there, leaves the wall beside the step: the wall would have to pull."""
+        return abs(self.couple.value) > self.couple.error or self.force.value < -self.force.error
 
 
 def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
@@ -156,11 +156,12 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
     if not problem.sections:
         return ()
     coarse, fine = (steps_of(problem, family, state)[:2] for family, state in solution.levels)
-    stiffness = problem.rod.stiffness.coefficients[:, 0]
+    sides = problem.rod.stiffness_sides, problem.rod.stiffness_rate_sides
+    bent = np.any([below != above for below, above in sides], axis=0)
     return tuple(
         StepLoad(float(s), *(compared(float(old[k]), float(new[k])) for old, new in zip(coarse, fine, strict=True)))
         for k, s in enumerate(problem.rod.breaks[1:-1])
-        if stiffness[k] != stiffness[k + 1]
+        if bent[k]
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rodwell.analysis.discrete.family import given_along, parameters, spline_ends
+from rodwell.analysis.discrete.family import given_of, parameters, spline_ends
 from rodwell.analysis.discrete.meshes import linear_space, wkb_load
 from rodwell.analysis.straight.lying_loads import loads_of_lying_rod, value_of
 from rodwell.analysis.straight.multiple import close_to_last, equal_to, told_apart
@@ -237,8 +237,8 @@ def _lying(problem: Problem, count: int, rtol: float, tension: bool = False) -> 
 
 def _factors(problem: Problem, space: SplineSpace) -> FloatArray:
     """Factors of v², v′², v″² in the second variation at the quadrature points, (3, m)."""
-    given = given_along(problem)
-    return second_variation(space.points, parameters(problem), None if given is None else given(space.points))
+    given = given_of(problem.rod)(space.points) if problem.sections else None
+    return second_variation(space.points, parameters(problem), given)
 
 
 def _starting_space(problem: Problem, count: int) -> SplineSpace:

@@ -28,8 +28,7 @@ def straight_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, 
     if problem.sections:
         rod = problem.rod
         axial, foundation = problem.axial_weight * rod.lever(s), problem.foundation * rod.weight(s)
-        angles = np.concatenate([[0.0], np.cumsum(np.diff(rod.breaks) / rod.torsion.coefficients[:, 0])])
-        turned = problem.twist / problem.torsional_stiffness * np.interp(s, rod.breaks, angles)
+        turned = problem.twist / problem.torsional_stiffness * rod.turned(s)
     return out | {
         "z": s,
         "xi1": turned,

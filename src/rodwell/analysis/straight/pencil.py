@@ -34,7 +34,7 @@ class Pencil:
     @property
     def lift(self) -> float:
         """¼T₁²/b with the least b, by which eigenvalues are shifted to become those of a sum of squares."""
-        least = 1.0 if self.rod is None else float(np.min(self.rod.stiffness.coefficients))
+        least = 1.0 if self.rod is None else self.rod.stiffness_range[0]
         return 0.25 * self.twist**2 / least
 
     @property

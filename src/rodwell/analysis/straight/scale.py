@@ -28,7 +28,7 @@ def load_noise(problem: Problem) -> float:
     """
     if not problem.sections:
         return float(LOAD_NOISE)
-    stiffest = float(np.max(problem.rod.stiffness.coefficients))
+    stiffest = problem.rod.stiffness_range[1]
     return float(LOAD_NOISE) * max(1.0, float(np.sqrt(stiffest * problem.rod.compliance)))
 
 

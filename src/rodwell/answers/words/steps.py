@@ -24,18 +24,40 @@ def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:
     lifting = [step for step in steps if step.lifts]
     if not lifting:
         return ""
-    places = (Value(step.s) for step in lifting[:MOST])
-    shown = ", ".join(f"s/L = {amount(place)}" if case is None else place_text(case, place) for place in places)
-    shown += ", …" if len(lifting) > MOST else ""
-    largest = max((step.couple for step in lifting), key=lambda couple: abs(couple.value))
     scales = None if case is None else case.scales
-    couple = size_text(scales, Value(abs(largest.value), largest.error), "moment", "B/L")
-    return (
-        f"Where the bending stiffness has a step ({shown}) the wall would have to hold the buckled rod by a couple, of "
-        f"{couple} at most there. A wall only pushes: unless something holds the rod's slope across the wall, the rod "
-        "leaves the wall beside the step as soon as it buckles, over a short stretch. The lift-off load is that of the "
-        "stretches between steps."
-    )
+    jumps = [step for step in lifting if step.couple.value != 0.0]
+    kinks = [step for step in lifting if step.couple.value == 0.0]
+    said = []
+    if jumps:
+        largest = max((step.couple for step in jumps), key=lambda couple: abs(couple.value))
+        couple = size_text(scales, Value(abs(largest.value), largest.error), "moment", "B/L")
+        said.append(
+            f"Where the bending stiffness has a step ({_places(jumps, case)}) the wall would have to hold the buckled "
+            f"rod by a couple, of {couple} at most there."
+        )
+    if kinks:
+        largest = min((step.force for step in kinks), key=lambda force: force.value)
+        force = size_text(scales, largest.times(-1.0), "force", "B/L²")
+        said.append(
+            f"Where it has a kink ({_places(kinks, case)}), and falls off or ceases to grow towards s = 1, the wall "
+            f"would have to pull it, by {force} at most."
+            if jumps else f"Where the bending stiffness has a kink ({_places(kinks, case)}) the wall would have to "
+            f"pull the buckled rod, by {force} at most there."
+        )  # fmt: skip
+    said.append(
+        "A wall only pushes: unless something holds the rod's slope across the wall, the rod leaves the wall beside "
+        "the step as soon as it buckles, over a short stretch. The lift-off load is that of the stretches between "
+        "steps."
+        if jumps else "A wall only pushes: unless something holds the rod there, it leaves the wall as soon as it "
+        "buckles, over a short stretch. The lift-off load is that of the stretches between."
+    )  # fmt: skip
+    return " ".join(said)
+
+
+def _places(steps: list[StepLoad], case: Case | None) -> str:
+    places = (Value(step.s) for step in steps[:MOST])
+    shown = ", ".join(f"s/L = {amount(place)}" if case is None else place_text(case, place) for place in places)
+    return shown + (", …" if len(steps) > MOST else "")
 
 
 def steps_data(steps: tuple[StepLoad, ...]) -> list[dict[str, Any]]:

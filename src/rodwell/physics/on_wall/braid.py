@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from rodwell.physics.on_wall.frames import material_curvatures
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, LATERAL_WEIGHT, TWIST
 from rodwell.physics.on_wall.strand import axial_resultant, contact_pressure, curvatures, strand_force
+from rodwell.physics.on_wall.tapered import more_force, more_pressure
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -37,7 +38,7 @@ class EndForce:
 
     ``shear`` is the circumferential force, F₃(1) = ω₂'(1) at a clamped end, (B12); ``moment`` the bending moment b ω₂
     there, (B13)–(B14); ``angle`` and ``slope`` are y(1)/Δ and sin η(1), both zero at a clamped end of a rod that does
-    not wind; ``stiffness`` is b.
+    not wind; ``stiffness`` is b, ``stiffness_rate`` b′.
     """
 
     shear: float
@@ -45,6 +46,7 @@ class EndForce:
     angle: float = 0.0
     slope: float = 0.0
     stiffness: float = 1.0
+    stiffness_rate: float = 0.0
 
     @property
     def across(self) -> tuple[float, float]:
@@ -53,17 +55,45 @@ class EndForce:
 
 
 def end_force(
-    moment: float, reaction: float, y: float, y1: float, parameters: FloatArray, stiffness: float = 1.0
+    moment: float,
+    reaction: float,
+    y: float,
+    y1: float,
+    parameters: FloatArray,
+    stiffness: tuple[float, float] = (1.0, 0.0),
 ) -> EndForce:
     """Shear and bending moment at the end s = 1 from the natural boundary terms of the energy.
 
     ``moment`` is ∂e/∂y″ = b y″/cos²η, so b ω₂(1) = −moment cos η; ``reaction`` is ∂e/∂y′ − (∂e/∂y″)′, which at a
     clamped end is −y‴(1) = ω₂′(1). At an end that holds y but can turn, the end torque −T₁ t₁ has a part T₁ (cos η −
     1)/Δ in it. They come from virtual work, which knows them far better than the derivatives of a spline at its end.
+    ``stiffness`` is b and b′ there.
     """
     clearance, twist = float(parameters[CLEARANCE]), float(parameters[TWIST])
     cos_eta = float(np.sqrt(1.0 - y1 * y1))
-    return EndForce(reaction - twist * (cos_eta - 1.0) / clearance, -moment * cos_eta, y / clearance, y1, stiffness)
+    return EndForce(reaction - twist * (cos_eta - 1.0) / clearance, -moment * cos_eta, y / clearance, y1, *stiffness)
+
+
+class Taper(NamedTuple):
+    """Where sections taper: b′ and b″, and the derivative by s of the lateral weight per length, (m,) each."""
+
+    rate: FloatArray
+    bend: FloatArray
+    lateral: FloatArray
+
+
+def wall_pressure(
+    s: FloatArray,
+    u: FloatArray,
+    parameters: Sequence[Any] | FloatArray,
+    stiffness: float | FloatArray,
+    taper: Taper | None,
+) -> FloatArray:
+    """Contact pressure p (m,) at ``s`` (m,) from y and three derivatives (4, m), (55)."""
+    pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters, stiffness)
+    if taper is not None:
+        pressure = pressure + more_pressure(u[1], u[2], u[3], parameters[CLEARANCE], taper.rate, taper.bend)
+    return np.asarray(pressure)
 
 
 def rates(
@@ -73,19 +103,25 @@ def rates(
     torsional_stiffness: float | FloatArray,
     end: EndForce,
     stiffness: float | FloatArray = 1.0,
+    taper: Taper | None = None,
 ) -> FloatArray:
-    """Derivatives along s of what has to be integrated, (8, m).
+    """Derivatives along s of what has to be integrated, (8, m); where sections taper (9, m).
 
     Of a string, ``parameters``, ``torsional_stiffness`` and ``stiffness`` are those of the section of each place.
 
     z' (44), ξ₁' (32), T₂' (33), M' = −t₁ × F (25)–(27) of the braid moment along i, j, k, with the braid
-    force F = N(s) k + F₃(1) u₂(1), and (48) along i and j: lateral weight and contact pressure on the rod.
+    force F = N(s) k + F₃(1) u₂(1), and (48) along i and j: lateral weight and contact pressure on the rod. Ninth, what
+    changes F₁⁽¹⁾ + ½b(ω₂² + ω₃²) + Δ wₗ cos ξ₂ along a taper.
     """
     clearance = parameters[CLEARANCE]
-    pressure = contact_pressure(s, u[0], u[1], u[2], u[3], parameters, stiffness)
+    pressure = wall_pressure(s, u, parameters, stiffness, taper)
     angle, sin_eta = u[0] / clearance, u[1]
-    cos_eta, omega1, *_ = curvatures(u[1], u[2], u[3], clearance)
+    cos_eta, omega1, omega2, omega3, _ = curvatures(u[1], u[2], u[3], clearance)
     axial, (along_i, along_j) = axial_resultant(s, parameters), end.across
+    more = []
+    if taper is not None:
+        lost = 0.5 * taper.rate * (omega2**2 + omega3**2)
+        more = [parameters[AXIAL_WEIGHT] * cos_eta + clearance * taper.lateral * np.cos(angle) - lost]
     return np.array(
         [
             cos_eta,
@@ -96,6 +132,7 @@ def rates(
             sin_eta * (np.cos(angle) * along_i - np.sin(angle) * along_j),
             parameters[LATERAL_WEIGHT] + pressure * np.cos(angle),
             -pressure * np.sin(angle),
+            *more,
         ]
     )
 
@@ -110,6 +147,7 @@ def reconstruct(
     end: EndForce,
     stiffness: float | FloatArray = 1.0,
     piece: IntArray | None = None,
+    taper: Taper | None = None,
 ) -> dict[str, FloatArray]:
     """All fields at ``s`` (m,).
 
@@ -118,7 +156,7 @@ def reconstruct(
     s, u
         Places (m,) and y, y', y'', y''' there (4, m).
     from_left, from_right
-        Integrals of :func:`rates` (8, m): from 0 to s, and from s to 1.
+        Integrals of :func:`rates` (8 or 9, m): from 0 to s, and from s to 1.
     parameters
         Physical parameters (6,); of a string those of the section of each place, (m,) where they differ.
     torsional_stiffness
@@ -129,6 +167,8 @@ def reconstruct(
         b = B(s)/B, one or (m,).
     piece
         Number of the section of each place (m,), None of a uniform rod: ``from_right`` then has the step loads in it.
+    taper
+        Where sections taper, what of that is needed at each place.
 
     Returns
     -------
@@ -136,10 +176,15 @@ def reconstruct(
         Field name to values (m,); names, symbols, units and equations are in ``rodwell.quantities.names``.
     """
     out = _rod(s, u, from_left, parameters, torsional_stiffness, stiffness)
+    if taper is not None:
+        for i, more in enumerate(more_force(u[1], u[2], u[3], parameters[CLEARANCE], taper.rate), 1):
+            out[f"rod_F{i}"] = out[f"rod_F{i}"] + more
+        out["contact_pressure"] = wall_pressure(s, u, parameters, stiffness, taper)
     frame = _Frame.along(u[0] / parameters[CLEARANCE], u[1])
     out |= _braid(s, frame, from_right[3:6], parameters, end)
-    out |= _cylinder(frame, out, from_right, parameters, end)
-    out["tangential_balance"] = _tangential_balance(out, from_right[0], parameters, stiffness, piece)
+    out |= _cylinder(frame, out, from_right[:8], parameters, end)
+    below = parameters[AXIAL_WEIGHT] * from_right[0] if taper is None else -from_left[8]
+    out["tangential_balance"] = _tangential_balance(out, below, parameters, stiffness, piece)
     return out
 
 
@@ -263,6 +308,7 @@ def _cylinder_force_around(
     sin_a, cos_a, cos_eta = np.sin(end.angle), np.cos(end.angle), np.sqrt(1.0 - end.slope**2)
     around = end.shear - end.stiffness * end.slope**3 / clearance**2  # the rim's part is b ω₃ sin η/Δ
     inward = -end.moment * (twist / end.stiffness - 3.0 * end.slope * cos_eta / clearance)
+    inward -= end.stiffness_rate * end.slope**2 / clearance
     rod_i = inward * cos_a + around * sin_a - from_right[0]
     rod_j = -inward * sin_a + around * cos_a - from_right[1]
     along_i, along_j = end.across
@@ -271,17 +317,18 @@ def _cylinder_force_around(
 
 def _tangential_balance(
     known: dict[str, FloatArray],
-    z_right: FloatArray,
+    below: FloatArray,
     p: Sequence[Any] | FloatArray,
     stiffness: float | FloatArray,
     piece: IntArray | None,
 ) -> FloatArray:
     """Residual of F₁⁽¹⁾ + ½b(ω₂² + ω₃²) + Δ wₗ cos ξ₂ − wₐ z = const., the first integral of (22)–(24), (48).
 
-    It must vanish, in each section: F₁⁽¹⁾ comes from h = 0, this from force balance along t₁, an independent route.
+    ``below`` stands for −wₐ z, and for what a taper changes. It must vanish, in each section: F₁⁽¹⁾ comes from h = 0,
+    this from force balance along t₁, an independent route.
     """
     bending = 0.5 * stiffness * (known["omega2"] ** 2 + known["omega3"] ** 2)
-    height = p[CLEARANCE] * p[LATERAL_WEIGHT] * np.cos(known["xi2"]) + p[AXIAL_WEIGHT] * z_right
+    height = p[CLEARANCE] * p[LATERAL_WEIGHT] * np.cos(known["xi2"]) + below
     total = np.asarray(known["rod_F1"] + bending + height)
     if piece is None:
         return np.asarray(total - total[-1])

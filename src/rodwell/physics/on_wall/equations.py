@@ -56,7 +56,8 @@ class Load(NamedTuple):
 
     ``force`` F and ``twist`` T₁ act at s = 1; ``axial_weight`` mg cos α and ``lateral_weight`` mg sin α; ``C`` is the
     torsional stiffness; ``turn`` is ξ₂(1), where ξ₂(0) = 0; ``ends`` are the conditions at both ends. Numbers, or
-    arrays over s where sections of a string differ.
+    arrays over s where sections of a string differ. ``stiffness_rate`` and ``stiffness_bend`` are b′/b and b″/b where
+    the bending stiffness varies: the paper's rod has neither, and what they add stands last in each sum.
     """
 
     force: Any
@@ -67,6 +68,8 @@ class Load(NamedTuple):
     C: Any
     turn: float = 0.0
     ends: tuple[str, str] = ("clamped", "clamped")
+    stiffness_rate: Any = 0.0
+    stiffness_bend: Any = 0.0
 
 
 def omega1(x: Fifteen, load: Load) -> Any:
@@ -79,6 +82,7 @@ def right_hand_sides(x: Fifteen, load: Load) -> Fifteen:
     (F1, F2, F3, M1, M2, M3, _, T2, eta, w3, xi2, lam, mu, w2, _) = x
     sin, cos, tan, w1 = np.sin(eta), np.cos(eta), np.tan(eta), omega1(x, load)
     T1, D, axial, lateral = load.twist, load.clearance, load.axial_weight, load.lateral_weight
+    taper = load.stiffness_rate
     return Fifteen(
         F1=(-w2 * F3, w3 * F2, axial * cos),  # (22)
         F2=(-w3 * F1, w1 * F3),  # (23)
@@ -91,9 +95,9 @@ def right_hand_sides(x: Fifteen, load: Load) -> Fifteen:
         eta=(-w2,),  # (34)
         omega3=(2.0 * w1 * w2,),  # (35)
         xi2=(sin / D,),  # (36)
-        lam=(-F2, -w2 * T1, -w2 * 3.0 * w1, -tan * lam * w2, tan * mu / D),  # (41)
+        lam=(-F2, -w2 * T1, -w2 * 3.0 * w1, -tan * lam * w2, tan * mu / D, -taper * w3),  # (41)
         mu=(cos**2 * M1 / D, cos**2 * T1 / D, -cos * sin * M3 / D, cos * sin * (w3 - lam) / D, -cos * T2 / D),  # (42)
-        omega2=(F3, -M1 / D, -T1 * cos**2 / D, w1 * w3, -w1 * lam, T2 * cos / D),  # (43)
+        omega2=(F3, -M1 / D, -T1 * cos**2 / D, w1 * w3, -w1 * lam, T2 * cos / D, -taper * w2),  # (43)
         z=(cos,),  # (44)
     )
 
@@ -122,18 +126,19 @@ def strands(x: Fifteen, load: Load) -> Strands:
     """Individual strand forces and the contact pressure p₂⁽¹⁾ from the fifteen variables, (52)–(58)."""
     sin, cos, w1, w2, w3 = np.sin(x.eta), np.cos(x.eta), omega1(x, load), x.omega2, x.omega3
     T1, D, lam = load.twist, load.clearance, x.lam
-    lever = 3.0 * w1 + T1
+    lever, taper = 3.0 * w1 + T1, load.stiffness_rate
     return Strands(
         F11=(x.F1, (x.M3 - w3) / D, lam * w3, -lam / D, x.T2 * sin / D),  # (52)
-        F12=(-w2 * lever,),  # (53)
+        F12=(-w2 * lever, -taper * w3),  # (53)
         F13=(x.F3, -(x.M1 + T1) / D, -lam * w1, x.T2 * cos / D),  # (54)
         F21=(w3 * cos / D, -x.M3 * cos / D, -(x.M1 + T1) * sin / D, lam * cos / D),  # (56): the constant h
-        F22=(x.F2, w2 * lever),  # (57)
+        F22=(x.F2, w2 * lever, taper * w3),  # (57)
         F23=((x.M1 + T1) * cos / D, -(x.M3 - w3) * sin / D, -x.T2 / D),  # (58)
         p=(  # (55)
             *(lever * (x.M1 + T1 * cos**2) / D, -lever * x.F3, -lever * w1 * (w3 - lam), -lever * x.T2 * cos / D),
             *(x.T2 * sin / D**2, -3.0 * np.cos(2.0 * x.eta) / D * w2**2, w1 * (x.M1 + T1) / D, -w1 * x.F3),
             *(w3 * (x.F1 + x.M3 / D), -(w3**2) / D, -load.lateral_weight * np.cos(x.xi2)),
+            *(taper * lever * w2, -5.0 * taper * w1 * w2, -load.stiffness_bend * w3),
         ),
     )
 

@@ -58,13 +58,14 @@ def section_density(s: Any, y: Any, y1: Any, y2: Any, given: Any, parameters: An
 
 
 def step_loads(
-    slope: FloatArray, moment: FloatArray, stiffness: FloatArray, parameters: FloatArray
+    slope: FloatArray, moment: FloatArray, stiffness: FloatArray, parameters: FloatArray, rates: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Couple about u₁ and force along d₁ (towards the axis), (k,) each, of the wall on the rod at k steps of b.
 
-    ``slope`` y′ and ``moment`` b ω₂ are (k,), ``stiffness`` (2, k) on the sides towards s = 0 and s = 1. From the
-    balance of moments, M₃ = b ω₃ and F₂ = −ω₂(3b ω₁ + T₁), and of forces.
+    ``slope`` y′ and ``moment`` b ω₂ are (k,), ``stiffness`` b and its ``rates`` b′ (2, k) on the sides towards s = 0
+    and s = 1. From the balance of moments, M₃ = b ω₃ and F₂ = −ω₂(3b ω₁ + T₁) − b′ω₃, and of forces.
     """
     below, above = stiffness
     curvature = slope**2 / parameters[CLEARANCE]
-    return (below - above) * curvature, np.asarray(parameters[TWIST] * moment * (1.0 / above - 1.0 / below))
+    force = parameters[TWIST] * moment * (1.0 / above - 1.0 / below) + (rates[1] - rates[0]) * curvature
+    return (below - above) * curvature, np.asarray(force)

@@ -36,7 +36,8 @@ LAMBDA, OMEGA2, OMEGA3 = (Fifteen._fields.index(name) for name in ("lam", "omega
 
 
 def most_sections(problem: Problem) -> None:
-    """Raise where a string has more sections than the other program is given."""
+    """Raise where a string has more sections than the other program is given, or sections that taper."""
+    problem.refuse_tapers("the equations of the other program")
     if len(problem.sections) > MOST_SECTIONS:
         raise InputError(
             "sections",
@@ -71,7 +72,7 @@ def _solved(rates: Any, conditions: Any, start: Guess, rtol: float) -> Any:
 
 def _at_one_place(load: Load) -> Load:
     """A load with numbers in place of arrays of one."""
-    varied = ("force", "twist", "axial_weight", "lateral_weight", "C")
+    varied = ("force", "twist", "axial_weight", "lateral_weight", "C", "stiffness_rate", "stiffness_bend")
     single: dict[str, Any] = {name: float(np.squeeze(getattr(load, name))) for name in varied}
     return load._replace(**single)
 

@@ -1,7 +1,8 @@
-"""The measured numbers of a rod in a curved hole, those of :mod:`rodwell.analysis.discrete.measures`, by arrays.
+"""The measured numbers of a rod in a curved hole, or with sections that taper, by arrays.
 
-The contact pressure is the field's own, from the third derivative of the spline. ω₂ at the ends is the curvature −K_g
-about d₁, that of the hole included. T₂(0) is the torque about the hole's axis that the circumferential forces of both
+They are those of :mod:`rodwell.analysis.discrete.measures`. The contact pressure is the field's own, from the third
+derivative of the spline. In a curved hole ω₂ at the ends is the curvature −K_g about d₁, that of the hole included, and
+T₂(0) is the torque about the hole's axis that the circumferential forces of both
 ends make together, Δ∫∂e/∂y ds: in a straight hole, that of the lateral weight.
 """
 
@@ -11,8 +12,8 @@ import numpy as np
 
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
-from rodwell.physics.on_wall.curved import hole_at, strand
-from rodwell.physics.on_wall.parameters import CLEARANCE, COUNT, SIDE
+from rodwell.physics.on_wall.curved import RodInCurvedHole, hole_at, strand
+from rodwell.physics.on_wall.parameters import CLEARANCE, COUNT, RAMP
 from rodwell.quantities.arrays import FloatArray
 
 CHANGE = 1e-5
@@ -25,6 +26,10 @@ STEEP_ORDER = 4
 def end_shortening(family: Family, state: State) -> tuple[float, FloatArray]:
     """How far the loaded end moves along its own tangent, in L, and the density of that at the quadrature points."""
     u = state.space.at_points(state.c)
+    if not isinstance(family.model, RodInCurvedHole):
+        slope = u[1] + family.parameters(state.lam)[RAMP]
+        slack = slope**2 / (1.0 + np.sqrt(1.0 - slope**2))
+        return float(state.space.weights @ slack), slack
     given = family.mesh.given.T
     clearance = float(family.parameters(state.lam)[CLEARANCE])
     k1, k2, *_ = hole_at(state.space.points, given)
@@ -43,7 +48,7 @@ def pressures(family: Family, state: State, places: FloatArray) -> tuple[FloatAr
     u = state.space.evaluate(state.c, places, STEEP_ORDER)
     assert family.given is not None
     given = family.given(places).T
-    value = p[SIDE] * strand(places, u, given, p)[-1]
+    value = family.model.observed(places, u, given, p)
     table, first = state.space.tabulated(np.ascontiguousarray(places), STEEP_ORDER)
     rows = state.c[first[:, None] + np.arange(state.space.degree + 1)]
     noise = np.zeros_like(value)
@@ -51,16 +56,18 @@ def pressures(family: Family, state: State, places: FloatArray) -> tuple[FloatAr
         size = np.sum(np.abs(table[:, order] * rows), axis=1)
         moved = u.copy()
         moved[order] += CHANGE * size
-        noise += NOISE / CHANGE * np.abs(p[SIDE] * strand(places, moved, given, p)[-1] - value)
+        noise += NOISE / CHANGE * np.abs(family.model.observed(places, moved, given, p) - value)
     return np.asarray(value), noise
 
 
-def curvatures_at(family: Family, state: State, places: FloatArray) -> FloatArray:
-    """ω₁, ω₂, ω₃ at places, (3, k)."""
-    p = family.parameters(state.lam)
-    u = state.space.evaluate(state.c, places, STEEP_ORDER)
+def end_curvatures(family: Family, state: State) -> FloatArray:
+    """ω₂ at s = 0 and s = 1, (2,)."""
+    p, ends = family.parameters(state.lam), np.array([0.0, 1.0])
+    u = state.space.evaluate(state.c, ends, STEEP_ORDER)
+    if not isinstance(family.model, RodInCurvedHole):
+        return np.asarray(-u[2] / np.sqrt(1.0 - (u[1] + p[RAMP]) ** 2))
     assert family.given is not None
-    return np.array(strand(places, u, family.given(places).T, p)[:3])
+    return np.asarray(strand(ends, u, family.given(ends).T, p)[1])
 
 
 def totals(family: Family, state: State) -> dict[str, float]:
@@ -71,6 +78,7 @@ def totals(family: Family, state: State) -> dict[str, float]:
     clearance = float(p[CLEARANCE])
     gradient = family.model.density(space.points, u, given, p, np.zeros(COUNT))[2]
     lateral = clearance * gradient[0]
+    u[0], u[1] = u[0] + p[RAMP] * space.points, u[1] + p[RAMP]
     bend = u[2] / np.sqrt(1.0 - u[1] ** 2)
     shortening, density = end_shortening(family, state)
     return {
