@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 from make_howto import DPI, number, table
+from matplotlib.figure import Figure
 
 import rodwell
 from rodwell.answers.comparison.exact_loads import PLACES, critical, exact_loads
 from rodwell.formulas import FORMULAS, LEFT_OUT, inclined
-from rodwell.plots.audit import plot_dellinger, plot_error_map, plot_hanging
-from rodwell.plots.style import RC
+from rodwell.plots.audit import COLOURS, LEVELS, plot_dellinger, plot_error_map, plot_hanging
+from rodwell.plots.style import INK, RC
+from rodwell.quantities.text import minus
 from rodwell.studies.audit.audit import audit
 from rodwell.studies.audit.error_map import error_map, hanging_coefficients
 
@@ -29,6 +32,7 @@ def pages(out: Path) -> dict[str, str]:
         plot_error_map(error_map(rodwell.Problem(280, alpha=60))).savefig(out / "formulas-chart.png", dpi=DPI)
         dellinger(out / "dellinger.png")
         hanging(out / "hanging.png")
+        in_builds(out / "formulas-builds.png")
     return {
         "formulas-places.md": places_table(),
         "formulas-dellinger.md": dellinger_table(),
@@ -47,6 +51,44 @@ def dellinger(path: Path) -> None:
     ax = plot_dellinger(chart)
     ax.set_ylim(-50.0, 450.0)
     ax.figure.savefig(path, dpi=DPI)
+
+
+IN_BUILDS = Path(__file__).parent.parent / "benchmarks" / "results" / "curved_formulas.json"
+
+
+def in_builds(path: Path) -> None:
+    """Errors of formulas in a build section over its rate and the length of the pipe, from stored exact loads."""
+    stored = json.loads(IN_BUILDS.read_text(encoding="utf-8"))
+    rates, lengths = (np.array(stored[name]) for name in ("rates", "lengths"))
+    exact = np.array(stored["compression"], dtype=float)
+    pipe = stored["stiffness"], stored["weight"], 90.0, stored["clearance"]
+    bends = np.radians(rates) / 30.0
+    loads = {
+        "He–Kyllingstad, with the curvature": [FORMULAS["he_kyllingstad"].function(*pipe, b, 0.0) for b in bends],
+        "Dawson–Paslay, without it": [FORMULAS["dawson_paslay"].function(*pipe)] * rates.size,
+    }
+    figure = Figure(figsize=(9.6, 3.9), layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
+    colours = mpl.colors.ListedColormap(COLOURS[1:-1]).with_extremes(under=COLOURS[0], over=COLOURS[-1])
+    norm = mpl.colors.BoundaryNorm(LEVELS, len(COLOURS) - 2)
+    for ax, (title, load), at in zip(axes, loads.items(), (FINE, LEVELS), strict=True):
+        percent = np.ma.masked_invalid(100.0 * (np.array(load)[:, None] / exact - 1.0)).T
+        shown = ax.contourf(rates, lengths, percent, LEVELS, cmap=colours, norm=norm, extend="both")
+        lines = ax.contour(rates, lengths, percent, at, colors=INK, linewidths=0.8, linestyles="solid")
+        ax.clabel(lines, fmt=lambda level: minus(f"{level:g} %"), fontsize=8)
+        ax.set_yscale("log")
+        ax.set_yticks([12, 20, 30, 50, 100, 200], [12, 20, 30, 50, 100, 200], minor=False)
+        ax.minorticks_off()
+        ax.grid(visible=False)
+        ax.set_title(title, loc="left", fontsize=9.5)
+        ax.set_xlabel("build rate  [°/30 m]")
+    axes[0].set_ylabel("length of the pipe  [m]")
+    figure.colorbar(shown, ax=axes, ticks=LEVELS, label="formula / exact − 1  [%]", shrink=0.95, pad=0.015)
+    figure.savefig(path, dpi=DPI)
+
+
+FINE = (-50.0, -25.0, -10.0, -5.0, -2.0, -1.0)
+"""Errors in percent at which lines are drawn."""
 
 
 def hanging(path: Path) -> None:

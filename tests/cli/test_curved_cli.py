@@ -41,7 +41,7 @@ def test_critical_as_json() -> None:
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (("diagram", "--walk", "0.2"), "bends the hole sideways"),
+        (("diagram", "--walk", "0.2", "--search", "unfolding"), "in straight holes only"),
         (("liftoff", "--walk", "0.2", "--mode", "2"), "has no modes"),
         (("liftoff", "--walk", "0.2", "--mirror"), "has no modes"),
         (("critical", "--build", "150"), "must be above the clearance"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,9 @@ from rodwell import InputError, Problem
 from rodwell.problem.hole import Hole
 
 POINTS = tuple(map(tuple, Hole.arc(70.0, 0.3).points(np.linspace(0.0, 1.0, 31))))
+
+STATIONS = ((0.0, 1.0, *[0.0] * 8), (1.0, math.cos(0.2), 0.0, math.sin(0.2), *[0.0] * 6))
+"""Arclength, direction, and its two derivatives: from horizontal to 0.2 rad above it, straight at both ends."""
 
 
 @pytest.mark.parametrize(
@@ -26,6 +30,11 @@ POINTS = tuple(map(tuple, Hole.arc(70.0, 0.3).points(np.linspace(0.0, 1.0, 31)))
         ({"axis": POINTS, "build": 0.1}, "build", "left out"),
         ({"axis": POINTS, "alpha": 60.0}, "alpha", "left out"),
         ({"axis": POINTS[:2]}, "axis", "points"),
+        ({"axis": STATIONS[:1]}, "axis", "at least 2"),
+        ({"axis": STATIONS[::-1]}, "axis", "rising from 0"),
+        ({"axis": (STATIONS[0], (1.0, *[0.1] * 9))}, "axis", "station 2 with a direction of length 0.173"),
+        ({"axis": (STATIONS[0], (1.0, -1.0, *[0.0] * 8))}, "axis", "turns by 90° or more"),
+        ({"axis": (STATIONS[0], (0.5, *STATIONS[1][1:]))}, "axis", "must be 1 long"),
     ],
 )
 def test_bad_input_is_explained(given: dict[str, Any], field: str, why: str) -> None:
@@ -40,6 +49,15 @@ def test_a_straight_hole_stays_one() -> None:
     line = Problem(15.0, axis=tuple((s, 0.0, 0.2 * s) for s in np.linspace(0.0, 1.0, 9) / np.hypot(1.0, 0.2)))
     assert line.hole is None
     assert line.alpha == pytest.approx(np.degrees(np.arctan2(1.0, 0.2)), abs=1e-9)
+
+
+def test_stations_make_a_hole_that_turns_by_what_they_say() -> None:
+    problem = Problem(15.0, axis=STATIONS)
+    assert problem.alpha == pytest.approx(90.0 - math.degrees(0.1), abs=1e-9)
+    assert problem.hole is not None
+    assert problem.hole.planar
+    assert problem.hole.turning == pytest.approx(0.2, rel=1e-3)
+    assert np.allclose(problem.hole.curvatures(np.array([0.0, 1.0])), 0.0, atol=1e-12)
 
 
 def test_axis_gives_the_inclination_and_survives_a_change() -> None:

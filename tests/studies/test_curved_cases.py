@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from rodwell.report.reports.audit import conditions
 from rodwell.studies.sweep.study import study
 from rodwell.studies.sweep.tables import holes, sentences, study_table
 
+ROOT = Path(__file__).parents[2]
 ROD = {"outer_diameter": "127 mm", "inner_diameter": "108.6 mm", "material": "steel", "length": "30 m"}
 HOLE = {"diameter": "216 mm", "angle_from_vertical": "90 deg", "build": "6 deg/30 m"}
 
@@ -143,6 +145,23 @@ def test_a_study_takes_holes_that_leave_the_vertical_plane(tmp_path: Path) -> No
     assert not any("could not be computed" in line for line in sentences(found))
     assert holes(found) == "curved hole"
     assert "Curved hole, no friction" in conditions(Problem(15.0, build=0.1, twist=0.5))
+
+
+def test_the_published_map_of_formulas_in_builds_has_exact_loads_and_the_rate_of_long_pipe() -> None:
+    """Loads of the stored map again, and by how much He and Kyllingstad's are below them: about like 1/L²."""
+    stored = json.loads((ROOT / "benchmarks" / "results" / "curved_formulas.json").read_text(encoding="utf-8"))
+    stiffness, weight, clearance = (stored[name] for name in ("stiffness", "weight", "clearance"))
+    i, shares = stored["rates"].index(3.0), []
+    for j in (10, 13):
+        length, bend = stored["lengths"][j], math.radians(3.0) / 30.0
+        problem = Problem(weight * length**3 / stiffness, clearance=clearance / length, build=bend * length)
+        ends = -critical(problem).force * stiffness / length**2
+        lying = 1.0 / bend + clearance  # radius of the arc in which the pipe lies
+        middle = ends + weight * lying * (1.0 - math.cos(0.5 * length / lying))
+        assert stored["compression"][i][j] == pytest.approx(middle, abs=0.1)
+        formula = FORMULAS["he_kyllingstad"].function(stiffness, weight, 90.0, clearance, bend, 0.0)
+        shares.append((1.0 - formula / middle) * length**2)
+    assert shares[1] == pytest.approx(shares[0], rel=0.15)
 
 
 def test_tubing_in_a_packer_is_refused() -> None:

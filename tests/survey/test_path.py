@@ -94,6 +94,24 @@ def test_a_piece_is_the_hole_of_a_rod_its_end_s_1_at_the_smaller_depth() -> None
     assert right == pytest.approx(math.radians(2.0), rel=1e-6)
 
 
+@pytest.mark.parametrize(("upper", "lower"), [(1015.0, 1975.0), (1000.0, 1930.0)])
+def test_a_piece_is_the_same_curve_as_the_path_and_knows_its_stations(upper: float, lower: float) -> None:
+    path, length = path_of_survey(BUILD), lower - upper
+    hole = path.piece(upper, lower).hole
+    depths = np.linspace(upper, lower, 173)
+    places = (lower - depths) / length
+    apart = (path.points(depths) - path.points(np.array([lower]))) / length
+    assert np.max(np.abs(hole.points(places) - apart)) < 1e-12
+    assert np.max(np.abs(hole.frame(places)[:, 2] + path.directions(depths))) < 1e-12
+    inside = MD[(upper < MD) & (lower > MD)]
+    assert np.max(np.abs(hole.stations - (lower - inside[::-1]) / length)) < 1e-12
+    step = 1e-5
+    rates = (hole.curvatures(places[1:-1] + step) - hole.curvatures(places[1:-1] - step)) / (2.0 * step)
+    assert np.max(np.abs(hole.curvature_rates(places[1:-1]) - rates)) < 1e-3 * np.max(np.abs(rates))
+    around = hole.stations[:, None] + 1e-9 * np.array([-1.0, 1.0])
+    assert np.max(np.abs(np.diff(hole.curvature_rates(around.ravel()).reshape(-1, 2, 2), axis=1))) < 1e-4
+
+
 def test_beside_a_bend_the_difference_from_minimum_curvature_is_told() -> None:
     piece = path_of_survey(BUILD).piece(990.0, 1060.0)
     depths = np.array([990.0, 1000.0, 1015.0, 1030.0, 1045.0, 1060.0])
@@ -148,7 +166,7 @@ def test_a_centre_line_is_read_with_the_unit_of_its_header(tmp_path: Path, separ
     piece = path.piece(0.01, 0.06)
     assert isinstance(piece.hole, Hole)
     assert piece.hole.sharpest / piece.length == pytest.approx(20.0 / (20.0**2 + 8.0**2) * 1e3, rel=1e-3)
-    assert np.allclose(piece.points[-1], (path.points(np.array([0.01]))[0] - path.points(np.array([0.06]))[0]) / 0.05)
+    assert np.allclose(piece.axis[-1], (path.points(np.array([0.01]))[0] - path.points(np.array([0.06]))[0]) / 0.05)
 
 
 def test_columns_of_a_centre_line_stand_in_any_order_with_units_of_their_own(tmp_path: Path) -> None:

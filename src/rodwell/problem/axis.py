@@ -60,11 +60,7 @@ class Axis:
         Beyond either end the curve goes on as a circle: curvatures stay what they are there.
         """
         places = np.atleast_1d(np.asarray(places, dtype=float))
-        inside = np.clip(places, 0.0, self.length)
-        piece = np.searchsorted(self.breaks[1:-1], inside, side="right")
-        low, high = self.breaks[piece], self.breaks[piece + 1]
-        local = 2.0 * (inside - low) / (high - low) - 1.0
-        values = self._values(piece, np.ascontiguousarray(chebyshev.chebvander(local, DEGREE)))
+        values = self._values(places, self._by_piece)
         curvatures, frames, points = values[:, :2], values[:, 2:11].reshape(-1, 3, 3), values[:, 11:]
         for beyond, end in ((places < 0.0, 0.0), (places > self.length, self.length)):
             if beyond.any():
@@ -73,15 +69,25 @@ class Axis:
                 frames[beyond], points[beyond] = circle(curvatures[first], frames[first], points[first], ahead)
         return curvatures, frames, points
 
-    def _values(self, piece: np.ndarray, table: FloatArray) -> FloatArray:
-        """What is tabulated, (n, 14), from the numbers of pieces (n,) and the polynomials there, (n, DEGREE + 1)."""
+    def rates(self, places: FloatArray) -> FloatArray:
+        """Derivatives of k1, k2 by arclength, (n, 2), at arclengths (n,); 0 beyond either end."""
+        beyond = (places < 0.0) | (places > self.length)
+        return np.where(beyond[:, None], 0.0, self._values(places, self._rates_by_piece))
+
+    def _values(self, places: FloatArray, pieces: FloatArray) -> FloatArray:
+        """Polynomials at arclengths (n,), (n, k), from their coefficients, (m, terms, k); beyond an end as there."""
+        inside = np.clip(places, 0.0, self.length)
+        piece = np.searchsorted(self.breaks[1:-1], inside, side="right")
+        low, high = self.breaks[piece], self.breaks[piece + 1]
+        local = 2.0 * (inside - low) / (high - low) - 1.0
+        table = np.ascontiguousarray(chebyshev.chebvander(local, pieces.shape[1] - 1))
         order = None
         if np.any(np.diff(piece) < 0):  # places come in order mostly: then nothing is moved
             order = np.argsort(piece, kind="stable")
             piece, table = piece[order], table[order]
-        values = np.empty((piece.size, self.coefficients.shape[2]))
+        values = np.empty((piece.size, pieces.shape[2]))
         ends = [*(np.flatnonzero(np.diff(piece)) + 1).tolist(), piece.size]
-        begin, pieces = 0, self._by_piece
+        begin = 0
         for end in ends:
             np.matmul(table[begin:end], pieces[piece[begin]], out=values[begin:end])
             begin = end
@@ -95,6 +101,12 @@ class Axis:
     def _by_piece(self) -> FloatArray:
         """The coefficients with those of a piece side by side, (m, DEGREE + 1, 14)."""
         return np.ascontiguousarray(np.swapaxes(self.coefficients, 0, 1))
+
+    @cached_property
+    def _rates_by_piece(self) -> FloatArray:
+        """Those of the derivatives of k1, k2 by arclength, (m, DEGREE, 2)."""
+        rates = chebyshev.chebder(self.coefficients[..., :2]) * (2.0 / np.diff(self.breaks))[:, None]
+        return np.ascontiguousarray(np.swapaxes(rates, 0, 1))
 
     def turned(self, angle: float) -> Axis:
         """The same axis with N1, N2 turned by ``angle`` around T, from N1 towards N2."""

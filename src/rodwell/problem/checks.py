@@ -8,7 +8,7 @@ from typing import Any
 
 from rodwell.errors import InputError, InputWarning, checked_number
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
-from rodwell.problem.hole import Hole, checked_points
+from rodwell.problem.hole import Hole, checked_axis
 from rodwell.problem.rod import checked_sections
 
 LARGEST_WEIGHT = 1e9
@@ -126,7 +126,7 @@ def _check_hole(problem: Any) -> None:
         if problem.build != 0.0 or problem.walk != 0.0:
             name = "build" if problem.build != 0.0 else "walk"
             raise InputError(name, getattr(problem, name), "must be left out where axis gives the hole")
-        object.__setattr__(problem, "axis", checked_points(problem.axis))
+        object.__setattr__(problem, "axis", checked_axis(problem.axis))
         hole = Hole.through(problem.axis)
         if problem.alpha not in (90.0, hole.alpha):
             reason = f"must be left out: axis has the inclination {hole.alpha:.10g} degrees at mid-length"

@@ -10,14 +10,12 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rodwell.errors import InputError, checked_number
-from rodwell.problem.axis import Axis, circle, tabulate
+from rodwell.problem.axis import Axis, circle
+from rodwell.problem.points import FORM, Rows, checked_points, through_points
+from rodwell.problem.stations import COLUMNS, along_stations, checked_stations
 from rodwell.quantities.arrays import FloatArray
 
-Points = tuple[tuple[float, float, float], ...]
-
 MOST_CURVATURE = 1e4
-MOST_POINTS = 10_000
-FEWEST_POINTS = 4
 
 LENGTHS = (0.98, 1.02)
 """Between which the length of an axis given by points may lie, in L."""
@@ -30,8 +28,6 @@ UPRIGHT = 1e-9
 
 CANNOT_FOLD = 2.0 * math.acos(2.0 / math.pi)
 """Rad. Points s apart on a curve that turns by less, θ, are at least s cos(θ/2) apart in space: where s > πΔ, 2Δ."""
-
-FORM = f"must be points (x, y, z) of the hole's axis in L, from s = 0 to s = 1, z upwards, at least {FEWEST_POINTS}"
 
 
 @dataclass(frozen=True)
@@ -51,13 +47,13 @@ class Hole:
     build, walk
         k1 and −k2 of an arc in 1/L; 0 where ``axis`` is given.
     axis
-        Points that the axis goes through; empty for an arc.
+        Points that the axis goes through, or stations with its direction; empty for an arc.
     """
 
     alpha: float
     build: float = 0.0
     walk: float = 0.0
-    axis: Points = ()
+    axis: Rows = ()
 
     @classmethod
     def arc(cls, alpha: float, build: float = 0.0, walk: float = 0.0) -> Hole:
@@ -88,29 +84,31 @@ class Hole:
 
     @classmethod
     def through(cls, points: Sequence[Sequence[float]] | FloatArray) -> Hole:
-        """Make a hole whose axis goes through points, its curvature continuous.
+        """Make a hole whose axis goes through points, or through stations with its direction, its curvature continuous.
 
-        Between the points the axis is a spline of degree five in the sum of the chords, with four continuous
+        Between points the axis is a spline of degree five in the sum of the chords, with four continuous
         derivatives (of four or five points, one polynomial). Arclength, frame and curvatures are tabulated of it to
         round-off: :attr:`error`, and 1e-15/h² of the curvatures at points h apart. Of a smooth curve it is off by
-        O(h⁶). Beyond its ends the axis goes on with the curvatures that it has there.
+        O(h⁶). Along stations it is that of :mod:`rodwell.problem.stations`. Beyond its ends the axis goes on with the
+        curvatures that it has there.
 
         Parameters
         ----------
         points
-            x, y, z in L, z vertically up, (n, 3), from S = 0 on; the length must be 1 within 2 %.
+            x, y, z in L, z vertically up, (n, 3), from S = 0 on; or stations (n, 10): arclength S from 0 on, direction
+            towards S = 1, its first and its second derivative by S. The length must be 1 within 2 %.
 
         Raises
         ------
         InputError
             For too few points, points that are not in order along the hole, and another length.
         """
-        axis = checked_points(points)
+        axis = checked_axis(points)
         table = _table(axis)
         if not LENGTHS[0] <= table.length <= LENGTHS[1]:
             raise InputError(
                 "axis",
-                f"points of a curve of length {table.length:.6g}",
+                f"a curve of length {table.length:.6g}",
                 f"must be 1 long, in units of the rod's length, within {LENGTHS[0]:g} to {LENGTHS[1]:g}: "
                 "give the piece of the hole from s = 0 to s = 1, divided by the rod's length",
             )
@@ -144,6 +142,11 @@ class Hole:
         """Curvatures k1, k2 in 1/L at arclengths S (n,): (n, 2)."""
         return self.at(places)[0]
 
+    def curvature_rates(self, places: FloatArray) -> FloatArray:
+        """Derivatives of k1, k2 by S in 1/L² at arclengths S (n,): (n, 2)."""
+        places = np.asarray(places, dtype=float)
+        return self._axis.rates(places) if self.axis else np.zeros((places.size, 2))
+
     def frame(self, places: FloatArray) -> FloatArray:
         """Unit vectors N1, N2, T, the rows of (n, 3, 3), at arclengths S (n,)."""
         return self.at(places)[1]
@@ -161,6 +164,13 @@ class Hole:
     def breaks(self) -> FloatArray:
         """Arclengths S, rising, between which the axis is smooth; of an arc none, it is smooth throughout."""
         return self._axis.breaks if self.axis else np.empty(0)
+
+    @property
+    def stations(self) -> FloatArray:
+        """Arclengths S, rising, at which the second derivative of the curvature jumps: stations between the ends."""
+        if not self.axis or len(self.axis[0]) != COLUMNS:
+            return np.empty(0)
+        return np.array([row[0] for row in self.axis[1:-1]])
 
     @property
     def length(self) -> float:
@@ -223,49 +233,28 @@ class Hole:
             )
 
 
-def checked_points(points: object) -> Points:
-    """Return points of an axis as a tuple of triples, or raise."""
+def checked_axis(axis: object) -> Rows:
+    """Return what an axis is given by, points (n, 3) or stations (n, 10), as rows, or raise."""
     try:
-        given = np.array(points, dtype=float)
+        given = np.array(axis, dtype=float)
     except (TypeError, ValueError):
         raise InputError("axis", None, FORM) from None
-    if given.ndim != 2 or given.shape[1] != 3:
-        raise InputError("axis", None, f"{FORM}: (n, 3), not {given.shape}")
-    if not FEWEST_POINTS <= len(given) <= MOST_POINTS:
-        raise InputError("axis", f"{len(given)} points", f"{FORM} and at most {MOST_POINTS}")
-    if not np.all(np.isfinite(given)):
-        raise InputError("axis", None, "must be finite at every point")
-    chords = np.diff(given, axis=0)
-    lengths = np.linalg.norm(chords, axis=1)
-    if not np.all(lengths > IN_LINE):
-        raise InputError("axis", f"point {int(np.argmin(lengths)) + 2}", "is the same point as the one before it")
-    forward = np.sum(chords[1:] * chords[:-1], axis=1)
-    if np.any(forward <= 0.0):
-        where = int(np.argmax(forward <= 0.0)) + 2
-        raise InputError(
-            "axis",
-            f"point {where}",
-            "turns back by 90° or more: points must be in order along the hole, close enough to show its bends",
-        )
-    return tuple((float(x), float(y), float(z)) for x, y, z in given)
+    if given.ndim == 2 and given.shape[1] == COLUMNS:
+        return checked_stations(given)
+    return checked_points(given)
 
 
 @lru_cache(maxsize=32)
-def _table(axis: Points) -> Axis:
-    """Table of the axis through points, N1 the high side in the middle; curves make thousands of problems of one."""
-    from scipy.interpolate import make_interp_spline  # noqa: PLC0415 - slow to import
-
-    points = np.array(axis)
-    chords = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    spline = make_interp_spline(chords, points, k=min(5, len(axis) - 1))
-    first, second = spline.derivative(1), spline.derivative(2)
-    table = tabulate(chords, lambda u: (first(u), second(u)), points[0])
+def _table(axis: Rows) -> Axis:
+    """Table of the axis that is given, N1 the high side in the middle; curves make thousands of problems of one."""
+    rows = np.array(axis)
+    table = along_stations(rows, np.zeros(3)) if rows.shape[1] == COLUMNS else through_points(rows)
     curvatures, frames, middle = (part[0] for part in table.at(np.array([0.5])))
     high = np.array([0.0, 0.0, 1.0]) - frames[2, 2] * frames[2]
     if np.linalg.norm(high) < UPRIGHT:  # no high side: the side to which it bends, or any
         high = curvatures @ frames[:2] if np.any(curvatures) else frames[0]
     table = table.turned(math.atan2(high @ frames[1], high @ frames[0]))
-    normals = table.at(np.array([0.5]))[1][0, :2]
+    normals, points = table.at(np.array([0.5]))[1][0, :2], table.at(table.samples[0])[2]
     in_plane = np.max(np.abs((points - middle) @ normals.T), axis=0) <= IN_LINE
     return table.without(tuple(np.flatnonzero(in_plane).tolist()))
 

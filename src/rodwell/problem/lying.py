@@ -25,10 +25,16 @@ def places_of_lying_rod(hole: Hole, reach: float, s: FloatArray) -> FloatArray:
         return np.asarray(0.5 + (s - 0.5) / (1.0 + reach * hole.curvatures(np.array([0.5]))[0, 0]))
     grid, along = _lengths(hole, reach)
     found = np.interp(s, along, grid)
-    for _ in range(3):  # Newton's method, with the integral from the nearest grid point below
-        below = np.clip(np.searchsorted(grid, found, side="right") - 1, 0, grid.size - 2)
-        found = found - (along[below] + _length(hole, reach, grid[below], found) - s) / _stretch(hole, reach, found)
+    for _ in range(3):  # Newton's method
+        found = found - (lying_rod_beside(hole, reach, found) - s) / _stretch(hole, reach, found)
     return np.asarray(found)
+
+
+def lying_rod_beside(hole: Hole, reach: float, places: FloatArray) -> FloatArray:
+    """Arclength s (m,) of that rod beside ``places`` S₀ (m,) of an axis that is given: the inverse function."""
+    grid, along = _lengths(hole, reach)
+    below = np.clip(np.searchsorted(grid, places, side="right") - 1, 0, grid.size - 2)
+    return np.asarray(along[below] + _length(hole, reach, grid[below], places))
 
 
 @lru_cache(maxsize=64)

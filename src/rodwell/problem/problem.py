@@ -11,8 +11,9 @@ from typing import Any
 from rodwell.errors import InputError
 from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
-from rodwell.problem.hole import Hole, Points
+from rodwell.problem.hole import Hole
 from rodwell.problem.lying import rise_of_lying_rod
+from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
 from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, seen_from_s_1
 
@@ -85,7 +86,8 @@ class Problem:
         which it is pressed, the upper one. Upside down it is a rod with its weight downwards at 180° − α.
     axis
         Points (x, y, z) of the hole's axis in L from s = 0 to s = 1, z vertically up, in place of ``build``, ``walk``;
-        ``alpha`` is then taken from it.
+        ``alpha`` is then taken from it. Or stations of ten numbers, arclength, direction and its two derivatives:
+        :meth:`rodwell.problem.hole.Hole.through`.
 
     Notes
     -----
@@ -114,7 +116,7 @@ class Problem:
     sections: tuple[Section, ...] = ()
     build: float = 0.0
     walk: float = 0.0
-    axis: Points = ()
+    axis: Rows = ()
     floats: bool = False
 
     def __post_init__(self) -> None:

@@ -9,13 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from rodwell.errors import InputError
-from rodwell.problem.axis import Axis, tabulate
-from rodwell.problem.hole import MOST_POINTS, Hole, Points, checked_points
+from rodwell.problem.axis import Axis
+from rodwell.problem.hole import Hole
+from rodwell.problem.points import MOST_POINTS, Rows, checked_points, through_points
+from rodwell.problem.stations import along_stations, checked_stations, piece_of
 from rodwell.quantities.arrays import FloatArray
 from rodwell.survey.survey import Survey
 
 IN_A_COURSE = 32
-"""Points of a piece between neighbouring stations."""
+"""Points of a piece of a centre line between neighbouring points of that."""
 
 FEWEST = 64
 """Points of a piece, at least."""
@@ -55,17 +57,18 @@ class HolePath:
         As a table by the distance from ``top``.
     top
         Measured depth, or distance along a centre line, at which it begins, in m.
-    knots
-        Distances at which its third derivative may jump (stations, points), from 0 on, in m.
+    known
+        What it was made from, from 0 on in m: stations (n, 10) of :mod:`rodwell.problem.stations`, or the distances
+        (n,) of the points of a centre line.
     survey
-        What it was made from; None for a centre line.
+        The survey; None for a centre line.
     source
         File name.
     """
 
     axis: Axis
     top: float
-    knots: FloatArray
+    known: FloatArray
     survey: Survey | None
     source: str
 
@@ -115,9 +118,17 @@ class Piece:
         return self.lower - self.upper
 
     @cached_property
-    def points(self) -> Points:
-        """Points of the axis in units of the length, from s = 0 (below) to s = 1, that :class:`Hole` goes through."""
-        knots = self.path.knots + self.path.top
+    def axis(self) -> Rows:
+        """The axis in units of the length, from s = 0 (below) to s = 1, as :class:`Hole` takes it.
+
+        Of a survey its stations, and so the same curve; of a centre line points of it, close enough together.
+        """
+        if self.path.survey is not None:
+            rows = piece_of(self.path.known, self.upper - self.path.top, self.lower - self.path.top)[::-1]
+            rows[:, 0] = (rows[0, 0] - rows[:, 0]) / self.length
+            rows[:, 1:] *= np.repeat([-1.0, self.length, -(self.length**2)], 3)  # the other way round
+            return checked_stations(rows)
+        knots = self.path.known + self.path.top
         inside = knots[(knots > self.upper) & (knots < self.lower)]
         ends = np.concatenate([[self.upper], inside, [self.lower]])
         ends = ends[np.concatenate([[True], np.diff(ends) > 1e-6 * self.length])]
@@ -130,7 +141,7 @@ class Piece:
     @cached_property
     def hole(self) -> Hole:
         """The hole of the rod."""
-        return Hole.through(self.points)
+        return Hole.through(self.axis)
 
     @cached_property
     def turned(self) -> float:
@@ -187,19 +198,15 @@ def path_of_survey(survey: Survey, tortuosity: Tortuosity | None = None) -> Hole
     if tortuosity is not None:
         depths, directions = _tortuous(depths, directions, tortuosity)
     start = np.array([survey.east[0], survey.north[0], -survey.tvd[0]])
-    knots = depths - depths[0]
-    return HolePath(_smooth(knots, directions, start), float(depths[0]), knots, survey, survey.source)
+    stations = _stations(depths - depths[0], directions)
+    return HolePath(along_stations(stations, start), float(depths[0]), stations, survey, survey.source)
 
 
 def path_of_points(points: FloatArray, source: str = "centre line") -> HolePath:
     """The axis through points (n, 3) in m, as :meth:`Hole.through` joins them, from the first on; errors as there."""
-    from scipy.interpolate import make_interp_spline  # noqa: PLC0415 - slow to import
-
     given = np.array(checked_points(points))
+    axis = through_points(given)
     chords = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(given, axis=0), axis=1))])
-    spline = make_interp_spline(chords, given, k=min(5, len(given) - 1))
-    first, second = spline.derivative(1), spline.derivative(2)
-    axis = tabulate(chords, lambda u: (first(u), second(u)), given[0])
     return HolePath(axis, 0.0, axis.length * chords / chords[-1], None, source)
 
 
@@ -228,7 +235,7 @@ def _tortuous(depths: FloatArray, directions: FloatArray, tortuosity: Tortuosity
     if not 0.0 < tortuosity.size <= LARGEST_TORTUOSITY:
         allowed = f"must be above 0 and at most {math.degrees(LARGEST_TORTUOSITY):g} deg, a standard deviation"
         raise InputError("tortuosity", f"{math.degrees(tortuosity.size):g} deg", allowed)
-    smooth = _smooth(depths - depths[0], directions, np.zeros(3))
+    smooth = along_stations(_stations(depths - depths[0], directions), np.zeros(3))
     parts = np.maximum(1, np.rint(np.diff(depths) / tortuosity.step)).astype(int)
     if int(np.sum(parts)) + 1 > MOST_POINTS:
         what = f"makes {int(np.sum(parts)) + 1} places along the hole; at most {MOST_POINTS} are taken"
@@ -242,14 +249,12 @@ def _tortuous(depths: FloatArray, directions: FloatArray, tortuosity: Tortuosity
     return places, out / np.linalg.norm(out, axis=1, keepdims=True)
 
 
-def _smooth(places: FloatArray, directions: FloatArray, start: FloatArray) -> Axis:
-    """Axis whose tangents are polynomials of degree five between unit vectors, made unit vectors again.
+def _stations(places: FloatArray, directions: FloatArray) -> FloatArray:
+    """Stations (n, 10) of :mod:`rodwell.problem.stations` with these directions (n, 3).
 
     At each place they have a rate and a second derivative from the circles on both sides, limited (after van Albada)
     so that nothing overshoots: what is straight on one side begins straight, circles are met.
     """
-    from scipy.interpolate import BPoly  # noqa: PLC0415 - slow to import
-
     steps = np.diff(places)[:, None]
     after, before = _bends(directions, steps)
     rates = np.concatenate([after[:1], _limited(before[:-1], after[1:], steps[1:], steps[:-1]), before[-1:]])
@@ -258,16 +263,7 @@ def _smooth(places: FloatArray, directions: FloatArray, start: FloatArray) -> Ax
     second = np.zeros_like(rates)
     second[1:-1] = _agreed(behind[:-1], ahead[1:])
     second -= np.sum(rates**2, axis=1, keepdims=True) * directions
-    spline = BPoly.from_derivatives(places, np.stack([directions, rates, second], axis=1))
-    rate = spline.derivative()
-
-    def motion(at: FloatArray) -> tuple[FloatArray, FloatArray]:
-        value, slope = spline(at), rate(at)
-        size = np.linalg.norm(value, axis=1, keepdims=True)
-        unit = value / size
-        return unit, (slope - np.sum(slope * unit, axis=1, keepdims=True) * unit) / size
-
-    return tabulate(places, motion, start)
+    return np.concatenate([places[:, None], directions, rates, second], axis=1)
 
 
 def _bends(directions: FloatArray, steps: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from rodwell import InputError, Problem, critical_loads, follow
+from rodwell import InputError, Problem, critical_loads, diagram, follow
 from rodwell.analysis.branch.special import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.branch.symmetry import reflections
 from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
@@ -132,6 +132,26 @@ def test_a_level_hole_that_hardly_turns_buckles_as_one_that_does_not(walk: float
     assert found.rest.point.fine.symmetry == 1
 
 
+def test_a_diagram_has_the_rod_as_it_lies_and_what_leaves_it() -> None:
+    """Theory of curved holes, κ = 0.2, w = 15, without walk: −177.320540182."""
+    level = Problem(15.0, build=0.2, walk=1e-6)
+    found = diagram(level, until=-181.0)
+    assert [branch.name for branch in found] == ["as it lies", "as it lies, pulled", "secondary 1"]
+    lies, pulled, buckled = found
+    assert found.primary == (lies, pulled)
+    assert [joint.child for joint in found.joints] == ["secondary 1"]
+    assert found.joints[0].force == pytest.approx(-177.320540182, abs=5e-9)
+    assert (lies[-1].force, buckled[-1].force) == (-181.0, -181.0)
+    assert (lies[-1].stability_index, buckled[-1].stability_index) == (1, 0)
+    assert pulled.reach[1] > 0.0
+    assert buckled[-1].number("energy").value < lies[-1].number("energy").value
+    assert found.searched == ("connected to the rod as it lies",)
+    with pytest.raises(InputError, match="starts from modes of the straight rod"):
+        diagram(level, search=["deflation"])
+    with pytest.raises(InputError, match="must be below the force at rest, 0 B/L²"):
+        diagram(level, until=5.0)
+
+
 def test_without_weight_only_the_plane_of_the_bend_counts() -> None:
     """Ends that slide: the rod turns into the plane of the arc, and buckles there at the load of an arc upright.
 
@@ -176,7 +196,7 @@ def test_a_rod_that_touches_down_beyond_rest_lies_there() -> None:
 
 def test_a_rod_that_lies_nowhere_is_told_why(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same rod, looked at no farther than a little way around rest."""
-    monkeypatch.setattr("rodwell.analysis.loads.lying_rod.REACH", 1e-4)
+    monkeypatch.setattr("rodwell.analysis.branch.rest.REACH", 1e-4)
     with pytest.raises(InputError, match="lies on the wall at no end force from") as caught:
         lying_rod(Problem(0.1, 60.0, build=-0.4, walk=0.3))
     assert "the wall would have to pull it at s/L = " in caught.value.reason

@@ -11,6 +11,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
+from rodwell.analysis.branch.rest import at_rest, reach_in_space
 from rodwell.analysis.branch.searching import WAYS
 from rodwell.analysis.branch.searching import search as search_for_more
 from rodwell.analysis.branch.special import SpecialPoint
@@ -85,7 +86,7 @@ class Diagram:
 
     @property
     def primary(self) -> tuple[Branch, ...]:
-        """Branches that leave the straight rod, or the coil."""
+        """Branches that leave the straight rod, or that of the coil, or of the rod as it lies."""
         return tuple(branch for branch in self.branches if branch.origin.parent is None)
 
     @property
@@ -157,18 +158,22 @@ def diagram(
     """Bifurcation diagram in the end force.
 
     Primary branches leave the straight rod at its critical loads; with ``problem.turns`` ≠ 0 the branch of the coil
-    takes their place. At every branch point on them the branch that leaves there is followed too, until it meets a
-    symmetric branch again or reaches the end. Branches that are images of others by a reflection are not computed:
-    :meth:`Diagram.images` names them.
+    takes their place. In a hole that leaves the vertical plane, where there are none, the rod as it lies is followed
+    from rest (on the wall, stable), down to ``until`` and into tension: "as it lies" and "as it lies, pulled".
+
+    At every branch point on them the branch that leaves there is followed too, until it meets a symmetric branch again
+    or reaches the end. Branches that are images of others by a reflection are not computed: :meth:`Diagram.images`
+    names them.
 
     Parameters
     ----------
     problem
         The rod.
     modes
-        How many primary branches.
+        How many primary branches, where they leave at critical loads.
     until
-        End force at s = 1 in B/L², tension positive, at which branches end; without it, somewhat beyond the last mode.
+        End force at s = 1 in B/L², tension positive, at which branches end; without it, somewhat beyond the last mode,
+        and of a rod that has none, where :func:`rodwell.lying_rod` ends by itself.
     secondary
         Whether to follow secondary branches.
     then
@@ -200,6 +205,11 @@ def diagram(
         until = float(start.force[-1]) if until is None else until
         work = Exploration(problem, CriticalLoads(()), until, how)
         work.branches.append(start)
+    elif _lies(problem):
+        rest, far = at_rest(problem, how), reach_in_space(problem)
+        until = rest.force - far if until is None else _below(until, rest.force, "the force at rest")
+        work = Exploration(problem, CriticalLoads(()), until, how)
+        work.follow_lying(rest, rest.force + far, tell)
     else:
         critical = critical_loads(problem, modes, rtol=how.rtol)
         until = _end(critical, until)
@@ -216,6 +226,11 @@ def diagram(
     )
 
 
+def _lies(problem: Problem) -> bool:
+    """Whether the rod lies along a hole that leaves the vertical plane, where it has no critical loads."""
+    return problem.hole is not None and not problem.hole.planar
+
+
 def _checked_further(problem: Problem, parameter: Parameter | Along, until: float) -> tuple[Parameter, float]:
     """What branches are continued in, and to where."""
     if parameter == "force" or (isinstance(parameter, str) and parameter not in PATHS):
@@ -229,6 +244,11 @@ def _checked_ways(problem: Problem, search: Sequence[str]) -> tuple[str, ...]:
     for way in ways:
         if way not in WAYS:
             raise InputError("search", way, f"must be among {', '.join(WAYS)}")
+    if "unfolding" in ways:
+        problem.refuse_curved("branches are sought by unfolding")
+    if ways and _lies(problem):
+        why = "starts from modes of the straight rod, and in a hole that leaves the vertical plane there are none"
+        raise InputError("search", ways[0], f"{why}: leave it out")
     if ways and problem.turns != 0:
         raise InputError("search", ways[0], "is for rods that are not coiled: leave it out")
     return ways
@@ -238,7 +258,11 @@ def _end(critical: CriticalLoads, until: float | None) -> float:
     first, last = critical[0].force, critical[-1].force
     if until is None:
         return float(first - max(1.5 * (first - last), 2.0 * critical[0].wavenumber ** 2))
+    return _below(until, first, "the first critical load")
+
+
+def _below(until: float, highest: float, what: str) -> float:
     until = checked_force("until", until)
-    if until >= first:
-        raise InputError("until", until, f"must be below the first critical load, {first:.8g} B/L²")
+    if until >= highest:
+        raise InputError("until", until, f"must be below {what}, {highest:.8g} B/L²")
     return until

@@ -27,6 +27,9 @@ MOST_SECONDARY = 60
 SAME_LOAD, SAME_SHAPE = 1e-6, 1e-4
 """How close, relatively, two located branch points on different branches are if they are one."""
 
+LYING = "as it lies"
+"""Name of the states of a rod in a hole that leaves the vertical plane, where it has not buckled."""
+
 Progress = Callable[[str, float], None]
 """Called with what is being done and how much of the whole is done (0 to 1)."""
 
@@ -60,6 +63,12 @@ class Exploration:
                 self.branches.append(self._follow(mode, until=self.until, mirror=mirror))
         for modes in _double(followed):
             self._follow_mixed(*modes)
+
+    def follow_lying(self, rest: Solution, highest: float, tell: Progress) -> None:
+        """Follow the rod as it lies in a hole that leaves the vertical plane, from rest both ways in the end force."""
+        for name, until, done in ((LYING, self.until, 0.1), (f"{LYING}, pulled", highest, 0.4)):
+            tell(f"rod {name}", done)
+            self.branches.append(self._follow(start=rest, until=until).renamed(Origin(name)))
 
     def _follow_mixed(self, first: Mode, second: Mode) -> None:
         """Follow what leaves a double critical load along both of its modes."""

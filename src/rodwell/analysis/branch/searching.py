@@ -33,8 +33,6 @@ from rodwell.quantities.arrays import FloatArray
 WAYS = ("unfolding", "deflation")
 """Ways to search: states of a symmetric problem carried over to this one; further states at some loads."""
 
-CONNECTED = "connected to the straight rod"
-
 LOADS = 4
 """Loads at which further states are sought by deflation."""
 
@@ -50,7 +48,8 @@ FLAT = 1e-6
 
 def search(work: Exploration, ways: tuple[str, ...], tell: Progress) -> tuple[str, ...]:
     """Add branches found in these ways to a diagram, with what leaves them; return what was searched, in words."""
-    said = [CONNECTED if work.problem.turns == 0 else "connected to the coil"]
+    trunk = "the straight rod" if len(work.critical) > 0 else "the rod as it lies"
+    said = [f"connected to {trunk if work.problem.turns == 0 else 'the coil'}"]
     if "unfolding" in ways:
         said += _unfold(work, tell)
     if "deflation" in ways:
@@ -60,7 +59,6 @@ def search(work: Exploration, ways: tuple[str, ...], tell: Progress) -> tuple[st
 
 def symmetric_relatives(problem: Problem) -> tuple[tuple[Problem, str, float], ...]:
     """Problems of more symmetry, with the parameter that leads from each to ``problem`` and its value there."""
-    problem.refuse_curved("branches that nothing connects are sought")
     out = []
     if problem.twist != 0.0:
         out.append((problem.but(twist=0.0), "twist", problem.twist))

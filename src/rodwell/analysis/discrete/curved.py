@@ -2,14 +2,14 @@
 
 Coefficients are taken where the rod is before it buckles: at the place S₀(s) on the hole's axis, with dS₀/ds =
 1/(1 + Δκₙ) of a rod on the generator θ = 0, and S₀(½) = ½. Of a buckled rod the place S(s) is another, by the end
-shortening at most; so far is the hole off. :mod:`rodwell.analysis.state.arclength` computes states without that.
+shortening at most; so far is the hole off. :mod:`rodwell.analysis.state.own_places` computes states without that.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -18,12 +18,13 @@ from rodwell.analysis.discrete.choices import (
     ELEMENTS_PER_RADIAN,
     LEAST_WAVENUMBER,
     LINEAR_ELEMENTS_PER_RADIAN,
+    MOST_ELEMENTS_OF_BRANCH,
     POINTS_OF_BRANCH,
 )
-from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
+from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh, running_integral
 from rodwell.physics.on_wall.curved import TERMS
 from rodwell.problem.hole import Hole
-from rodwell.problem.lying import places_of_lying_rod
+from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -36,6 +37,15 @@ RESOLVED = 1e-6
 between its points only: at each the rate of the curvature jumps, by little where points are many, which would ask for a
 concentrated force on the wall. Even pieces round that off; where they miss the curvature, pieces end at the points."""
 
+BETWEEN_STATIONS = 5e-10
+"""Part of the contact, by weight and by the bend, that pieces between stations may miss in the second derivative of the
+curvature, which is part of it. The curvature is smooth there: pieces are halved until they have it."""
+
+SHARPENED = 40.0
+"""Error of a polynomial's second derivative over that of its values, times the square of the length of a piece."""
+
+MOST_HALVINGS = 5
+
 BESIDE_NODES = np.array([0.03, 0.21, 0.37, 0.52, 0.68, 0.83, 0.97])
 """Places in a piece at which that is looked at."""
 
@@ -44,6 +54,13 @@ PIECES_PER_RADIAN = 12.0
 
 NO_PIECE = 1e-9
 """Breaks of the axis nearer to an end of the rod, in L, make no piece of their own."""
+
+APART = 0.12
+"""Radians of the local wavenumber by which kinks of a mesh are apart, and from its ends: round-off in the contact grows
+like h⁻³. Of stations closer together some are left to the mesh as it is."""
+
+MOST_PIECES = MOST_ELEMENTS_OF_BRANCH // 4
+"""More pieces of a hole, as through very many points, are left to the mesh as it is."""
 
 PLACES = 257
 
@@ -72,7 +89,7 @@ class HoleAlong:
 
 
 def hole_along(breaks: FloatArray, functions: Along) -> HoleAlong:
-    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m) on pieces."""
+    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m), or the first of these, on pieces."""
     half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
     nodes = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
     values = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, TERMS)
@@ -135,9 +152,26 @@ def hole_at(problem: Problem, places: FloatArray) -> tuple[FloatArray, FloatArra
     return side * np.stack([*curvatures.T, up[:, 0], up[:, 1]]), up[:, 2]
 
 
+def rates_at(problem: Problem, places: FloatArray) -> FloatArray:
+    """Derivatives of k₁, k₂ along the hole's axis, (2, m), at places S (m,), in that frame."""
+    return wall_side(problem) * _hole(problem).curvature_rates(places).T
+
+
 def undeformed_place(problem: Problem, s: FloatArray) -> FloatArray:
     """S₀ (m,) on the hole's axis at places ``s`` (m,) of the rod that lies on the generator θ = 0."""
     return places_of_lying_rod(_hole(problem), problem.clearance * wall_side(problem), s)
+
+
+def stations_along(problem: Problem) -> FloatArray:
+    """Places s, rising, (k,), of the undeformed rod beside stations of the hole; none close to an end."""
+    hole = _hole(problem)
+    if not hole.stations.size:
+        return hole.stations
+    return _inside(lying_rod_beside(hole, problem.clearance * wall_side(problem), hole.stations))
+
+
+def _inside(places: FloatArray) -> FloatArray:
+    return places[(places > NO_PIECE) & (places < 1.0 - NO_PIECE)]
 
 
 @lru_cache(maxsize=64)
@@ -184,30 +218,43 @@ def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
 
 @lru_cache(maxsize=64)
 def _breaks(problem: Problem) -> FloatArray:
-    """Ends of the pieces of the rod, rising from 0 to 1: even ones, or beside breaks of the axis, and no piece long."""
-    hole = _hole(problem)
+    """Ends of the pieces of the rod, rising from 0 to 1: even, or between stations or points, and no piece long."""
+    hole, stations = _hole(problem), stations_along(problem)
     count = max(PIECES, 2 * int(np.ceil(0.5 * PIECES_PER_RADIAN * hole.turning)))
+    if stations.size:
+        breaks = _pieces(stations, count)
+        allowed = BETWEEN_STATIONS * (problem.weight + hole.sharpest * (stations.size + 1) ** 2) / SHARPENED
+        for _ in range(MOST_HALVINGS):
+            if _missed(breaks, problem) * (breaks.size - 1) ** 2 <= allowed:
+                break
+            breaks = np.insert(breaks, np.arange(1, breaks.size), 0.5 * (breaks[1:] + breaks[:-1]))
+        return breaks
     even = np.linspace(0.0, 1.0, count + 1)
-    if not hole.breaks.size or _resolves(even, problem):
+    if not hole.breaks.size or _missed(even, problem) <= RESOLVED * hole.sharpest:
         return even
-    beside = np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)
-    ends = np.concatenate([[0.0], beside[(beside > NO_PIECE) & (beside < 1.0 - NO_PIECE)], [1.0]])
+    return _pieces(_inside(np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)), count)
+
+
+def _pieces(ends: FloatArray, count: int) -> FloatArray:
+    """Pieces between 0, ``ends`` and 1, none longer than 1/``count``."""
+    ends = np.concatenate([[0.0], ends, [1.0]])
     parts = np.maximum(1, np.ceil(np.diff(ends) * count - 1e-9)).astype(int)
     steps = np.repeat(np.diff(ends) / parts, parts)
     within = np.concatenate([np.arange(n) for n in parts])
     return np.append(np.repeat(ends[:-1], parts) + within * steps, 1.0)
 
 
-def _resolves(breaks: FloatArray, problem: Problem) -> bool:
-    """Whether polynomials between ``breaks`` have the curvature of the hole along the undeformed rod."""
+def _missed(breaks: FloatArray, problem: Problem) -> float:
+    """Largest error of polynomials between ``breaks`` in the curvature of the hole along the undeformed rod."""
 
-    def curvature(which: int, s: FloatArray) -> FloatArray:
-        return _hole(problem).curvatures(undeformed_place(problem, s))[:, which]
+    def curvatures(s: FloatArray) -> FloatArray:
+        return _hole(problem).curvatures(undeformed_place(problem, s)).T
 
     s = (breaks[:-1, None] + np.diff(breaks)[:, None] * BESIDE_NODES).ravel()
-    exact = np.stack([curvature(which, s) for which in (0, 1)])
-    pieces = [PiecewisePolynomial.of(breaks, partial(curvature, which))(s) for which in (0, 1)]
-    return bool(np.max(np.abs(np.stack(pieces) - exact)) <= RESOLVED * np.max(np.abs(exact)))
+    rows = hole_along(breaks, curvatures)(s)
+    x, coefficients = (s - rows[:, 0]) * rows[:, 1], rows[:, 2:].reshape(s.size, -1, TERMS)
+    pieces = np.polynomial.polynomial.polyval(x, coefficients.T, tensor=False)
+    return float(np.max(np.abs(pieces - curvatures(s))))
 
 
 def _hole(problem: Problem) -> Hole:
@@ -217,14 +264,31 @@ def _hole(problem: Problem) -> Hole:
 
 def linear_space(problem: Problem, loads: tuple[float, float]) -> SplineSpace:
     """Spline space for modes between two end forces, tension positive."""
-    mesh = graded_mesh(_wavenumber(problem, loads) + LEAST_WAVENUMBER, _PLACES, LINEAR_ELEMENTS_PER_RADIAN)
-    return SplineSpace(mesh, DEGREE)
+    return _space(problem, _wavenumber(problem, loads) + LEAST_WAVENUMBER, LINEAR_ELEMENTS_PER_RADIAN)
 
 
 def first_space(problem: Problem, compression: float, tension: float) -> SplineSpace:
     """Spline space for branches between the most compressive and the most tensile end force, tension positive."""
     wavenumber = _wavenumber(problem, (compression, tension)) + 2.0 * np.pi
-    return SplineSpace(graded_mesh(wavenumber, _PLACES, ELEMENTS_PER_RADIAN), DEGREE, POINTS_OF_BRANCH)
+    return _space(problem, wavenumber, ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH)
+
+
+def _space(problem: Problem, wavenumber: FloatArray, per_radian: float, per_element: int | None = None) -> SplineSpace:
+    """Space that resolves a wavenumber at _PLACES, no element on two pieces of the hole; with kinks at stations."""
+    if not problem.axis:  # the pieces of an arc go over into each other
+        return SplineSpace(graded_mesh(wavenumber, _PLACES, per_radian), DEGREE, per_element)
+    kinks, last = [], 0.0
+    stations = stations_along(problem)
+    phase = np.interp([*stations, 1.0], _PLACES, running_integral(wavenumber, _PLACES))
+    for place, reached in zip(stations, phase[:-1], strict=True):
+        if reached - last >= APART <= phase[-1] - reached:
+            kinks.append(place)
+            last = reached
+    pieces = _breaks(problem)[1:-1]
+    breaks = pieces if pieces.size <= MOST_PIECES else np.array(kinks)
+    return SplineSpace(
+        graded_mesh(wavenumber, _PLACES, per_radian, breaks=breaks), DEGREE, per_element, np.array(kinks)
+    )
 
 
 _PLACES = np.linspace(0.0, 1.0, PLACES)

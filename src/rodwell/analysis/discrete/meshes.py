@@ -20,7 +20,7 @@ from rodwell.analysis.discrete.choices import (
     LINEAR_ELEMENTS_PER_RADIAN,
     POINTS_OF_BRANCH,
 )
-from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
+from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh, running_integral
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -173,8 +173,9 @@ def resolved(problem: Problem, places: FloatArray, load: float) -> FloatArray:
     between = np.where(waves, 0.0, 0.5 * np.sqrt(np.maximum(floor - p, 0.0)))
     slow = np.where(tense, 0.5 * floor / np.maximum(largest, 1e-300), between)
     fast = np.where(tense, largest, between)
-    alive, sharp = (_integral(places, rate) < DEAD for rate in (slow, fast))
-    layers = (_integral(places, largest) < DEAD) | (_integral(places, largest)[-1] - _integral(places, largest) < DEAD)
+    alive, sharp = (running_integral(rate, places) < DEAD for rate in (slow, fast))
+    phase = running_integral(largest, places)
+    layers = (phase < DEAD) | (phase[-1] - phase < DEAD)
     fine = sharp | layers
     wavenumber = np.where(fine, largest, np.where(alive, slow, 0.0))
     edges = places[fine]
@@ -183,11 +184,6 @@ def resolved(problem: Problem, places: FloatArray, load: float) -> FloatArray:
         np.abs(places - edges[np.maximum(after - 1, 0)]), np.abs(places - edges[np.minimum(after, edges.size - 1)])
     )
     return np.asarray(np.maximum(wavenumber, np.where(fine, 0.0, np.minimum(GROWTH / (distance + 1e-12), largest))))
-
-
-def _integral(places: FloatArray, rate: FloatArray) -> FloatArray:
-    steps = 0.5 * (rate[1:] + rate[:-1]) * np.diff(places)
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def free_space(problem: Problem, count: int) -> SplineSpace:

@@ -17,7 +17,7 @@ from rodwell.analysis.discrete.choices import (
     LINEAR_ELEMENTS_PER_RADIAN,
     POINTS_OF_BRANCH,
 )
-from rodwell.numerics.splines.spaces import SplineSpace
+from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray, IntArray
 
@@ -120,27 +120,10 @@ def _space(problem: Problem, loads: tuple[float, float], least: float, per_radia
     stiffness, axial, foundation = _local(problem, places, section)
     most = np.maximum(np.abs(loads[0] - axial), np.abs(loads[1] - axial))
     wavenumber = np.sqrt(most / stiffness) + (np.abs(foundation) / stiffness) ** 0.25 + least
-    phase = np.concatenate([[0.0], np.cumsum(0.5 * (wavenumber[1:] + wavenumber[:-1]) * np.diff(places))])
     breaks = problem.rod.breaks
-    ends = (
-        np.searchsorted(section, np.arange(breaks.size - 1)),
-        np.searchsorted(section, np.arange(breaks.size - 1), side="right") - 1,
-    )
-    first, last = phase[ends[0]], phase[ends[1]]
-    lengths = np.diff(breaks)
-    counts = np.maximum(np.ceil(per_radian * (last - first)), np.ceil(LEAST_ELEMENTS * lengths)).astype(int)
-    middle = (breaks[:-1] < 0.5) & (breaks[1:] > 0.5)
-    counts[middle] += counts[middle] % 2  # a mesh point at s = ½, where a symmetric string is divided
-    owner = np.repeat(np.arange(counts.size), counts)
-    share = (np.arange(owner.size) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[owner]
-    mesh = np.append(np.interp(first[owner] + (last - first)[owner] * share, phase, places), 1.0)
-    starts = np.cumsum(counts) - counts
-    mesh[starts] = breaks[:-1]
-    if problem.symmetric:
-        mesh = 0.5 * (mesh + (1.0 - mesh[::-1]))
-        mesh[starts] = breaks[:-1]
-    shortest = float(np.min(lengths)) * float(phase[-1])
+    mesh = graded_mesh(wavenumber, places, per_radian, LEAST_ELEMENTS, breaks[1:-1])
+    shortest = float(np.min(np.diff(breaks))) * float(np.trapezoid(wavenumber, places))
     degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
-    few = branch and degree == DEGREE and int(np.min(counts)) >= SMOOTH
-    per_element = POINTS_OF_BRANCH if few else None
-    return SplineSpace(mesh, degree, per_element, mesh[starts[1:]])
+    inside = np.diff(np.searchsorted(mesh, breaks))  # elements of each section
+    few = branch and degree == DEGREE and int(np.min(inside)) >= SMOOTH
+    return SplineSpace(mesh, degree, POINTS_OF_BRANCH if few else None, breaks[1:-1])

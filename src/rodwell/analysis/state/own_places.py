@@ -17,13 +17,21 @@ from dataclasses import replace
 import numpy as np
 
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
-from rodwell.analysis.discrete.curved import HoleAlong, PiecewisePolynomial, along_rod, hole_along, hole_at
+from rodwell.analysis.discrete.curved import (
+    HoleAlong,
+    PiecewisePolynomial,
+    along_rod,
+    hole_along,
+    hole_at,
+    rates_at,
+)
 from rodwell.analysis.discrete.measures import Measured, measured_meshes
 from rodwell.analysis.state.in_hole import InHole, curvature
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, FORCE, TWIST
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -35,8 +43,8 @@ SETTLED = 1e-12
 """Change of the shape, in radians around the hole, below which it has settled: in a round, or as the last two foretell
 of the next one."""
 
-STENCIL = 1e-4
-"""Distance on the hole's axis, in L, of differences that give the rate of its curvature."""
+BESIDE = 1e-11
+"""Distance along the rod, in L, within which a kink of the mesh is beside a station."""
 
 
 def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
@@ -44,8 +52,7 @@ def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
     y, y1, y2 = shape.shape(s, 3)
     places, d, problem = shape.place(s), shape.clearance, shape.problem
     (k1, k2, _, _), climb = hole_at(problem, places)
-    before, after = (hole_at(problem, places + step)[0][:2] for step in (-STENCIL, STENCIL))
-    k1_rate, k2_rate = (after - before) / (2.0 * STENCIL)
+    k1_rate, k2_rate = rates_at(problem, places)
     angle = y / d
     sin_a, cos_a = np.sin(angle), np.cos(angle)
     normal, geodesic, cos, _, h = curvature(angle, y1, y2, k1, k2, d)
@@ -94,18 +101,42 @@ def with_own_places(
         raise InputError("build", problem.build, "must not be 0: along a straight hole every place is like another")
     if not point.fine.c.any():  # the rod on θ = 0 lies where the tables have it
         return meshes, point
-    _, state, tables = _at_own_places(problem, meshes.fine, point.fine, near)
-    own = measured_meshes(_given(meshes.coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
+    there, state, tables = _at_own_places(problem, meshes.fine, point.fine, near)
+    coarse, space = meshes.coarse, there.space
+    if space is not meshes.fine.space:
+        coarse = coarse.on(SplineSpace(space.breaks[::2], space.degree, space.per_element, space.kinks))
+    own = measured_meshes(_given(coarse, tables), meshes.rtol, MOST_ELEMENTS_OF_BRANCH)
     both = ((own.coarse, _solved(own.coarse, point.coarse, near)), (own.fine, state))
-    coarse, fine = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
-    return own, own.point(coarse, fine)
+    states = (replace(x, energy=_energy(problem, f, x)) for f, x in both)
+    return own, own.point(*states)
+
+
+def _beside_stations(rod: InHole) -> SplineSpace:
+    """The finer mesh of a rod, moved a little: its kinks beside stations where the rod itself has them."""
+    space, hole = rod.state.space, rod.problem.hole
+    if hole is None or not space.kinks.size:
+        return space
+    beside, places = space.kinks, rod.place(space.kinks)
+    stations = hole.stations[np.argmin(np.abs(hole.stations[:, None] - places), axis=0)]
+    for _ in range(3):  # Newton's method
+        beside = beside - (rod.place(beside) - stations) / rod.step(beside)
+    if np.max(np.abs(beside - space.kinks)) <= BESIDE:
+        return space
+    before, after = (np.concatenate([[0.0], kinks, [1.0]]) for kinks in (space.kinks, beside))
+    breaks = np.interp(space.breaks[::2], before, after)
+    if not np.all(np.diff(breaks) > 0.0):
+        return space
+    return SplineSpace(breaks, space.degree, space.per_element, beside).refined()
 
 
 def _at_own_places(problem: Problem, family: Family, state: State, near: bool) -> tuple[Family, State, HoleAlong]:
-    """The state on one mesh, with the equations and the tables of the hole that it solves."""
+    """The state on the finer mesh, with the equations and the tables of the hole that it solves."""
     change = np.inf
     for _ in range(MOST_ROUNDS):
         before = change
+        space = _beside_stations(InHole(problem, family, state))
+        if space is not state.space:
+            family, state = family.on(space), replace(state, space=space)
         tables = tables_of(InHole(problem, family, state))
         family = _given(family, tables)
         solved = _solved(family, state, near)

@@ -14,6 +14,7 @@ from rodwell.case.facts import Fact
 from rodwell.case.hole.schema import Hole
 from rodwell.errors import InputError
 from rodwell.problem import hole as problem
+from rodwell.problem.points import Rows
 from rodwell.quantities.text import plain
 from rodwell.survey.centerline import read_centerline
 from rodwell.survey.path import HolePath, Piece, Tortuosity, path_of_points, path_of_survey
@@ -38,7 +39,7 @@ class Lie:
     build, walk
         Curvatures in 1/L.
     axis
-        Points of the axis in L; empty where ``build`` and ``walk`` say all.
+        Points or stations of the axis in L; empty where ``build`` and ``walk`` say all.
     height
         Of the axis at s = 1 above that at s = 0, in L.
     facts
@@ -48,7 +49,7 @@ class Lie:
     alpha: float
     build: float = 0.0
     walk: float = 0.0
-    axis: problem.Points = ()
+    axis: Rows = ()
     height: float = 0.0
     facts: tuple[Fact, ...] = ()
 
@@ -89,7 +90,7 @@ def lie_of(hole: Hole, length: float, folder: Path, by_depth: bool = False) -> L
         *_curvature_facts(found, length),
         *_survey_facts(piece, hole),
     )  # fmt: skip
-    return Lie(found.alpha, axis=piece.points, height=height, facts=facts)
+    return Lie(found.alpha, axis=piece.axis, height=height, facts=facts)
 
 
 def _bent(hole: Hole, length: float) -> Lie:

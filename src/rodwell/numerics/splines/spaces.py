@@ -237,7 +237,18 @@ class Prolongation:
         return np.asarray(basis.insert(self._first, self._weights, coefficients))
 
 
-def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, least: int = 8) -> FloatArray:
+def running_integral(values: FloatArray, places: FloatArray) -> FloatArray:
+    """Integral (m,) of what has ``values`` (m,) at ``places`` (m,), from the first of these on, by trapezia."""
+    steps = 0.5 * (values[1:] + values[:-1]) * np.diff(places)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+NOWHERE = np.empty(0)
+
+
+def graded_mesh(
+    wavenumber: FloatArray, places: FloatArray, per_radian: float, least: int = 8, breaks: FloatArray = NOWHERE
+) -> FloatArray:
     """Mesh points whose density follows a local wavenumber.
 
     Parameters
@@ -247,15 +258,22 @@ def graded_mesh(wavenumber: FloatArray, places: FloatArray, per_radian: float, l
     per_radian
         Elements per radian of ∫ k ds.
     least
-        Smallest number of elements.
+        Smallest number of elements: of a stretch between breaks, its part.
+    breaks
+        Places inside, rising, (k,), that are mesh points, to the last bit.
     """
-    steps = 0.5 * (wavenumber[1:] + wavenumber[:-1]) * np.diff(places)
-    phase = np.concatenate([[0.0], np.cumsum(steps)])
-    count = max(least, int(np.ceil(per_radian * phase[-1])))
-    count += count % 2  # a mesh point at s = 1/2 where the wavenumber is symmetric
-    mesh = np.interp(np.linspace(0.0, phase[-1], count + 1), phase, places)
+    phase = running_integral(wavenumber, places)
+    ends = np.concatenate([[0.0], breaks, [1.0]])
+    at = np.interp(ends, places, phase)
+    counts = np.maximum(np.ceil(per_radian * np.diff(at)), np.ceil(least * np.diff(ends))).astype(int)
+    middle = (ends[:-1] < 0.5) & (ends[1:] > 0.5)
+    counts[middle] += counts[middle] % 2  # a mesh point at s = 1/2 where the wavenumber is symmetric
+    stretches = zip(at[:-1], at[1:], counts, strict=True)
+    even = np.concatenate([*(np.linspace(low, high, n, endpoint=False) for low, high, n in stretches), at[-1:]])
+    mesh = np.interp(even, phase, places)
     mesh[0], mesh[-1] = 0.0, 1.0
     mirrored = 1.0 - mesh[::-1]
     if np.allclose(mesh, mirrored, rtol=0.0, atol=MESH_SYMMETRY):
         mesh = 0.5 * (mesh + mirrored)
+    mesh[np.cumsum(counts)[:-1]] = breaks
     return np.asarray(mesh)
