@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -162,6 +162,34 @@ class Rod:
     def plain(self) -> bool:
         """Whether it is the uniform rod that everything is a ratio to."""
         return self.sections == PLAIN
+
+
+def sections_from(text: str, name: str = "sections") -> list[list[float]]:
+    """Numbers of sections as they are written in a line, ``0.6:1:1, 0.4:0.3:0.5``; what they must be is checked later.
+
+    Raises
+    ------
+    InputError
+        Naming the section that cannot be read; ``name`` is what the text is called.
+    """
+    found = []
+    for number, section in enumerate(text.split(","), 1):
+        try:
+            found.append([float(part) for part in section.split(":")])
+        except ValueError:
+            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, sections parted by commas"
+            raise InputError(f"{name}, section {number}", section, what) from None
+    return found
+
+
+def sections_text(sections: Iterable[Sequence[float]]) -> str:
+    """Sections written in a line, as :func:`sections_from` reads them: ratios of 1 at the end are left out."""
+    lines = []
+    for length, *ratios in sections:
+        while len(ratios) > 1 and ratios[-1] == 1.0:
+            ratios.pop()
+        lines.append(":".join(f"{number!r}".removesuffix(".0") for number in (length, *ratios)))
+    return ",".join(lines)
 
 
 def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
