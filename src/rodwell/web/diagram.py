@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.path.events import Leg, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.ordinates import ORDINATES, telling
+from rodwell.quantities.text import plain as text
 from rodwell.quantities.value import Value
 from rodwell.report.reports.texts import KINDS
 from rodwell.web import off_wall
@@ -33,7 +34,7 @@ def plain(explored: Explored) -> dict[str, Any]:
         "ordinate": ORDINATES[chosen][0],
         "range": low_high,
         "suggested": explored.suggested,
-        "buckles": explored.load_data(explored.computed.buckling),
+        "buckles": _buckles(explored),
         "lifts_off": None if lift is None else explored.load_data(lift),
         "straight": _straight(explored),
         "branches": [
@@ -41,9 +42,24 @@ def plain(explored: Explored) -> dict[str, Any]:
             *_legs(explored),
         ],
         "snaps_at": _snap(explored),
+        "sections": _sections(explored),
         "unexplored": list(explored.unexplored),
         "rtol": explored.case.rtol,
     }
+
+
+def _sections(explored: Explored) -> list[dict[str, str]]:
+    """The sections of a string of a case with dimensions from the bottom: what they are in the problem, as ratios."""
+    string, names = explored.case.string, dict[str, str]()
+    lengths, ratios = dict[str, float](), dict[str, tuple[float, float]]()
+    members = [] if string is None else zip(string.members, string.sections, strict=True)
+    for member, (length, stiffness, weight, *_) in members:
+        lengths[member.key] = lengths.get(member.key, 0.0) + length
+        ratios[member.key], names[member.key] = (stiffness, weight), member.name
+    return [
+        {"name": names[key], "length": text(lengths[key], 4), "stiffness": text(b, 4), "weight": text(w, 4)}
+        for key, (b, w) in ratios.items()
+    ]
 
 
 def _legs(explored: Explored) -> list[dict[str, Any]]:
@@ -62,8 +78,23 @@ def _snap(explored: Explored) -> dict[str, Any]:
     return {"text": f"not up to {explored.load_data(Value(off_wall.farthest(explored.path)))['text']}", "load": None}
 
 
-def _straight(explored: Explored) -> dict[str, Any]:
-    """The straight rod: where it meets its modes."""
+def _buckles(explored: Explored) -> dict[str, Any]:
+    """Where the rod buckles; of one that lies in a hole out of the vertical plane and does not, that in words."""
+    lying = explored.computed.lying
+    if lying is None or lying.buckled is not None:
+        return explored.load_data(explored.computed.buckling)
+    lowest = explored.load_data(lying.lowest)
+    if lying.end is None:
+        return {"text": f"not up to {lowest['text']}", "load": None}
+    if lying.end.kind == LIFT_OFF:
+        return {"text": "not before it lifts off", "load": None}
+    return lowest | {"text": f"loses its stability at {lowest['text']}"}
+
+
+def _straight(explored: Explored) -> dict[str, Any] | None:
+    """The straight rod: where it meets its modes; None where none lies in the hole."""
+    if explored.computed.lying is not None:
+        return None
     met = [explored.load_data(mode.load) | {"mode": mode.number} for mode in explored.computed.critical]
     return {"name": STRAIGHT, "critical": met, "buckles": explored.shown(explored.computed.buckling.value)}
 

@@ -14,7 +14,7 @@ from rodwell.analysis.branch.exploring import Exploration, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.analysis.straight.lying import refuse_spatial
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
@@ -96,9 +96,9 @@ class Explored:
 
     @cached_property
     def factors(self) -> dict[Measured, tuple[float, str]]:
-        """Factor and unit of each ordinate: they suit the largest of all branches."""
+        """Factor and unit of each ordinate: they suit the largest of all branches; none before there are any."""
         out = {}
-        for which, (name, _) in ORDINATES.items():
+        for which, (name, _) in ORDINATES.items() if self.branches else ():
             top = max(float(np.max(np.abs(branch.numbers(which)))) for branch in self.branches)
             out[which] = axis(name, self.case.scales, top)
         return out
@@ -106,7 +106,7 @@ class Explored:
     def ordinates(self, at: Mapping[Measured, float]) -> dict[str, float]:
         """Measured numbers as the ordinates show them, by name."""
         return {
-            name: float(at[which]) * self.factors[which][0] for which, (name, _) in ORDINATES.items() if which in at
+            ORDINATES[which][0]: float(at[which]) * factor for which, (factor, _) in self.factors.items() if which in at
         }
 
     def __getitem__(self, name: str) -> Branch:
@@ -121,10 +121,13 @@ class Explored:
 
     @property
     def suggested(self) -> float:
-        """The load to begin with: the one that acts, or one between buckling and lift-off."""
+        """The load to begin with: the one that acts, or one between buckling and lift-off, or rest and what ends it."""
+        lying = self.computed.lying
         if self.case.applied:
             return float(f"{self.shown(min(load.force for load in self.case.applied)):.12g}")  # as it was given
         buckles, lift = self.computed.buckling.value, self.computed.lift_off
+        if lying is not None and lying.buckled is None:
+            return float(f"{self.shown(lying.rest.force + 0.6 * (buckles - lying.rest.force)):.4g}")
         end = self.computed.first.force.min() if lift is None or lift.force == buckles else lift.force
         return float(f"{self.shown(buckles + 0.6 * (float(end) - buckles)):.4g}")
 
@@ -145,6 +148,11 @@ def newtons(case: Case) -> float:
     return 1.0 if case.scales is None else case.scales.factor("force")
 
 
+def uncomputed(data: Mapping[str, Any], case: Case, unit: tuple[float, str]) -> Explored:
+    """Return what says how loads of a case are shown before anything of it is computed."""
+    return Explored(data, Computed(case, CriticalLoads(()), (), 0.0), (), unit=unit)
+
+
 def explore(
     data: Mapping[str, Any], case: Case, tell: Progress, reached: Reached, unit: tuple[float, str] | None = None
 ) -> Explored:
@@ -157,27 +165,38 @@ def explore(
     tell
         Called with what is being done; what it raises ends the computation.
     reached
-        Called as soon as the primary branches are there, and when all is done.
+        Called as soon as the first branch is there, with all primary ones, and when all is done.
     unit
         As in :class:`Explored`.
 
     Raises
     ------
     InputError
-        For a hole that leaves the vertical plane, where the rod has no critical loads.
+        As of :func:`rodwell.answers.result.computed.compute`.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started.
     """
-    refuse_spatial(case.problem)
-    computed = compute(case, tell)
-    branches = list(computed.branches)
-    if computed.other_arm is not None:
-        branches.append(computed.other_arm)
-    first = Explored(data, computed, tuple(branches), unit=unit)
-    reached(first, False)
+
+    def so_far(computed: Computed) -> Explored:
+        branches = [*computed.branches, *filter(None, [computed.other_arm])]
+        return Explored(data, computed, tuple(branches), unit=unit)
+
+    def begun(computed: Computed) -> None:
+        nonlocal unit
+        known = so_far(computed)
+        unit = known.kept_unit  # what follows is shown in it too
+        reached(known, False)
+
+    computed = compute(case, tell, begun)
+    first = so_far(computed)
+    if computed.lying is not None:  # what leaves its branch is among its branches
+        reached(first, True)
+        return first
+    if len(computed.branches) > 1:
+        reached(first, False)
     how = Following(case.rtol, LARGEST_STEP)
     work = Exploration(case.problem, computed.critical, computed.until, how)
-    work.branches += branches
+    work.branches += first.branches
     work.follow_secondary(tell)
     whole = Explored(data, computed, tuple(work.branches), tuple(work.unexplored), unit)
     reached(whole, True)

@@ -6,7 +6,7 @@ import copy
 import csv
 import io
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -95,7 +95,7 @@ def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
     """Return the case with an end force F in B/L² as the load that acts: as data, and as the text of a file."""
     data: dict[str, Any] = copy.deepcopy(dict(explored.data))
     load, case = dict(data.get("load", {})), explored.case
-    less = case.problem.axial_weight if load.get("at") == "bottom" else 0.0
+    less = weight_below(case, load)
     load["applied"] = force_text(case, force - less)
     if "until" in load and case.until is not None:
         load["until"] = force_text(case, min(case.until, force) - less)
@@ -103,6 +103,11 @@ def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
         load["kind"] = "effective"
     data["load"] = load
     return data, as_toml(data)
+
+
+def weight_below(case: Case, load: Mapping[str, Any]) -> float:
+    """By how much F is above the force that a case file gives with this [load], in B/L²: the rod's own weight."""
+    return case.problem.hung_weight if load.get("at") == "bottom" else 0.0
 
 
 def force_text(case: Case, force: float) -> Any:
