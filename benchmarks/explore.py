@@ -242,9 +242,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="random moves for so long instead")
     minutes = parser.parse_args().soak
-    known = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
     with sync_playwright() as play:
-        known |= {"soak": soak(play, minutes)} if minutes else {"speeds": speeds(play)}
+        found = {"soak": soak(play, minutes)} if minutes else {"speeds": speeds(play)}
+    for measured in found.values():
+        measured["load_average"] = os.getloadavg()[2]  # of the last 15 minutes: above 2, others were computing too
+    known = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    known |= found
     known["machine"] = f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}"
     text = json.dumps(known, indent=2, default=float)
     print(text)

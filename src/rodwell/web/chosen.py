@@ -11,10 +11,7 @@ from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit
 from rodwell.report.reports.texts import KINDS as LABELS
 from rodwell.web import off_wall, state
-from rodwell.web.explored import STRAIGHT, Explored
-
-LARGEST_LOAD = 1e12
-"""In the unit of the page: beyond lies no load of any rod."""
+from rodwell.web.explored import STRAIGHT, Explored, checked_load
 
 
 @dataclass(frozen=True)
@@ -58,13 +55,6 @@ def chosen(found: Explored, request: Mapping[str, Any]) -> Chosen:
         name, states = STRAIGHT, state.states_of(found, STRAIGHT, force)
     which = min(max(which, 0), len(states) - 1)
     return Chosen(states[which], name, which, len(states), note)
-
-
-def checked_load(name: str, load: object) -> float:
-    """Return a load as the page shows it, or raise."""
-    if isinstance(load, bool) or not isinstance(load, int | float) or not abs(load) < LARGEST_LOAD:
-        raise InputError(name, load, f"must be a number below {LARGEST_LOAD:g} in size")
-    return float(load)
 
 
 def _usual(found: Explored, force: float) -> str:

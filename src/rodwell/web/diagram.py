@@ -10,13 +10,9 @@ import numpy as np
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.path.events import Leg, PathPoint
-from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.quantities.text import plain as text
-from rodwell.quantities.value import Value
 from rodwell.report.reports.texts import KINDS
-from rodwell.web import off_wall
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
 
 
@@ -25,6 +21,7 @@ def plain(explored: Explored) -> dict[str, Any]:
     factors = explored.factors
     named = [{"name": name, "label": label, "unit": factors[w][1]} for w, (name, label) in ORDINATES.items()]
     chosen = telling(explored.branches, explored.case.scales)
+    beyond = _beyond(explored)
     lift, low_high = explored.computed.lift_off_load, explored.range
     return {
         "title": explored.case.title,
@@ -39,9 +36,9 @@ def plain(explored: Explored) -> dict[str, Any]:
         "straight": _straight(explored),
         "branches": [
             *(_branch(explored, branch) for branch in explored.branches),
-            *_legs(explored),
+            *beyond["branches"],
         ],
-        "snaps_at": _snap(explored),
+        "snaps_at": beyond["snaps_at"],
         "sections": _sections(explored),
         "unexplored": list(explored.unexplored),
         "rtol": explored.case.rtol,
@@ -62,20 +59,13 @@ def _sections(explored: Explored) -> list[dict[str, str]]:
     ]
 
 
-def _legs(explored: Explored) -> list[dict[str, Any]]:
-    """The load path as branches."""
-    path = explored.path
-    return [] if path is None else [_leg(explored, path, leg) for leg in path.legs if any(leg.runs)]
-
-
-def _snap(explored: Explored) -> dict[str, Any]:
-    """Where the rod snaps first as the load grows, or what is known instead, in words."""
+def _beyond(explored: Explored) -> dict[str, Any]:
+    """What is known of the rod beyond lift-off: its load path as branches, and where it snaps."""
     if explored.path is None:
-        return {"text": explored.no_path, "load": None}
-    snap = off_wall.snaps_at(explored.path)
-    if snap is not None:
-        return explored.load_data(snap.force) | {"to": snap.meaning}
-    return {"text": f"not up to {explored.load_data(Value(off_wall.farthest(explored.path)))['text']}", "load": None}
+        return {"branches": [], "snaps_at": {"text": explored.no_path, "load": None}}
+    from rodwell.web.legs import plain_path  # noqa: PLC0415 - the first diagram does not wait for it
+
+    return plain_path(explored, explored.path)
 
 
 def _buckles(explored: Explored) -> dict[str, Any]:
@@ -109,12 +99,12 @@ def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
         for point in (p for p in branch.special_points if p.after == i and p.kind not in ("critical", "end")):
             here = {which: float(point.solution.number(which).value) for which in Measured}
             states.append((point.force, here, point.index_after, point))
-    lines = _columns([explored.ordinates(at) for _, at, _, _ in states])
-    columns = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
+    lines = columns([explored.ordinates(at) for _, at, _, _ in states])
+    measured = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
     images = []
     for image in branch.images[1:]:
-        turned = image.numbers(columns)
-        images.append(_columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
+        turned = image.numbers(measured)
+        images.append(columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
     return {
         "name": branch.name,
         "mode": branch.mode.number if branch.mode else None,
@@ -131,40 +121,6 @@ def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
     }
 
 
-def _leg(explored: Explored, path: LoadPath, leg: Leg) -> dict[str, Any]:
-    """A leg of the load path as a branch; ``breaks`` are vertices to which a snap leads."""
-    runs, name = [run for run in leg.runs if run], off_wall.LEGS[leg.name]
-    states = [state for run in runs for state in run]
-    return {
-        "name": name,
-        "mode": None,
-        "parent": "",
-        "load": [explored.shown(state.load) for state in states],
-        "y": _columns([explored.ordinates(off_wall.ordinates(state)) for state in states]),
-        "images": [],
-        "index": [state.solved.index for state in states],
-        "off": [False] * len(states),
-        "breaks": np.cumsum([len(run) for run in runs])[:-1].tolist(),
-        "special": [_event(explored, event) for event in off_wall.events_of(path, name)],
-        "ended": path.ended_because,
-        "reached": path.reached,
-        "converged": not path.missed,
-    }
-
-
-def _event(explored: Explored, event: PathPoint) -> dict[str, Any]:
-    assert event.state is not None
-    return explored.load_data(event.force if event.to is None else event.to.force) | {
-        "kind": event.kind,
-        "label": event.meaning,
-        "y": explored.ordinates(off_wall.ordinates(event.state.fine)),
-        "index_before": None,
-        "index_after": event.state.stability_index,
-        "s": list(event.s),
-        "converged": event.met,
-    }
-
-
 def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[str, Any]:
     return explored.load_data(point.load) | {
         "kind": point.kind,
@@ -177,7 +133,8 @@ def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[st
     }
 
 
-def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+def columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+    """Numbers by name of many points, each a dictionary of one."""
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 

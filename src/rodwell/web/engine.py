@@ -1,26 +1,28 @@
-"""What is asked for, answered: diagrams, states, sentences, files. Runs in a process of its own, see ``worker``."""
+"""What is asked for, answered: diagrams here, and what is asked of a state. Runs in a process of its own."""
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import json
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.path.events import SNAP
 from rodwell.case.case import Case
 from rodwell.errors import InputError, RodwellError
-from rodwell.web import files, off_wall, state, words
-from rodwell.web.chosen import Chosen, checked_load, chosen
 from rodwell.web.diagram import plain
-from rodwell.web.explored import STRAIGHT, Explored, explore, uncomputed
-from rodwell.web.followed import Followed, followed
+from rodwell.web.explored import Explored, checked_load, explore, uncomputed
 from rodwell.web.given import Given
+from rodwell.web.inputs import force_text, weight_below
+
+if TYPE_CHECKING:
+    from rodwell.web.followed import Followed
+
+ASKED = ("state", "verdict", "details", "copy", "file", "snap")
+"""What is asked of a state."""
 
 KEPT = 6
 """Diagrams that are kept: those between which one goes back and forth."""
@@ -65,14 +67,18 @@ class Engine:
         RodwellError
             If it cannot be answered.
         """
-        kinds = {
-            "diagram": self._diagram, "path": self._path, "state": self._state, "verdict": self._verdict,
-            "details": self._details, "copy": self._copy, "file": self._file, "snap": self._snap,
-        }  # fmt: skip
         kind = request.get("kind")
-        if kind not in kinds:
-            raise InputError("kind", kind, f"must be one of {', '.join(kinds)}")
-        kinds[kind](request, send, check)
+        if kind not in ("diagram", "path", *ASKED):
+            raise InputError("kind", kind, f"must be one of diagram, path, {', '.join(ASKED)}")
+        if kind == "diagram":
+            self._diagram(request, send, check)
+        elif kind == "path":
+            self._path(request, send, check)
+        else:
+            found = self.explored(request, check)
+            from rodwell.web import asked  # noqa: PLC0415 - the first diagram does not wait for it
+
+            send(asked.answer(found, request) | {"last": True})
 
     def explored(self, request: Request, check: Callable[[], None], send: Send | None = None) -> Explored:
         """Return what was computed for the inputs of a request, computed now where it is not at hand."""
@@ -107,6 +113,8 @@ class Engine:
         wall = self.explored({**request, "path": False}, check)
         if wall.path is not None or wall.no_path:
             return wall
+        from rodwell.web import off_wall  # noqa: PLC0415 - the first diagram does not wait for it
+
         path, why = off_wall.followed(wall.computed, _seldom(self._teller(send, check), check))
         found = replace(wall, path=path, no_path=why)
         key = next(key for key, known in self._known.items() if known is wall)
@@ -129,7 +137,7 @@ class Engine:
         assert self._unit is not None
         end = uncomputed(data, case, self._unit).force(checked_load("until", shown))
         load = {**data.get("load", {})}
-        load["until"] = files.force_text(case, end - files.weight_below(case, load))
+        load["until"] = force_text(case, end - weight_below(case, load))
         load.pop("applied", None)
         if "pressure" in data:
             load["kind"] = "effective"
@@ -138,6 +146,9 @@ class Engine:
 
     def _followed(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         """Send the state that was shown, followed to the inputs of a request; nothing where it cannot be."""
+        from rodwell.web.followed import followed  # noqa: PLC0415 - the first diagram does not wait for it
+        from rodwell.web.state import plain_state  # noqa: PLC0415
+
         load, start = checked_load("load", request.get("load")), self._origin(request["from"])
         found = None if start is None else followed(start, *self.given.moved(request.get("inputs")), load, check)
         if found is None:
@@ -145,11 +156,14 @@ class Engine:
         self._kept[_followed_key(request, found.branch)] = found
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
-        shown = state.plain_state(found.explored, found.solution, found.branch, 0, 1, known=bool(request.get("known")))
+        shown = plain_state(found.explored, found.solution, found.branch, 0, 1, known=bool(request.get("known")))
         send({"kind": "followed", "state": shown | {"note": "", "asked": load}, "inputs": request.get("inputs") or {}})
 
     def _origin(self, origin: Request) -> Followed | None:
         """The state that was shown, if it is still known: one that was followed itself, or one of a branch."""
+        from rodwell.web.chosen import chosen  # noqa: PLC0415 - the first diagram does not wait for it
+        from rodwell.web.followed import Followed  # noqa: PLC0415
+
         known = self._kept.get(_followed_key(origin, origin.get("branch")))
         key = _key(origin)
         if known is not None or key not in self._known:
@@ -167,51 +181,6 @@ class Engine:
     def _path(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         found = self.explored({**request, "path": True}, check, send)
         send({"kind": "path", "diagram": plain(found), "whole": True, "last": True})
-
-    def _found(self, request: Request, check: Callable[[], None]) -> tuple[Explored, Chosen]:
-        """The state that is asked for, and what was computed for its inputs."""
-        found = self.explored(request, check)
-        return found, chosen(found, request)
-
-    def _state(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        found, it = self._found(request, check)
-        shown = state.plain_state(found, it.shown, it.branch, it.which, it.count, known=bool(request.get("known")))
-        send({"kind": "state", "state": shown | {"note": it.note, "asked": request["load"]}, "last": True})
-
-    def _snap(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        """The rod before and after a snap of the load path, to be drawn."""
-        found = self.explored(request, check)
-        name, number = str(request.get("branch")), request.get("special")
-        path = found.path
-        events = [] if path is None else off_wall.events_of(path, name)
-        snaps = {i: event for i, event in enumerate(events) if event.kind == SNAP}
-        if path is None or not isinstance(number, int) or isinstance(number, bool) or number not in snaps:
-            raise InputError("special", number, f"must be the number of a snap of {name}")
-        event = snaps[number]
-        assert event.state is not None
-        before: Any = off_wall.before_snap(path, event)
-        if before is None:
-            (before,) = state.states_of(found, STRAIGHT, event.force.value)
-        scenes = [state.seen_of(found, shown).data for shown in (before, event.state.fine)]
-        send({"kind": "snap", "scenes": scenes, "last": True})
-
-    def _verdict(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        found = self.explored(request, check)
-        send({"kind": "verdict", "text": words.sentence(found, found.force(float(request["load"]))), "last": True})
-
-    def _details(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        found, it = self._found(request, check)
-        send({"kind": "details", "details": state.details(found, it.shown), "last": True})
-
-    def _copy(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        found, it = self._found(request, check)
-        send({"kind": "copy", "texts": words.snippets(found, it.shown, it.branch, it.which), "last": True})
-
-    def _file(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        found, it = self._found(request, check)
-        content, kind = files.file_of(found, it.shown, str(request.get("suffix")))
-        text = base64.b64encode(content).decode()
-        send({"kind": "file", "suffix": request["suffix"], "type": kind, "content": text, "last": True})
 
 
 def _key(request: Request) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,20 +13,25 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Exploration, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
+from rodwell.errors import InputError
 from rodwell.plots.ordinates import ORDINATES
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
-from rodwell.web import off_wall
+
+if TYPE_CHECKING:
+    from rodwell.analysis.path.load_path import LoadPath
 
 STRAIGHT = "straight"
 """Name of the straight rod among the branches."""
+
+LARGEST_LOAD = 1e12
+"""In the unit of the page: beyond lies no load of any rod."""
 
 NO_PULL = 1e-9
 """A pull below this part of what presses the rod to the wall is round-off."""
@@ -117,7 +122,7 @@ class Explored:
         """Least and largest load as shown: from the unloaded rod, or some tension, to the end of the first branch."""
         buckles, last = self.shown(self.computed.buckling.value), self.shown(float(self.computed.first.force.min()))
         low = min(0.0, buckles - 0.4 * (last - buckles))
-        return low, last if self.path is None else max(last, self.shown(off_wall.farthest(self.path)))
+        return low, last if self.path is None else max(last, self.shown(farthest(self.path)))
 
     @property
     def suggested(self) -> float:
@@ -141,6 +146,18 @@ class Explored:
             "force": load.value,
             "text": text if self.case.scales is None else self.forces.load(load),
         }
+
+
+def checked_load(name: str, load: object) -> float:
+    """Return a load as the page shows it, or raise."""
+    if isinstance(load, bool) or not isinstance(load, int | float) or not abs(load) < LARGEST_LOAD:
+        raise InputError(name, load, f"must be a number below {LARGEST_LOAD:g} in size")
+    return float(load)
+
+
+def farthest(path: LoadPath) -> float:
+    """The end force in B/L² up to which a rod was loaded on its load path."""
+    return float(path.curve["force"].min())
 
 
 def newtons(case: Case) -> float:

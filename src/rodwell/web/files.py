@@ -6,18 +6,17 @@ import copy
 import csv
 import io
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.state import ContactState
-from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.report.folders.export import export
 from rodwell.web.explored import Explored
-from rodwell.web.inputs import as_toml
+from rodwell.web.inputs import as_toml, force_text, weight_below
 
 Written = tuple[bytes, str]
 """Content of a file, and what kind it is."""
@@ -103,16 +102,3 @@ def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
         load["kind"] = "effective"
     data["load"] = load
     return data, as_toml(data)
-
-
-def weight_below(case: Case, load: Mapping[str, Any]) -> float:
-    """By how much F is above the force that a case file gives with this [load], in B/L²: the rod's own weight."""
-    return case.problem.hung_weight if load.get("at") == "bottom" else 0.0
-
-
-def force_text(case: Case, force: float) -> Any:
-    """A force in B/L², tension positive, as a case file has it, with every digit."""
-    if case.scales is None:
-        return force
-    size = abs(force) * case.scales.factor("force")
-    return f"{size!r} N {'compression' if force <= 0.0 else 'tension'}"

@@ -246,6 +246,19 @@ def _put_sections(data: dict[str, Any], value: object) -> None:
         data["dimensionless"]["sections"] = value
 
 
+def weight_below(case: Case, load: Mapping[str, Any]) -> float:
+    """By how much F is above the force that a case file gives with this [load], in B/L²: the rod's own weight."""
+    return case.problem.hung_weight if load.get("at") == "bottom" else 0.0
+
+
+def force_text(case: Case, force: float) -> Any:
+    """A force in B/L², tension positive, as a case file has it, with every digit."""
+    if case.scales is None:
+        return force
+    size = abs(force) * case.scales.factor("force")
+    return f"{size!r} N {'compression' if force <= 0.0 else 'tension'}"
+
+
 def as_toml(data: Mapping[str, Any]) -> str:
     """Return the content of a case file as text."""
     nested = [(f"[{name}]", value) for name, value in data.items() if isinstance(value, Mapping)]

@@ -23,7 +23,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     """Answer requests from a pipe until it closes.
 
     A request is a pair (number, dictionary). An answer is (number, last, text), text being JSON; the first, with number
-    0, says what is explored, or why it cannot be.
+    0, says what is explored, or why it cannot be; the second, with the same, that there is an engine to compute.
 
     Parameters
     ----------
@@ -48,6 +48,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow: the page is loaded meanwhile
 
     engine = Engine(given)
+    pipe.send((0, True, ""))
     if not pipe.poll():
         with contextlib.suppress(RodwellError, Cancelled):  # what the page asks for first; what fails is told then
             engine.explored({}, lambda: None)
