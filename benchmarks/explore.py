@@ -32,22 +32,60 @@ FLAGS = [
     "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-precise-memory-info",
     "--js-flags=--expose-gc", "--disable-gpu-rasterization",
 ]  # fmt: skip
-DRAG = """async (seconds) => {
-    const rw = window.__rodwell, slider = document.querySelector("#load-control input[type=range]");
-    const low = Number(document.querySelector("#load-control input[type=range]").min), high = Number(slider.max);
-    const first = rw.updates, began = performance.now(), loads = [];
+DRAG = """async ({ control, from, to, seconds }) => {
+    const rw = window.__rodwell, slider = document.querySelector(`${control} input[type=range]`);
+    const field = document.querySelector(`${control} input[type=number]`);
+    const low = Number(slider.min), high = Number(slider.max), shown = [];
+    const first = rw.updates, began = performance.now();
     rw.times.length = 0;
     let seen = first;
     while (performance.now() - began < 1e3 * seconds) {
         const t = (performance.now() - began) / (1e3 * seconds);
-        slider.value = low + (0.4 + 0.3 * t) * (high - low);
+        slider.value = low + (from + (to - from) * t) * (high - low);
         slider.dispatchEvent(new Event("input"));
         await new Promise((done) => requestAnimationFrame(done));
-        if (rw.updates !== seen) { seen = rw.updates; loads.push(rw.values ? rw.values.load : NaN); }
+        if (rw.updates !== seen) { seen = rw.updates; shown.push(Number(field.value)); }
     }
+    const states = (rw.updates - first) / seconds;
+    slider.dispatchEvent(new Event("change"));
     const times = [...rw.times].sort((a, b) => a - b);
-    return { states_per_second: (rw.updates - first) / seconds, p95_ms: times[Math.floor(0.95 * (times.length - 1))],
-        median_ms: times[times.length >> 1], in_order: loads.every((load, i) => !i || load >= loads[i - 1]) };
+    return { states_per_second: states, p95_ms: times[Math.floor(0.95 * (times.length - 1))],
+        median_ms: times[times.length >> 1], in_order: shown.every((value, i) => !i || value >= shown[i - 1]) };
+}"""
+LOAD = {"control": "#load-control", "from": 0.4, "to": 0.7}
+INPUT = {"control": "#controls .control", "from": 0.34, "to": 0.4}
+CANCEL = """async (name) => {
+    const address = new URL("talk", location.href);
+    address.protocol = "ws:";
+    address.hash = "";
+    const socket = new WebSocket(address), value = Number(document.querySelector("#controls input[type=number]").value);
+    await new Promise((done) => { socket.onopen = done; });
+    const out = [];
+    for (let k = 0; k < 20; k++) {
+        const ask = (id) => {
+            const inputs = { [name]: value * (1 + 0.003 * id) };
+            socket.send(JSON.stringify({ kind: "diagram", id, inputs }));
+        };
+        ask(2 * k + 1);
+        await new Promise((done) => setTimeout(done, 60 + 20 * k));
+        const began = performance.now();
+        const ended = new Promise((done) => {
+            socket.onmessage = (event) => {
+                const message = JSON.parse(event.data);
+                if (message.id === 2 * k + 1 && message.last) done(message.kind);
+            };
+        });
+        ask(2 * k + 2);
+        if (await ended === "cancelled") out.push(performance.now() - began);
+        await new Promise((done) => {
+            socket.onmessage = (event) => {
+                const message = JSON.parse(event.data);
+                if (message.last && message.id === 2 * k + 2) done();
+            };
+        });
+    }
+    socket.close();
+    return { cancelled: out.length, longest_ms: Math.max(...out) };
 }"""
 TURN = """async (seconds) => {
     const stage = document.querySelector("#rod .stage"), canvas = stage.querySelector("canvas");
@@ -82,7 +120,9 @@ STEP = """async () => {
     while (performance.now() - began < 60000) {
         await new Promise((done) => setTimeout(done, 5));
         if (!out.loads_s && text("buckles") !== "…") out.loads_s = (performance.now() - began) / 1e3;
-        if (!out.first_branch_s && text("now") !== "…") out.first_branch_s = (performance.now() - began) / 1e3;
+        if (!out.state_s && text("now") !== "…") out.state_s = (performance.now() - began) / 1e3;
+        const drawn = !document.body.classList.contains("updating");
+        if (!out.first_branch_s && drawn) out.first_branch_s = (performance.now() - began) / 1e3;
         if (out.first_branch_s && out.loads_s && rw.ready) break;
     }
     out.whole_diagram_s = (performance.now() - began) / 1e3;
@@ -155,12 +195,15 @@ def speeds(play: Any) -> dict[str, Any]:
     """The figures that an idle machine is asked for."""
     one = Explorer(play)
     out: dict[str, Any] = {"first_diagram_s": one.first, "first_page_kB": one.bytes / 1e3}
-    one.page.evaluate(DRAG, 3.0)  # the first frames are those in which the browser makes its shaders
+    one.page.evaluate(DRAG, LOAD | {"seconds": 3.0})  # in the first frames the browser makes its shaders
     one.until("window.__rodwell.ready")
-    out["drag"] = one.page.evaluate(DRAG, 5.0)
+    out["drag"] = one.page.evaluate(DRAG, LOAD | {"seconds": 5.0})
+    one.until("window.__rodwell.ready")
+    out["drag_an_input"] = one.page.evaluate(DRAG, INPUT | {"seconds": 5.0})
     one.until("window.__rodwell.ready")
     out["turn"] = one.page.evaluate(TURN, 3.0)
     out["one_per_cent"] = one.page.evaluate(STEP)
+    out["cancel"] = one.page.evaluate(CANCEL, "rod.length")
     out["left_after_ctrl_c"] = len(one.end(signal.SIGINT))
     one.browser.close()
     return out
@@ -199,9 +242,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="random moves for so long instead")
     minutes = parser.parse_args().soak
-    known = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
     with sync_playwright() as play:
-        known |= {"soak": soak(play, minutes)} if minutes else {"speeds": speeds(play)}
+        found = {"soak": soak(play, minutes)} if minutes else {"speeds": speeds(play)}
+    for measured in found.values():
+        measured["load_average"] = os.getloadavg()[2]  # of the last 15 minutes: above 2, others were computing too
+    known = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    known |= found
     known["machine"] = f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}"
     text = json.dumps(known, indent=2, default=float)
     print(text)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rodwell import Case
+from rodwell import Case, InputError, Problem
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import readable
 from rodwell.quantities.units import to_si
@@ -112,3 +112,22 @@ def test_readable_numbers_mean_what_they_say(value: float) -> None:
     number, unit = readable(value, "N", 6).replace("−", "-").split(" ")
     factor = {"GN": 1e9, "MN": 1e6, "kN": 1e3, "N": 1.0, "mN": 1e-3, "µN": 1e-6, "nN": 1e-9}[unit]
     assert float(number) * factor == pytest.approx(value, rel=1e-5)
+
+
+def test_a_case_without_dimensions_takes_sections_and_a_bent_hole() -> None:
+    """As the options of the commands say them: `--sections`, `--build`, `--walk`."""
+    base = {"weight": 15.0, "alpha": 60.0}
+    case = Case.from_dict({"dimensionless": base | {"sections": "0.6:1:1, 0.4:0.3:0.5"}})
+    assert case.problem == Problem(15.0, 60.0, sections=[(0.6, 1.0, 1.0), (0.4, 0.3, 0.5)])
+    bent = Case.from_dict({"dimensionless": base | {"build": 0.2, "walk": -0.1}})
+    assert bent.problem == Problem(15.0, 60.0, build=0.2, walk=-0.1)
+    for wrong, what in (
+        ({"sections": "0.6:one"}, r"dimensionless\.sections, section 1 = '0.6:one': must be length:stiffness"),
+        ({"sections": "0.6:1,0.6:2"}, r"dimensionless\.sections = '0.6:1,0.6:2': .* must add up to 1, not to 1.2"),
+        ({"sections": "0.5:1,0.5:-2"}, r"dimensionless\.section 2, stiffness = -2"),
+        ({"sections": [0.5, 0.5]}, r"dimensionless\.sections"),
+        ({"build": 200.0}, r"dimensionless\.build = 200.*radius"),
+        ({"build": 0.1, "sections": "0.5:1,0.5:2"}, r"dimensionless\.sections.*straight holes"),
+    ):
+        with pytest.raises(InputError, match=what):
+            Case.from_dict({"dimensionless": base | wrong})

@@ -13,6 +13,7 @@ import rodwell
 from rodwell.errors import InputError
 from rodwell.web import off_wall
 from rodwell.web.engine import Cancelled, Engine
+from rodwell.web.given import Given
 from rodwell.web.worker import as_json
 
 FARTHEST, BACK = -124.5, -112.0
@@ -35,7 +36,7 @@ def engine() -> Iterator[Engine]:
     """The horizontal rod, followed a little beyond lift-off and back."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(off_wall.beyond, "reach", lambda _: (FARTHEST, BACK))
-        engine = Engine(None)
+        engine = Engine(Given(None))
         ask(engine, "path")
         yield engine
 
@@ -105,13 +106,13 @@ LOOSE = {"dimensionless.alpha": 0.0, "dimensionless.weight": 0.0, "load.twist": 
 
 
 def test_a_rod_that_nothing_presses_to_the_wall_and_is_twisted_says_why_there_is_none() -> None:
-    data = ask(Engine(None), "path", inputs=LOOSE)["diagram"]
+    data = ask(Engine(Given(None)), "path", inputs=LOOSE)["diagram"]
     assert [branch["name"] for branch in data["branches"] if branch["name"] in off_wall.LEGS.values()] == []
     assert "twist" in data["snaps_at"]["text"]
 
 
 def test_following_ends_at_once_where_something_newer_is_asked_for() -> None:
-    engine = Engine(None)
+    engine = Engine(Given(None))
     engine.answer({"kind": "diagram", "inputs": {}}, lambda _: None, never)
     seen: list[str] = []
 

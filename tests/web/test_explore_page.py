@@ -313,6 +313,69 @@ def test_a_load_that_moves_faster_than_states_are_computed_shows_states_on_the_w
     until(page, READY)
 
 
+DRAG_WEIGHT = """async () => {
+    const rw = window.__rodwell, slider = document.querySelector("#controls input[type=range]");
+    const field = document.querySelector("#input-dimensionless-weight"), out = [];
+    for (let k = 0; k < 60; k++) {
+        slider.value = 15 + 0.05 * k;
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((done) => setTimeout(done, 20));
+        const texts = ["buckles", "lifts-off", "diagram"].map((id) => document.getElementById(id).textContent);
+        if (rw.values) out.push([rw.updates, Number(field.value), rw.values, texts, Number(slider.value)]);
+    }
+    slider.dispatchEvent(new Event("change"));
+    return out;
+}"""
+
+
+def test_an_input_that_is_dragged_is_followed_by_the_state_shown(page: Any) -> None:
+    """Each state belongs to the inputs that the fields show, the slider being farther; loads of others are gone."""
+    before = updates(page)
+    seen = page.evaluate(DRAG_WEIGHT)
+    followed = [each for each in seen if each[0] > before and each[1] > 15.0]
+    assert followed
+    _, weight, shown, *_ = followed[len(followed) // 2]
+    state = rodwell.follow(rodwell.Problem(weight), mode=1, until=-125.0).at(-118.4)
+    assert shown["largest_push"] == pytest.approx(state.largest("contact_pressure").value, rel=1e-8)
+    assert shown["largest_angle"] == pytest.approx(state.largest("xi2").value, rel=1e-8)
+    assert all(texts == ["…", "…", ""] or weight == there for _, weight, _, texts, there in seen)
+    until(page, READY)
+    assert float(page.input_value("#input-dimensionless-weight")) == pytest.approx(17.95, rel=1e-3)
+    assert "dimensionless.weight=17.9" in page.url
+
+
+def test_sections_are_added_changed_and_removed(page: Any) -> None:
+    def critical() -> float:
+        until(page, READY)
+        return float(page.inner_text("#buckles").split()[0])
+
+    uniform = critical()
+    page.get_by_role("button", name="Add a section").click()
+    assert critical() == uniform  # two halves that are alike
+    for name, value in (("length", "0.6"), ("stiffness", "0.5")):
+        before = updates(page)
+        field = page.locator(f"#input-section-1-{name}")
+        field.fill(value)
+        field.press("Enter")
+        moved(page, before)
+    assert page.input_value("#input-section-2-length") == "0.4"  # makes up for it
+    problem = rodwell.Problem(15.0, sections=[(0.6, 0.5), (0.4, 1.0)])
+    assert critical() == pytest.approx(-rodwell.critical_loads(problem, 1)[0].force, rel=1e-5)
+    assert "sections=0.6%3A0.5%3A1%2C0.4%3A1%3A1" in page.url
+    page.locator("#input-section-1-length").fill("1.5")
+    page.keyboard.press("Enter")
+    assert "must be above 0 and leave something" in page.inner_text("#message")
+    page.set_viewport_size({"width": 390, "height": 700})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert serious(page) == []
+    page.set_viewport_size(SIZE)
+    page.get_by_role("button", name="remove section 2").click()
+    until(page, f"{READY} && !document.getElementById('input-section-2-length')")
+    page.get_by_role("button", name="remove section 1").click()
+    until(page, f"{READY} && !window.__rodwell.state.inputs.sections")
+    assert critical() == uniform
+
+
 def test_beyond_lift_off(page: Any) -> None:
     """The whole loop, while the wall's states can be moved; reference loads from theory-2, section 1."""
     go(page, "#load=140")
@@ -389,7 +452,7 @@ class SilentDesk:
 
     ends = "clamped-clamped"
     hello = json.dumps({"kind": "hello", "version": "0", "title": "A rod", "controls": [], "ends": ends,
-                        "all_ends": [ends], "modes": 1, "most_modes": 1})  # fmt: skip
+                        "all_ends": [ends], "modes": 1, "most_modes": 1, "sections": None})  # fmt: skip
 
     async def run(self) -> None:
         """Nothing to do."""

@@ -11,6 +11,8 @@ from rodwell.errors import InputError
 from rodwell.problem.checks import LIMITS
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import checked_sections
+from rodwell.problem.section_text import sections_from
 
 
 def check_sections(parsed: schema.CaseFile) -> None:
@@ -34,6 +36,7 @@ def dimensionless(
 ) -> tuple[Problem, float | None, tuple[AppliedLoad, ...]]:
     """Problem, and end forces at s = 1: N(s) = F + γ cos α (s − 1)."""
     assert given is not None
+    sections = [] if given.sections is None else sections_from(given.sections, "dimensionless.sections")
     try:
         problem = Problem(
             weight=abs(given.weight),
@@ -44,6 +47,9 @@ def dimensionless(
             torsion=given.torsion,
             twist=load.twist,
             ends=checked_ends(given.ends),
+            sections=checked_sections(sections),
+            build=given.build,
+            walk=given.walk,
         )
     except InputError as error:
         section = "load" if error.field == "twist" else "dimensionless"

@@ -34,6 +34,7 @@ from rodwell.case.kinds import (
     PositiveMoment,
     Pressure,
     SectionInput,
+    SectionsLine,
     Stiffness,
     Stress,
     TemperatureChange,
@@ -205,6 +206,13 @@ class Dimensionless(SectionInput):
     poisson: Number = _key(0.3, "Poisson's ratio ν", 0.3, allowed=POISSON)
     torsion: Number | None = _key(None, "C/B, instead of `poisson`; 1/(1 + ν) if not given", 13.0, allowed="above 0")
     ends: Ends = _key("clamped-clamped", "as in [rod]", "clamped-pinned")
+    sections: SectionsLine | None = _key(
+        None, "of a string from s = 0, `length:stiffness[:weight[:clearance[:torsion]]]` of each: lengths in L, which "
+        "add up to 1, the others ratios, 1 where left out", "0.6:1:1, 0.4:0.3:0.5",
+    )  # fmt: skip
+    build: Number = _key(0.0, "curvature of the hole in 1/L, positive where it is concave upward; `alpha` is then the "
+                         "inclination at mid-length", 0.2)  # fmt: skip
+    walk: Number = _key(0.0, "curvature of the hole in 1/L to the right, looking towards s = 0", 0.1)
     wall_stiffness: Number | None = _key(None, "k L⁴/B, as in [hole]", 1e6, allowed="above 0")
 
 

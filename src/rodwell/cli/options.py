@@ -124,11 +124,12 @@ def make_problem(given: dict[str, Any]) -> Problem:
         If it is no problem, or two options say the same thing.
     """
     from rodwell.problem.problem import Problem  # noqa: PLC0415
+    from rodwell.problem.section_text import sections_from  # noqa: PLC0415
 
     values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
     check_torsion(values)
     if "sections" in values:
-        values["sections"] = _sections(values["sections"])
+        values["sections"] = sections_from(values["sections"], "--sections")
     return Problem(**{"weight": 0.0, **values})
 
 
@@ -136,20 +137,6 @@ def check_torsion(given: Mapping[str, Any]) -> None:
     """Refuse Poisson's ratio beside the torsional stiffness that it would set."""
     if given.get("poisson") is not None and given.get("torsion") is not None:
         raise InputError("--poisson", given["poisson"], "has no effect beside --torsion, C/B as measured: give one")
-
-
-def _sections(text: str) -> list[list[float | list[float]]]:
-    """Numbers of ``--sections``, section by section; what they must be is checked with the problem."""
-    found = []
-    for number, section in enumerate(text.split(","), 1):
-        try:
-            parts = [[float(one) for one in part.split("/")] for part in section.split(":")]
-            found.append([part if len(part) > 1 else part[0] for part in parts])
-        except ValueError:
-            what = "must be length:stiffness[:weight[:clearance[:torsion]]], numbers, a taper's parted by /, sections "
-            what += "parted by commas"
-            raise InputError(f"--sections, section {number}", section, what) from None
-    return found
 
 
 def print_json(data: dict[str, Any], indent: int | None = None) -> None:

@@ -43,6 +43,8 @@ LABELS = {
     "dimensionless.poisson": "Poisson's ratio",
     "dimensionless.torsion": "torsional stiffness C/B",
     "dimensionless.ends": "ends",
+    "dimensionless.build": "build of the hole",
+    "dimensionless.walk": "walk of the hole",
 }
 """By key of the case file; a key that is not here is told by itself."""
 

@@ -46,7 +46,7 @@ class Desk:
     Parameters
     ----------
     start
-        The case, as :class:`rodwell.web.engine.Engine` takes it.
+        The case, as :class:`rodwell.web.given.Given` takes it.
     """
 
     def __init__(self, start: Start) -> None:
@@ -68,6 +68,7 @@ class Desk:
         )
         self._process.start()
         theirs.close()
+        self._awake: float | None = None  # since when it is known to compute, not to be importing what computes
 
     @property
     def process_id(self) -> int | None:
@@ -146,11 +147,13 @@ class Desk:
             last = False
             while not last:
                 if not await asyncio.to_thread(self._pipe.poll, 0.25):
-                    if self._told is not None and time.monotonic() - self._told > PATIENCE:
+                    told, awake = self._told, self._awake
+                    if told is not None and awake is not None and time.monotonic() - max(told, awake) > PATIENCE:
                         raise EOFError
                     continue
                 got, last, text = await asyncio.to_thread(self._pipe.recv)
-                last = last and got == number  # the first message says that the engine is ready
+                self._awake = self._awake or time.monotonic()
+                last = last and got == number  # the first messages say that there is a case, and then an engine
                 if got == number:
                     await job.reply(text)
         except (EOFError, OSError):

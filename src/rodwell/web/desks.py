@@ -15,7 +15,7 @@ class Desks:
     Parameters
     ----------
     start
-        The case, as :class:`rodwell.web.engine.Engine` takes it.
+        The case, as :class:`rodwell.web.given.Given` takes it.
     """
 
     def __init__(self, start: Start) -> None:

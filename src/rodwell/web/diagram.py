@@ -8,14 +8,11 @@ from typing import Any
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.path.events import Leg, PathPoint
-from rodwell.analysis.path.load_path import LoadPath
 from rodwell.plots.ordinates import ORDINATES, telling
-from rodwell.quantities.value import Value
+from rodwell.quantities.text import plain as text
 from rodwell.report.reports.texts import KINDS
-from rodwell.web import off_wall
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
 
 
@@ -24,6 +21,7 @@ def plain(explored: Explored) -> dict[str, Any]:
     factors = explored.factors
     named = [{"name": name, "label": label, "unit": factors[w][1]} for w, (name, label) in ORDINATES.items()]
     chosen = telling(explored.branches, explored.case.scales)
+    beyond = _beyond(explored)
     lift, low_high = explored.computed.lift_off_load, explored.range
     return {
         "title": explored.case.title,
@@ -33,37 +31,62 @@ def plain(explored: Explored) -> dict[str, Any]:
         "ordinate": ORDINATES[chosen][0],
         "range": low_high,
         "suggested": explored.suggested,
-        "buckles": explored.load_data(explored.computed.buckling),
+        "buckles": _buckles(explored),
         "lifts_off": None if lift is None else explored.load_data(lift),
         "straight": _straight(explored),
         "branches": [
             *(_branch(explored, branch) for branch in explored.branches),
-            *_legs(explored),
+            *beyond["branches"],
         ],
-        "snaps_at": _snap(explored),
+        "snaps_at": beyond["snaps_at"],
+        "sections": _sections(explored),
         "unexplored": list(explored.unexplored),
         "rtol": explored.case.rtol,
     }
 
 
-def _legs(explored: Explored) -> list[dict[str, Any]]:
-    """The load path as branches."""
-    path = explored.path
-    return [] if path is None else [_leg(explored, path, leg) for leg in path.legs if any(leg.runs)]
+def _sections(explored: Explored) -> list[dict[str, str]]:
+    """The sections of a string of a case with dimensions from the bottom: what they are in the problem, as ratios."""
+    string, names = explored.case.string, dict[str, str]()
+    lengths, ratios = dict[str, float](), dict[str, tuple[float, float]]()
+    members = [] if string is None else zip(string.members, string.sections, strict=True)
+    for member, (length, stiffness, weight, *_) in members:
+        assert isinstance(stiffness, float)
+        assert isinstance(weight, float)
+        lengths[member.key] = lengths.get(member.key, 0.0) + length
+        ratios[member.key], names[member.key] = (stiffness, weight), member.name
+    return [
+        {"name": names[key], "length": text(lengths[key], 4), "stiffness": text(b, 4), "weight": text(w, 4)}
+        for key, (b, w) in ratios.items()
+    ]
 
 
-def _snap(explored: Explored) -> dict[str, Any]:
-    """Where the rod snaps first as the load grows, or what is known instead, in words."""
+def _beyond(explored: Explored) -> dict[str, Any]:
+    """What is known of the rod beyond lift-off: its load path as branches, and where it snaps."""
     if explored.path is None:
-        return {"text": explored.no_path, "load": None}
-    snap = off_wall.snaps_at(explored.path)
-    if snap is not None:
-        return explored.load_data(snap.force) | {"to": snap.meaning}
-    return {"text": f"not up to {explored.load_data(Value(off_wall.farthest(explored.path)))['text']}", "load": None}
+        return {"branches": [], "snaps_at": {"text": explored.no_path, "load": None}}
+    from rodwell.web.legs import plain_path  # noqa: PLC0415 - the first diagram does not wait for it
+
+    return plain_path(explored, explored.path)
 
 
-def _straight(explored: Explored) -> dict[str, Any]:
-    """The straight rod: where it meets its modes."""
+def _buckles(explored: Explored) -> dict[str, Any]:
+    """Where the rod buckles; of one that lies in a hole out of the vertical plane and does not, that in words."""
+    lying = explored.computed.lying
+    if lying is None or lying.buckled is not None:
+        return explored.load_data(explored.computed.buckling)
+    lowest = explored.load_data(lying.lowest)
+    if lying.end is None:
+        return {"text": f"not up to {lowest['text']}", "load": None}
+    if lying.end.kind == LIFT_OFF:
+        return {"text": "not before it lifts off", "load": None}
+    return lowest | {"text": f"loses its stability at {lowest['text']}"}
+
+
+def _straight(explored: Explored) -> dict[str, Any] | None:
+    """The straight rod: where it meets its modes; None where none lies in the hole."""
+    if explored.computed.lying is not None:
+        return None
     met = [explored.load_data(mode.load) | {"mode": mode.number} for mode in explored.computed.critical]
     return {"name": STRAIGHT, "critical": met, "buckles": explored.shown(explored.computed.buckling.value)}
 
@@ -78,12 +101,12 @@ def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
         for point in (p for p in branch.special_points if p.after == i and p.kind not in ("critical", "end")):
             here = {which: float(point.solution.number(which).value) for which in Measured}
             states.append((point.force, here, point.index_after, point))
-    lines = _columns([explored.ordinates(at) for _, at, _, _ in states])
-    columns = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
+    lines = columns([explored.ordinates(at) for _, at, _, _ in states])
+    measured = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
     images = []
     for image in branch.images[1:]:
-        turned = image.numbers(columns)
-        images.append(_columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
+        turned = image.numbers(measured)
+        images.append(columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
     return {
         "name": branch.name,
         "mode": branch.mode.number if branch.mode else None,
@@ -100,40 +123,6 @@ def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
     }
 
 
-def _leg(explored: Explored, path: LoadPath, leg: Leg) -> dict[str, Any]:
-    """A leg of the load path as a branch; ``breaks`` are vertices to which a snap leads."""
-    runs, name = [run for run in leg.runs if run], off_wall.LEGS[leg.name]
-    states = [state for run in runs for state in run]
-    return {
-        "name": name,
-        "mode": None,
-        "parent": "",
-        "load": [explored.shown(state.load) for state in states],
-        "y": _columns([explored.ordinates(off_wall.ordinates(state)) for state in states]),
-        "images": [],
-        "index": [state.solved.index for state in states],
-        "off": [False] * len(states),
-        "breaks": np.cumsum([len(run) for run in runs])[:-1].tolist(),
-        "special": [_event(explored, event) for event in off_wall.events_of(path, name)],
-        "ended": path.ended_because,
-        "reached": path.reached,
-        "converged": not path.missed,
-    }
-
-
-def _event(explored: Explored, event: PathPoint) -> dict[str, Any]:
-    assert event.state is not None
-    return explored.load_data(event.force if event.to is None else event.to.force) | {
-        "kind": event.kind,
-        "label": event.meaning,
-        "y": explored.ordinates(off_wall.ordinates(event.state.fine)),
-        "index_before": None,
-        "index_after": event.state.stability_index,
-        "s": list(event.s),
-        "converged": event.met,
-    }
-
-
 def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[str, Any]:
     return explored.load_data(point.load) | {
         "kind": point.kind,
@@ -146,7 +135,8 @@ def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[st
     }
 
 
-def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+def columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+    """Numbers by name of many points, each a dictionary of one."""
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,20 +13,25 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Exploration, Progress
 from rodwell.analysis.branch.follow import LARGEST_STEP, Following
 from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.path.load_path import LoadPath
-from rodwell.analysis.straight.lying import refuse_spatial
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.computed import Computed, compute
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
+from rodwell.errors import InputError
 from rodwell.plots.ordinates import ORDINATES
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
-from rodwell.web import off_wall
+
+if TYPE_CHECKING:
+    from rodwell.analysis.path.load_path import LoadPath
 
 STRAIGHT = "straight"
 """Name of the straight rod among the branches."""
+
+LARGEST_LOAD = 1e12
+"""In the unit of the page: beyond lies no load of any rod."""
 
 NO_PULL = 1e-9
 """A pull below this part of what presses the rod to the wall is round-off."""
@@ -96,9 +101,9 @@ class Explored:
 
     @cached_property
     def factors(self) -> dict[Measured, tuple[float, str]]:
-        """Factor and unit of each ordinate: they suit the largest of all branches."""
+        """Factor and unit of each ordinate: they suit the largest of all branches; none before there are any."""
         out = {}
-        for which, (name, _) in ORDINATES.items():
+        for which, (name, _) in ORDINATES.items() if self.branches else ():
             top = max(float(np.max(np.abs(branch.numbers(which)))) for branch in self.branches)
             out[which] = axis(name, self.case.scales, top)
         return out
@@ -106,7 +111,7 @@ class Explored:
     def ordinates(self, at: Mapping[Measured, float]) -> dict[str, float]:
         """Measured numbers as the ordinates show them, by name."""
         return {
-            name: float(at[which]) * self.factors[which][0] for which, (name, _) in ORDINATES.items() if which in at
+            ORDINATES[which][0]: float(at[which]) * factor for which, (factor, _) in self.factors.items() if which in at
         }
 
     def __getitem__(self, name: str) -> Branch:
@@ -117,14 +122,17 @@ class Explored:
         """Least and largest load as shown: from the unloaded rod, or some tension, to the end of the first branch."""
         buckles, last = self.shown(self.computed.buckling.value), self.shown(float(self.computed.first.force.min()))
         low = min(0.0, buckles - 0.4 * (last - buckles))
-        return low, last if self.path is None else max(last, self.shown(off_wall.farthest(self.path)))
+        return low, last if self.path is None else max(last, self.shown(farthest(self.path)))
 
     @property
     def suggested(self) -> float:
-        """The load to begin with: the one that acts, or one between buckling and lift-off."""
+        """The load to begin with: the one that acts, or one between buckling and lift-off, or rest and what ends it."""
+        lying = self.computed.lying
         if self.case.applied:
             return float(f"{self.shown(min(load.force for load in self.case.applied)):.12g}")  # as it was given
         buckles, lift = self.computed.buckling.value, self.computed.lift_off
+        if lying is not None and lying.buckled is None:
+            return float(f"{self.shown(lying.rest.force + 0.6 * (buckles - lying.rest.force)):.4g}")
         end = self.computed.first.force.min() if lift is None or lift.force == buckles else lift.force
         return float(f"{self.shown(buckles + 0.6 * (float(end) - buckles)):.4g}")
 
@@ -140,9 +148,26 @@ class Explored:
         }
 
 
+def checked_load(name: str, load: object) -> float:
+    """Return a load as the page shows it, or raise."""
+    if isinstance(load, bool) or not isinstance(load, int | float) or not abs(load) < LARGEST_LOAD:
+        raise InputError(name, load, f"must be a number below {LARGEST_LOAD:g} in size")
+    return float(load)
+
+
+def farthest(path: LoadPath) -> float:
+    """The end force in B/L² up to which a rod was loaded on its load path."""
+    return float(path.curve["force"].min())
+
+
 def newtons(case: Case) -> float:
     """B/L² in newtons; 1 for a dimensionless case."""
     return 1.0 if case.scales is None else case.scales.factor("force")
+
+
+def uncomputed(data: Mapping[str, Any], case: Case, unit: tuple[float, str]) -> Explored:
+    """Return what says how loads of a case are shown before anything of it is computed."""
+    return Explored(data, Computed(case, CriticalLoads(()), (), 0.0), (), unit=unit)
 
 
 def explore(
@@ -157,27 +182,38 @@ def explore(
     tell
         Called with what is being done; what it raises ends the computation.
     reached
-        Called as soon as the primary branches are there, and when all is done.
+        Called as soon as the first branch is there, with all primary ones, and when all is done.
     unit
         As in :class:`Explored`.
 
     Raises
     ------
     InputError
-        For a hole that leaves the vertical plane, where the rod has no critical loads.
+        As of :func:`rodwell.answers.result.computed.compute`.
     NotConvergedError
         If the critical loads cannot be computed, or the first branch cannot be started.
     """
-    refuse_spatial(case.problem)
-    computed = compute(case, tell)
-    branches = list(computed.branches)
-    if computed.other_arm is not None:
-        branches.append(computed.other_arm)
-    first = Explored(data, computed, tuple(branches), unit=unit)
-    reached(first, False)
+
+    def so_far(computed: Computed) -> Explored:
+        branches = [*computed.branches, *filter(None, [computed.other_arm])]
+        return Explored(data, computed, tuple(branches), unit=unit)
+
+    def begun(computed: Computed) -> None:
+        nonlocal unit
+        known = so_far(computed)
+        unit = known.kept_unit  # what follows is shown in it too
+        reached(known, False)
+
+    computed = compute(case, tell, begun)
+    first = so_far(computed)
+    if computed.lying is not None:  # what leaves its branch is among its branches
+        reached(first, True)
+        return first
+    if len(computed.branches) > 1:
+        reached(first, False)
     how = Following(case.rtol, LARGEST_STEP)
     work = Exploration(case.problem, computed.critical, computed.until, how)
-    work.branches += branches
+    work.branches += first.branches
     work.follow_secondary(tell)
     whole = Explored(data, computed, tuple(work.branches), tuple(work.unexplored), unit)
     reached(whole, True)

@@ -13,11 +13,10 @@ from typing import Any
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.state import ContactState
-from rodwell.case.case import Case
 from rodwell.errors import InputError
 from rodwell.report.folders.export import export
 from rodwell.web.explored import Explored
-from rodwell.web.inputs import as_toml
+from rodwell.web.inputs import as_toml, force_text, weight_below
 
 Written = tuple[bytes, str]
 """Content of a file, and what kind it is."""
@@ -95,7 +94,7 @@ def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
     """Return the case with an end force F in B/L² as the load that acts: as data, and as the text of a file."""
     data: dict[str, Any] = copy.deepcopy(dict(explored.data))
     load, case = dict(data.get("load", {})), explored.case
-    less = case.problem.axial_weight if load.get("at") == "bottom" else 0.0
+    less = weight_below(case, load)
     load["applied"] = force_text(case, force - less)
     if "until" in load and case.until is not None:
         load["until"] = force_text(case, min(case.until, force) - less)
@@ -103,11 +102,3 @@ def case_data(explored: Explored, force: float) -> tuple[dict[str, Any], str]:
         load["kind"] = "effective"
     data["load"] = load
     return data, as_toml(data)
-
-
-def force_text(case: Case, force: float) -> Any:
-    """A force in B/L², tension positive, as a case file has it, with every digit."""
-    if case.scales is None:
-        return force
-    size = abs(force) * case.scales.factor("force")
-    return f"{size!r} N {'compression' if force <= 0.0 else 'tension'}"

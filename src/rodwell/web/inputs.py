@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from rodwell.case import schema
 from rodwell.case.case import Case
 from rodwell.case.hole.schema import Hole
 from rodwell.errors import InputError
+from rodwell.quantities.units import to_si
 from rodwell.quantities.written import number_and_rest
 
 DEFAULT: dict[str, Any] = {
@@ -30,7 +31,9 @@ SECTIONS: dict[str, type[BaseModel]] = {
 }  # fmt: skip
 """Sections whose numbers can be moved; the load itself has a slider of its own."""
 
-NO_NUMBERS = ("pipe", "material", "grade", "ends", "at", "kind", "applied", "until", "yield_strength", "gravity")
+NO_NUMBERS = (
+    "pipe", "material", "grade", "ends", "at", "kind", "applied", "until", "yield_strength", "gravity", "sections"
+)  # fmt: skip
 """Keys that are names, that belong to the load, or that move nothing which is shown."""
 
 ENDS = tuple(
@@ -41,16 +44,23 @@ ENDS = tuple(
 MOST_MODES = 6
 """Branches that a page shows at most: more can hardly be told apart."""
 
+REACH = {"twist": ("moment", 10.0), "build": ("curvature", 0.3), "walk": ("curvature", 0.3)}
+"""Numbers of either sign: their dimension, and how far sliders go both ways in units of B and L."""
+
 TWIST_UNIT = {"si": "N m", "field": "ft lbf", "mm": "N mm"}
 WEIGHT_UNIT = {"si": (1.0, "N/m"), "field": (4.4482216152605 / 0.3048, "lbf/ft"), "mm": (1e3, "N/mm")}
 LABELS = {"dimensionless.weight": "weight γ", "dimensionless.alpha": "inclination α", "load.twist": "end twist T₁",
-          "dimensionless.clearance": "clearance Δ/L", "dimensionless.poisson": "Poisson's ratio ν"}  # fmt: skip
+          "dimensionless.clearance": "clearance Δ/L", "dimensionless.poisson": "Poisson's ratio ν",
+          "dimensionless.build": "build of the hole", "dimensionless.walk": "walk of the hole"}  # fmt: skip
 UNITS = {
     "dimensionless.weight": "B/L³",
     "dimensionless.alpha": "deg",
     "dimensionless.clearance": "",
+    "dimensionless.build": "1/L",
+    "dimensionless.walk": "1/L",
     "load.twist": "B/L",
 }
+BUILD_UNIT = {"si": "deg/30 m", "field": "deg/100 ft", "mm": "rad/m"}
 
 
 @dataclass(frozen=True)
@@ -93,11 +103,14 @@ def controls(data: Mapping[str, Any], case: Case) -> list[Control]:
     """
     out = []
     for section, model in SECTIONS.items():
+        if section == "rod" and "string" in data:
+            continue  # its length is a check of those of the sections
         for key, field in model.model_fields.items():
             given = data.get(section, {}).get(key)
             read = None if key in NO_NUMBERS or given is None else _read(given)
             if read is not None:
                 out.append(_control(f"{section}.{key}", field.description or "", *read))
+    out += _of_string(data.get("string", ()))
     names = {control.name for control in out}
     if case.rod is not None and "pipe" in data.get("rod", {}) and not names & {"rod.density", "rod.weight_per_length"}:
         scale, unit = WEIGHT_UNIT[case.scales.system.name] if case.scales else (1.0, "N/m")
@@ -108,7 +121,34 @@ def controls(data: Mapping[str, Any], case: Case) -> list[Control]:
         unit = "" if case.scales is None else TWIST_UNIT[case.scales.system.name]
         twist = _control("load.twist", schema.TWIST, 0.0, unit)
         out.append(_replaced(twist, given=False))
+    section = "dimensionless" if case.scales is None else "hole"
+    for key in ("build", "walk") if _may_bend(data) else ():
+        if f"{section}.{key}" not in names:
+            unit = "" if case.scales is None else BUILD_UNIT[case.scales.system.name]
+            bend = _control(f"{section}.{key}", Hole.model_fields[key].description or "", 0.0, unit)
+            out.append(_replaced(bend, given=False))
     return [_with_range(control, case) for control in out]
+
+
+def _of_string(string: Sequence[Mapping[str, Any]]) -> list[Control]:
+    """The numbers of each [[string]], named by its place from the bottom, from 1."""
+    out = []
+    for number, section in enumerate(string, 1):
+        called = section.get("name") or section.get("pipe") or f"section {number}"
+        for key, field in schema.StringInput.model_fields.items():
+            read = None if key in (*NO_NUMBERS, "joints") else _read(section.get(key))
+            if read is not None:
+                control = _control(f"string.{number}.{key}", field.description or "", *read)
+                out.append(_replaced(control, label=f"{called}: {key.replace('_', ' ')}"))
+    return out
+
+
+def _may_bend(data: Mapping[str, Any]) -> bool:
+    """Whether the hole, straight as given, may be bent: a uniform rod that does not float lies in it."""
+    if "dimensionless" in data:
+        return True
+    hole = data.get("hole", {})
+    return "string" not in data and not any(name in hole for name in ("survey", "centerline", "section"))
 
 
 def _read(given: object) -> tuple[float, str] | None:
@@ -124,7 +164,7 @@ def _read(given: object) -> tuple[float, str] | None:
 
 
 def _control(name: str, meaning: str, value: float, unit: str) -> Control:
-    section, key = name.split(".")
+    section, *_, key = name.split(".")
     label = LABELS.get(name) or f"{section} {key.replace('_', ' ')}"
     return Control(name, label, meaning, unit or UNITS.get(name, ""), value, 0.0, 0.0)
 
@@ -135,14 +175,16 @@ def _replaced(control: Control, **changes: Any) -> Control:
 
 def _with_range(control: Control, case: Case) -> Control:
     """The control with the ends of its slider: what may sensibly be tried from where it stands."""
-    key, value = control.name.split(".")[1], control.value
+    key, value = control.name.split(".")[-1], control.value
     low, high = value / 2.0, 2.0 * value
     if "angle" in key or key == "alpha":
         low, high = 0.0, 90.0
     elif key == "poisson":
         low, high = 0.0, 0.5
-    elif key == "twist":
-        reach = 10.0 if case.scales is None else 10.0 * case.scales.factor("moment") / _moment(control.unit)
+    elif key in REACH:
+        dimension, reach = REACH[key]
+        if case.scales is not None:
+            reach *= case.scales.factor(dimension) / to_si(f"1 {control.unit}", dimension)
         reach = float(f"{max(reach, 3.0 * abs(value)):.1g}")
         low, high = -reach, reach
     elif control.name == "dimensionless.weight":
@@ -150,12 +192,6 @@ def _with_range(control: Control, case: Case) -> Control:
     elif value == 0.0:
         low, high = 0.0, 1.0
     return _replaced(control, low=float(f"{low:.3g}"), high=float(f"{high:.3g}"))
-
-
-def _moment(unit: str) -> float:
-    from rodwell.quantities.units import to_si  # noqa: PLC0415 - reads the definitions of units
-
-    return to_si(f"1 {unit}", "moment")
 
 
 def moved(data: Mapping[str, Any], known: list[Control], values: Mapping[str, Any]) -> dict[str, Any]:
@@ -172,11 +208,13 @@ def moved(data: Mapping[str, Any], known: list[Control], values: Mapping[str, An
         if name == "ends":
             if value not in ENDS:
                 raise InputError("ends", value, f"must be one of {', '.join(ENDS)}")
-            out["dimensionless" if "dimensionless" in out else "rod"]["ends"] = value
+            out.setdefault("dimensionless" if "dimensionless" in out else "rod", {})["ends"] = value
         elif name == "modes":
             if value not in range(1, MOST_MODES + 1) or isinstance(value, bool):
                 raise InputError("modes", value, f"must be a whole number from 1 to {MOST_MODES}")
             out.setdefault("analysis", {})["modes"] = value
+        elif name == "sections":
+            _put_sections(out, value)
         elif name in by_name:
             _put(out, by_name[name], value)
         else:
@@ -189,17 +227,48 @@ def _put(data: dict[str, Any], control: Control, value: object) -> None:
         raise InputError(control.name, value, "must be a number")
     if value == control.value:
         return  # as it was written
-    section, key = control.name.split(".")
+    section, *number, key = control.name.split(".")
     plain = "dimensionless" in data or not control.unit
-    data.setdefault(section, {})[key] = float(value) if plain else f"{float(value)!r} {control.unit}"
+    into = data["string"][int(number[0]) - 1] if number else data.setdefault(section, {})
+    into[key] = float(value) if plain else f"{float(value)!r} {control.unit}"
+    if number and key in ("length", "joint_length"):
+        data.get("rod", {}).pop("length", None)  # of the whole, a check of what is moved here
+
+
+def _put_sections(data: dict[str, Any], value: object) -> None:
+    """Sections of a rod without dimensions, in a line; empty: a uniform rod."""
+    if "dimensionless" not in data:
+        raise InputError("sections", value, "are those of the case file here: move what [[string]] gives of each")
+    if not isinstance(value, str):
+        raise InputError("sections", value, "must be text, length:stiffness:weight of each section, parted by commas")
+    data["dimensionless"].pop("sections", None)
+    if value:
+        data["dimensionless"]["sections"] = value
+
+
+def weight_below(case: Case, load: Mapping[str, Any]) -> float:
+    """By how much F is above the force that a case file gives with this [load], in B/L²: the rod's own weight."""
+    return case.problem.hung_weight if load.get("at") == "bottom" else 0.0
+
+
+def force_text(case: Case, force: float) -> Any:
+    """A force in B/L², tension positive, as a case file has it, with every digit."""
+    if case.scales is None:
+        return force
+    size = abs(force) * case.scales.factor("force")
+    return f"{size!r} N {'compression' if force <= 0.0 else 'tension'}"
 
 
 def as_toml(data: Mapping[str, Any]) -> str:
     """Return the content of a case file as text."""
-    lines = [f"{key} = {_toml(value)}" for key, value in data.items() if not isinstance(value, Mapping)]
-    for section, keys in data.items():
-        if isinstance(keys, Mapping):
-            lines += ["", f"[{section}]", *(f"{key} = {_toml(value)}" for key, value in keys.items())]
+    nested = [(f"[{name}]", value) for name, value in data.items() if isinstance(value, Mapping)]
+    for name, value in data.items():
+        if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
+            nested += [(f"[[{name}]]", one) for one in value]
+    heads = {head.strip("[]") for head, _ in nested}
+    lines = [f"{key} = {_toml(value)}" for key, value in data.items() if key not in heads]
+    for head, keys in nested:
+        lines += ["", head, *(f"{key} = {_toml(value)}" for key, value in keys.items())]
     return "\n".join(lines).lstrip("\n") + "\n"
 
 

@@ -73,11 +73,6 @@ def snaps_at(path: LoadPath) -> PathPoint | None:
     return path.first(SNAP, LOADING)
 
 
-def farthest(path: LoadPath) -> float:
-    """The end force in B/L² up to which it was loaded."""
-    return float(path.curve["force"].min())
-
-
 def ordinates(state: PatternedState) -> dict[Measured, float]:
     """What the diagram draws upwards, as far as a rod off the wall has it: the torque T₂(0) is left out."""
     square = state.problem.clearance**2

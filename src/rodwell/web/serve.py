@@ -5,6 +5,7 @@ from __future__ import annotations
 import secrets
 import socket
 from collections.abc import Callable
+from importlib.util import find_spec
 
 from rodwell.errors import InputError
 from rodwell.web.worker import Start
@@ -55,13 +56,10 @@ def serve(start: Start, port: int, opened: Callable[[str], None]) -> None:
 
 def check_installed() -> None:
     """Raise if the extra is not installed."""
-    try:
-        import starlette  # noqa: F401, PLC0415
-        import uvicorn  # noqa: F401, PLC0415
-        import websockets  # noqa: F401, PLC0415
-    except ImportError as error:
-        what = f"needs {error.name}, which is not installed: pip install 'rodwell[explore]'"
-        raise InputError("rodwell explore", None, what) from None
+    for name in ("starlette", "uvicorn", "websockets"):
+        if find_spec(name) is None:  # importing them waits until the engine's process has begun
+            what = f"needs {name}, which is not installed: pip install 'rodwell[explore]'"
+            raise InputError("rodwell explore", None, what)
 
 
 def _listening(port: int) -> socket.socket:

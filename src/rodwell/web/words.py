@@ -10,6 +10,7 @@ from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.verdict import verdict
 from rodwell.case.applied import AppliedLoad
 from rodwell.problem.problem import Problem
+from rodwell.problem.section_text import sections_text
 from rodwell.web.explored import STRAIGHT, Explored
 from rodwell.web.files import case_data
 from rodwell.web.off_wall import leg_of
@@ -22,7 +23,8 @@ def sentence(explored: Explored, force: float) -> str:
     scale = 1.0 if explored.case.scales is None else explored.case.scales.factor("force")
     given = scale * (force - (explored.forces.weight if bottom else 0.0))
     case = replace(explored.case, applied=(AppliedLoad(force, given, bottom),))
-    return verdict(Answer(case, found.critical, found.branches, found.until, found.other_arm).assessment)
+    answer = Answer(case, found.critical, found.branches, found.until, found.other_arm, found.lying)
+    return verdict(answer.assessment)
 
 
 def as_python(explored: Explored, solution: Shown, branch: str, which: int) -> str:
@@ -47,7 +49,11 @@ def as_python(explored: Explored, solution: Shown, branch: str, which: int) -> s
                   "print(critical.first_met, force)"]  # fmt: skip
         return "\n".join(lines) + "\n"
     known = explored[branch]
-    if known.mode is not None:
+    if found.lying is not None:
+        part = "buckled" if known is found.lying.buckled else "pressed" if known is found.lying.pressed else "pulled"
+        lines += [f"lying = rodwell.lying_rod(problem, [{found.until!r}], rtol={explored.case.rtol!r})",
+                  f"branch = lying.{part}"]  # fmt: skip
+    elif known.mode is not None:
         mirror = ", mirror=True" if known.origin.mirror else ""
         call = f"rodwell.follow(problem, mode={known.mode.number}, until={float(known.force.min())!r}{mirror}"
         lines.append(f"branch = {call}, rtol={explored.case.rtol!r})")
@@ -85,11 +91,15 @@ def as_command(explored: Explored, solution: Shown) -> str:
     options += [f"--poisson {problem.poisson!r}"] if problem.poisson != Problem.poisson else []
     options += [f"--torsion {problem.torsion!r}"] if problem.torsion is not None else []
     options += ["--floats"] if problem.floats else []
+    options += [f"--sections {sections_text(problem.sections)}"] if problem.sections else []
+    options += [f"--{name} {getattr(problem, name)!r}" for name in ("build", "walk") if getattr(problem, name) != 0.0]
     options += [f"--ends {'-'.join(problem.ends)}"] if problem.ends != ("clamped", "clamped") else []
     if explored.path is not None and isinstance(solution, ContactState):
         path = explored.path
         way = f"--until {path.until!r} --unload-to {path.unload_to!r}"
         return f"rodwell path {' '.join(options)} {way} --at {solution.force!r}"
+    if explored.computed.lying is not None:
+        return f"rodwell critical {' '.join(options)}"
     many = len(explored.computed.critical)
     return f"rodwell diagram {' '.join(options)} --modes {many} --until {explored.computed.until!r}"
 

@@ -23,7 +23,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     """Answer requests from a pipe until it closes.
 
     A request is a pair (number, dictionary). An answer is (number, last, text), text being JSON; the first, with number
-    0, says that the engine is ready, or why it cannot be.
+    0, says what is explored, or why it cannot be; the second, with the same, that there is an engine to compute.
 
     Parameters
     ----------
@@ -37,16 +37,21 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the server ends this process
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow; the watch above comes first
+    from rodwell.web.given import Given  # noqa: PLC0415 - the watch above comes first
 
     try:
-        engine = Engine(*start)
+        given = Given(*start)
     except RodwellError as error:
         pipe.send((0, True, json.dumps({"kind": "failed", "message": str(error)})))
         return
-    pipe.send((0, True, as_json(engine.hello())))
-    with contextlib.suppress(RodwellError, Cancelled):  # what the page asks for first; what fails is told then
-        engine.explored({}, lambda: None)
+    pipe.send((0, True, as_json(given.hello())))
+    from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow: the page is loaded meanwhile
+
+    engine = Engine(given)
+    pipe.send((0, True, ""))
+    if not pipe.poll():
+        with contextlib.suppress(RodwellError, Cancelled):  # what the page asks for first; what fails is told then
+            engine.explored({}, lambda: None)
     while True:
         try:
             number, request = pipe.recv()

@@ -221,7 +221,7 @@ class Computed:
         return tuple(spread_of_load(load, self.case.scales, self.case.uncertain) for load in self.sensitivities)
 
 
-def compute(case: Case, progress: Progress | None = None) -> Computed:
+def compute(case: Case, progress: Progress | None = None, begun: Callable[[Computed], None] | None = None) -> Computed:
     """Compute a case: critical loads, the branch of each mode, lift-off of the first.
 
     Parameters
@@ -230,6 +230,8 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
         The case.
     progress
         Called with what is being done and how much is done.
+    begun
+        Called once the first branch is there, with what is known then: all but the branches of the other modes.
 
     Raises
     ------
@@ -251,6 +253,8 @@ def compute(case: Case, progress: Progress | None = None) -> Computed:
     tell("lift-off", 0.1)
     first, other, until = _first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))
     branches = [first]
+    if begun is not None:
+        begun(Computed(case, critical, (first,), until, other))
     followed = [mode for mode in critical if mode.force > until]
     for number, mode in enumerate(followed[1:], start=1):
         share = (0.9 / len(followed), 0.1 + 0.9 * number / len(followed))

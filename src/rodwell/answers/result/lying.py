@@ -20,11 +20,12 @@ def check_lying(case: Case) -> None:
     low, high = (None, None) if case.problem.hole is None else lies_between(case.problem)
     if low is None or high is None or low.value < high.value:
         return
-    given = case.given.get("hole", {})
+    section = "hole" if "hole" in case.given else "dimensionless"
+    given = case.given.get(section, {})
     key = next((name for name in ("survey", "centerline", "build") if name in given), "build")
     side = "high" if case.problem.on_top else "low"
     raise InputError(
-        f"hole.{key}",
+        f"{section}.{key}",
         given.get(key),
         f"bends the hole so that a rod lies on its {side} side at no end force: below {high.value:.6g} B/L² it leaves "
         f"the wall at s/L = {low.s:.4g}, above at s/L = {high.s:.4g}; take a shorter piece of the hole, or give the "

@@ -5,6 +5,8 @@ export const FREE = ["load", "branch", "which", "special", "y", "until", "path",
 export function written(state, hello) {
   const out = new URLSearchParams();
   for (const control of hello.controls) out.set(control.name, String(state.inputs[control.name]));
+  if (state.inputs.sections) out.set("sections", state.inputs.sections);
+  else if (hello.sections) out.set("sections", "none"); // those of the case were taken away
   out.set("ends", state.inputs.ends);
   out.set("modes", String(state.inputs.modes));
   for (const name of FREE) if (state[name] !== null && state[name] !== "" && state[name] !== undefined) out.set(name, String(state[name]));
@@ -14,7 +16,7 @@ export function written(state, hello) {
 export function begun(hello) {
   const inputs = Object.fromEntries(hello.controls.map((control) => [control.name, control.value]));
   return {
-    inputs: { ...inputs, ends: hello.ends, modes: hello.modes },
+    inputs: { ...inputs, ...(hello.sections === null ? {} : { sections: hello.sections }), ends: hello.ends, modes: hello.modes },
     load: null, branch: "", which: 0, special: null, y: "", until: null, path: "", scale: "",
   };
 }
@@ -25,6 +27,7 @@ export function read(hash, hello) {
   const numbers = new Set(hello.controls.map((control) => control.name));
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
     if (numbers.has(name)) state.inputs[name] = number(name, text);
+    else if (name === "sections" && hello.sections !== null) state.inputs.sections = text === "none" ? "" : sectionsLine(text);
     else if (name === "ends") state.inputs.ends = oneOf(name, text, hello.all_ends);
     else if (name === "modes") state.inputs.modes = whole(name, text, 1, hello.most_modes);
     else if (name === "load" || name === "until") state[name] = number(name, text);
@@ -47,6 +50,11 @@ function number(name, text) {
   const value = Number(text);
   if (text.trim() === "" || !Number.isFinite(value)) throw new Error(`${name} = ${text.slice(0, 40)} is no number`);
   return value;
+}
+
+function sectionsLine(text) {
+  for (const part of text.split(/[,:]/)) number("sections", part);
+  return text;
 }
 
 function whole(name, text, low, high) {

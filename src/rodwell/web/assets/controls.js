@@ -59,6 +59,14 @@ export class Control {
       if (value > this.high) this.range(this.low, value);
       this.slider.value = value;
     }
-    if (field) this.field.value = value === null ? "" : String(Number(value.toPrecision(12)));
+    if (field) this.write(value);
+  }
+
+  // What a number on the page belongs to; a field in which somebody writes is left alone.
+  read(value) { if (document.activeElement !== this.field) this.write(value); }
+
+  write(value) {
+    const text = value === null ? "" : String(Number(value.toPrecision(12)));
+    if (this.field.value !== text) this.field.value = text;
   }
 }

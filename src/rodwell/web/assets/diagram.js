@@ -46,14 +46,16 @@ export class Diagram {
     const at = (this.at = frame(this.box, { x, y, label: "Bifurcation diagram", height: 336 }));
     const focused = this.box.contains(document.activeElement) ? document.activeElement.getAttribute("data-key") : null;
     this.groups = new Map();
-    const rest = ordinate === "largest_pressure" ? data.branches[0].y[ordinate][0] : 0;
     const line = (points, kind) => element("path", { class: `seg ${kind}`, d: "M" + points.map((p) => p.map((v) => v.toFixed(2)).join(",")).join("L") });
 
-    const straight = element("g", { class: "m0" });
-    const edge = Math.min(Math.max(data.straight.buckles, x.low), x.high);
-    straight.append(line([[at.px(x.low), at.py(rest)], [at.px(edge), at.py(rest)]], "stable"));
-    straight.append(line([[at.px(edge), at.py(rest)], [at.px(x.high), at.py(rest)]], "unstable"));
-    this.branch(straight, "straight", "straight rod, stable until it buckles", [[x.low, rest], [edge, rest], [x.high, rest]], at);
+    if (data.straight) { // none lies in a hole out of the vertical plane
+      const rest = ordinate === "largest_pressure" ? data.branches[0].y[ordinate][0] : 0;
+      const straight = element("g", { class: "m0" });
+      const edge = Math.min(Math.max(data.straight.buckles, x.low), x.high);
+      straight.append(line([[at.px(x.low), at.py(rest)], [at.px(edge), at.py(rest)]], "stable"));
+      straight.append(line([[at.px(edge), at.py(rest)], [at.px(x.high), at.py(rest)]], "unstable"));
+      this.branch(straight, "straight", "straight rod, stable until it buckles", [[x.low, rest], [edge, rest], [x.high, rest]], at);
+    }
 
     branches.forEach((b) => {
       const group = element("g", { class: b.breaks ? "beyond" : `m${Math.min(b.mode || 6, 6)}` });
@@ -76,6 +78,7 @@ export class Diagram {
     }));
     this.dot = element("circle", { class: "shown", r: 7 });
     at.svg.append(this.dot);
+    clipped(at, [...this.groups.values()]);
     this.box.replaceChildren(at.svg);
     if (this.pale) this.fade();
     this.point(this.state);
@@ -107,7 +110,23 @@ export class Diagram {
   }
 }
 
+// A load at which a branch has states: the one given if it does, else in its middle.
+export function within(data, name, at) {
+  const b = data?.branches.find((each) => each.name === name);
+  if (!b) return at;
+  const low = Math.min(...b.load), high = Math.max(...b.load);
+  return at >= low && at <= high ? at : Number((0.5 * (low + high)).toPrecision(5));
+}
+
 function range(from, to) { return Array.from({ length: to - from + 1 }, (_, i) => from + i); }
+
+// Lines end at the frame: a branch may go on where the diagram does not.
+function clipped(at, groups) {
+  const clip = element("clipPath", { id: "within-the-frame" });
+  clip.append(element("rect", { x: at.left, y: at.top, width: at.right - at.left, height: at.bottom - at.top }));
+  at.svg.append(clip);
+  groups.forEach((group) => group.setAttribute("clip-path", "url(#within-the-frame)"));
+}
 
 // Stretches of a branch of one look: [kind, from, to].
 function pieces(b) {

@@ -22,7 +22,7 @@ export function keys(page) {
       special(event.key === "PageDown" ? 1 : -1);
     } else if (/^[0-9]$/.test(event.key)) {
       const number = Number(event.key), b = page.diagram().branches[number - 1];
-      if (number === 0) page.go(page.chosen({ branch: "straight", load: null }), true);
+      if (number === 0 && page.diagram().straight) page.go(page.chosen({ branch: "straight", load: null }), true);
       else if (b) page.go(page.chosen({ branch: b.name, load: null }), true);
     } else if (event.key === "b" || event.key === "B") {
       page.beyond();

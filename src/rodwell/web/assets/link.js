@@ -1,7 +1,9 @@
 // The connection to the server: requests of one kind take each other's place, answers that come too late are dropped.
-// States on the way to the newest load are shown: a load that is dragged asks for more than can be computed.
+// States on the way to the newest load are shown: a load that is dragged asks for more than can be computed. Where an
+// input is dragged, the next one waits until the state shown has been followed to the one before.
 
 const ON_THE_WAY = "state";
+const PATIENCE = 300; // milliseconds for a state to be followed
 
 export class Link {
   constructor(heard, lost) {
@@ -12,6 +14,7 @@ export class Link {
     this.number = 0;
     this.waiting = {}; // requests not sent yet: one of each kind
     this.running = {}; // kind → number of the request that is being answered
+    this.following = null; // number of the diagram before which a state is being followed
     this.wait = 200;
     this.open();
   }
@@ -22,7 +25,7 @@ export class Link {
     address.hash = "";
     const socket = new WebSocket(address);
     this.socket = socket;
-    socket.onopen = () => { this.wait = 200; this.running = {}; };
+    socket.onopen = () => { this.wait = 200; this.running = {}; this.following = null; };
     socket.onmessage = (event) => this.take(JSON.parse(event.data));
     socket.onclose = () => {
       if (this.socket !== socket) return;
@@ -35,6 +38,14 @@ export class Link {
 
   take(message) {
     if (message.kind === "hello") { this.lost(false); this.heard(message); return; }
+    const release = message.id === this.following;
+    if (message.kind === "followed") { // for a diagram that a newer one may be about to end
+      if (message.id > (this.dropped.diagram ?? 0)) this.heard({ ...message, passing: message.id !== this.newest.diagram });
+    } else this.answered(message);
+    if (release) this.release();
+  }
+
+  answered(message) {
     const kind = Object.keys(this.running).find((each) => this.running[each] === message.id);
     if (message.last && kind) delete this.running[kind];
     const late = kind === ON_THE_WAY && this.newest[kind] && message.id > (this.dropped[kind] ?? 0);
@@ -43,13 +54,20 @@ export class Link {
     if (message.last) this.next(kind);
   }
 
-  // Ask; what was asked of the same kind before is no longer wanted. Returns the number of the request.
-  ask(kind, content) {
+  // Ask; what was asked of the same kind before is no longer wanted. Returns the number of the request. Its content may
+  // be a function, called when it is sent: that of one which is patient waits until a state has been followed.
+  ask(kind, content, patient = false) {
     this.number += 1;
     this.newest[kind] = this.number;
-    this.waiting[kind] = { kind, id: this.number, ...content };
-    this.next(kind);
+    this.waiting[kind] = { id: this.number, content };
+    if (!patient || this.following === null) this.next(kind);
     return this.number;
+  }
+
+  release() {
+    clearTimeout(this.tired);
+    this.following = null;
+    this.next("diagram");
   }
 
   // What is no longer wanted, whatever comes.
@@ -58,11 +76,17 @@ export class Link {
   }
 
   next(kind) {
-    const request = this.waiting[kind];
+    const waiting = this.waiting[kind];
     // a newer diagram goes out at once and ends the older one; of the others one is under way at a time
-    if (!request || this.socket.readyState !== WebSocket.OPEN || (this.running[kind] && kind !== "diagram")) return;
+    if (!waiting || this.socket.readyState !== WebSocket.OPEN || (this.running[kind] && kind !== "diagram")) return;
     delete this.waiting[kind];
-    this.running[kind] = request.id;
+    const { id, content } = waiting, request = { kind, id, ...(typeof content === "function" ? content() : content) };
+    this.running[kind] = id;
+    if (request.from) {
+      clearTimeout(this.tired);
+      this.following = id;
+      this.tired = setTimeout(() => this.release(), PATIENCE);
+    }
     this.socket.send(JSON.stringify(request));
   }
 }

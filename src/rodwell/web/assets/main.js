@@ -2,13 +2,14 @@
 import * as address from "./address.js";
 import { Control } from "./controls.js";
 import { Curves } from "./curves.js";
-import { Diagram } from "./diagram.js";
+import { Diagram, within } from "./diagram.js";
+import { Inputs } from "./inputs.js";
 import { keys } from "./keys.js";
 import { Link } from "./link.js";
 import { Player } from "./play.js";
-import { showBar, showDetails, showLoads, showNumbers } from "./panel.js";
+import { showBar, showDetails, showLoads, showState } from "./panel.js";
 import { Snaps } from "./snap.js";
-import { clear, noNumbers } from "./stale.js";
+import { blank, clear, noNumbers } from "./stale.js";
 import { Taking } from "./take.js";
 
 const $ = (id) => document.getElementById(id);
@@ -17,12 +18,12 @@ const hooks = (window.__rodwell = { ready: false, state: null, updates: 0, value
 let hello = null; // what the server says of the case
 let state = null; // inputs, load, branch …: what is asked for
 let diagram = null, diagramOf = ""; // the diagram shown, and for which inputs it holds
-let shown = null; // the state shown
+let shown = null, shownOf = ""; // the state shown, and the diagram it is of: none where it was followed to new inputs
+let origin = null; // what was asked for to get it: from there it is followed
 let rod = null; // the viewer, false without WebGL
 let known = false; // whether the viewer has the triangles of the scene
 const sent = new Map(); // when which load was asked for, by number of request
 let askedOf = ""; // of which branch
-const controls = new Map();
 let load = null; // its control
 let settle = 0;
 let unread = ""; // what is wrong with the address; it stands until something is moved
@@ -32,6 +33,7 @@ const curves = new Curves({ push: $("push"), side: $("side") }, (fraction, text)
   $("cursor").textContent = text || "Point at a curve to read it.";
   if (rod) rod.mark(fraction);
 });
+const inputs = new Inputs({ state: () => state, hello: () => hello, go, say });
 const link = new Link(heard, (isLost) => {
   $("banner").hidden = !isLost;
   $("banner").textContent = isLost ? "The server is gone: nothing can be computed until it is back. Trying again …" : "";
@@ -42,7 +44,7 @@ function heard(message) {
   if (message.kind === "hello") begin(message);
   else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
   else if (message.kind === "diagram" || message.kind === "path") haveDiagram(message);
-  else if (message.kind === "state") haveState(message);
+  else if (message.kind === "state" || message.kind === "followed") haveState(message);
   else if (message.kind === "verdict") haveVerdict(message);
   else if (message.kind === "details") showDetails(message.details);
   else if (message.kind === "snap") snaps.play(message.scenes);
@@ -57,13 +59,10 @@ function begin(message) {
   $("title").textContent = hello.title;
   document.title = `${hello.title} · rodwell explore`;
   if (!again) {
-    $("controls").replaceChildren();
-    controls.clear();
-    for (const each of hello.controls) controls.set(each.name, new Control($("controls"), each, (value, done) => go({ inputs: { ...state.inputs, [each.name]: value }, special: null, until: null }, done)));
-    $("ends").replaceChildren(...hello.all_ends.map((each) => new Option(each.replace("-", ", "), each)));
-    $("modes").max = hello.most_modes;
+    inputs.begin(hello);
     load = load || new Control($("load-control"), { name: "load", label: "load", hint: "", unit: "", low: 0, high: 1 }, (value, done) => go({ load: value, special: null }, done));
   }
+  pending = "";
   fromAddress();
 }
 
@@ -86,7 +85,7 @@ function go(changes, done) {
   unread = "";
   state = { ...state, ...changes };
   if ("load" in changes && load) load.set(state.load, { field: done });
-  show();
+  show("inputs" in changes && !done);
   if (!done) return;
   clearTimeout(settle);
   const hash = address.written(state, hello);
@@ -94,34 +93,28 @@ function go(changes, done) {
 }
 
 function chosen({ branch, load: at, which, special }) {
-  const to = at === null ? within(branch, state.load) : at;
+  const to = at === null ? within(diagram, branch, state.load) : at;
   return { branch, which: which || 0, special: special ?? null, load: to };
-}
-
-// A load at which a branch has states: the one given if it does, else in its middle.
-function within(name, at) {
-  const b = diagram?.branches.find((each) => each.name === name);
-  if (!b) return at;
-  const low = Math.min(...b.load), high = Math.max(...b.load);
-  return at >= low && at <= high ? at : Number((0.5 * (low + high)).toPrecision(5));
 }
 
 function wanted() {
   return { inputs: address.moved(state.inputs, hello), until: state.until, path: withPath };
 }
 
-function show() {
-  for (const [name, control] of controls) if (control.value !== state.inputs[name]) control.set(state.inputs[name]);
-  $("ends").value = state.inputs.ends;
-  $("modes").value = state.inputs.modes;
+function show(dragged = false) {
+  const wants = wanted(), of = JSON.stringify([wants.inputs, state.until]);
+  const fits = shown !== null && origin.load === state.load && (dragged || holds());
+  inputs.show(state.inputs, { field: !(dragged && fits) });
   $("branch").value = state.branch;
   $("beyond").setAttribute("aria-pressed", String(state.path !== ""));
   hooks.state = state;
-  const of = JSON.stringify([address.moved(state.inputs, hello), state.until]);
   if (of !== diagramOf || (withPath && !state.path)) {
-    stale();
-    link.drop("state", "verdict", "details", "path");
-    link.ask("diagram", wanted());
+    const underWay = of === pending && diagramOf === "";
+    stale(fits);
+    if (underWay) return;
+    link.drop("state", "verdict", "details", "path", ...(dragged ? [] : ["diagram"]));
+    const content = () => ({ ...wanted(), path: false, load: state.load, from: origin, known });
+    sent.set(link.ask("diagram", content, dragged), performance.now());
     pending = of;
   } else {
     if (state.load === null) state.load = diagram.suggested; // what an address leaves out
@@ -140,19 +133,28 @@ function askPath() {
 let pending = "";
 let withPath = false; // whether the diagram shown has the load path
 
-// Pictures turn pale, numbers go.
-function stale() {
+// Pictures turn pale, numbers go; those of a state stay while it is the one for the inputs displayed.
+function stale(fits) {
   clear();
   snaps.stop();
   hooks.ready = false;
-  hooks.values = null;
-  shown = null;
   diagramOf = "";
   withPath = false;
   figure.fade();
   figure.point(null);
+  shownOf = "";
+  if (!fits) leave();
+}
+
+// The state that was shown belongs to other inputs.
+function leave() {
+  blank();
+  hooks.values = null;
+  shown = null;
   curves.data = null;
 }
+
+function holds() { return shown !== null && JSON.stringify(origin.inputs) === JSON.stringify(wanted().inputs); }
 
 function haveDiagram({ diagram: data, whole, of }) {
   diagram = data;
@@ -168,8 +170,12 @@ function haveDiagram({ diagram: data, whole, of }) {
   load.unit.textContent = data.axis.unit;
   document.querySelector("#load-control label").textContent = data.axis.label;
   showLoads(data, state);
-  figure.show(data, state.y, shown);
-  if (whole || shown === null) askState();
+  inputs.read(state.inputs);
+  if (!holds()) leave();
+  inputs.sections.tell(data.sections);
+  const fits = shown !== null && shownOf === diagramOf;
+  figure.show(data, state.y, fits ? shown : null);
+  if (whole || !fits) askState();
   if (whole && state.path && !withPath) askPath();
 }
 
@@ -187,36 +193,37 @@ function askState() {
   sent.set(link.ask("state", { ...request(), known }), performance.now());
 }
 
-function haveState({ state: found, id }) {
-  if (snaps.holds(found, shown)) return; // shown once the rod has gone over
-  shown = found;
-  const passing = id !== undefined && id !== link.newest.state; // the slider is farther already
+// A state of a branch, or one that was followed to other inputs before these have branches.
+function haveState({ kind, state: found, id, passing, inputs: of }) {
+  const followed = kind === "followed";
+  if (!followed && snaps.holds(found, shown)) return; // shown once the rod has gone over
+  passing ??= id !== undefined && id !== link.newest.state; // the slider is farther already
+  [shown, shownOf] = [found, followed ? "" : diagramOf];
+  origin = { inputs: followed ? of : wanted().inputs, until: followed ? null : state.until, load: found.asked, branch: found.branch, which: found.which };
+  document.body.classList.remove("blank");
+  inputs.readMoved(origin.inputs);
   if (!passing && !load.slider.matches(":active")) load.set(state.load);
-  load.field.value = String(Number((passing ? found.load : state.load).toPrecision(12)));
-  figure.point(found);
+  load.write(passing ? found.load : state.load);
+  if (!followed) figure.point(found);
   curves.show(found.curves);
   scene(found);
-  showNumbers(found);
-  $("now").textContent = `${found.values.force.text}: ${found.branch}, ${found.stable ? "stable" : `unstable (index ${found.index})`}`;
-  $("headline").textContent = `${found.headline[0].toUpperCase()}${found.headline.slice(1)}. ${found.note}${found.accurate ? "" : " Not every number meets the tolerance."}`;
-  $("verdict").textContent = $("headline").textContent;
-  const text = found.note && state.branch && found.branch !== state.branch ? found.note : "";
-  say(unread || text);
+  showState(found);
+  say(unread || (found.note && state.branch && found.branch !== state.branch ? found.note : ""));
   hooks.values = Object.fromEntries(Object.entries(found.values).map(([name, each]) => [name, each.value]));
   hooks.values.load = found.load;
   hooks.values.index = found.index;
   hooks.updates += 1;
-  hooks.ready = $("busy").textContent === "" && !passing;
+  hooks.ready = $("busy").textContent === "" && !passing && !followed;
   const began = sent.get(id) ?? performance.now();
   for (const each of sent.keys()) if (each <= id) sent.delete(each);
   requestAnimationFrame(() => { hooks.times.push(performance.now() - began); if (hooks.times.length > 500) hooks.times.shift(); });
   clearTimeout(settle);
-  if (!passing) settle = setTimeout(settled, 120);
+  if (!passing && !followed) settle = setTimeout(settled, 120);
 }
 
 // The load stands still: what takes longer is asked for, and the address follows.
 function settled() {
-  if (shown === null) return;
+  if (shown === null || shownOf === "") return;
   // at a special point the line that says which one stays; verdicts are those of a rod on the wall
   if (state.special === null && !shown.beyond) link.ask("verdict", request());
   link.ask("details", request());
@@ -243,17 +250,19 @@ function scene(found) {
 }
 
 function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
-const taking = new Taking({ shown: () => shown, state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg });
+const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg });
 
 function failed(message) {
   $("busy").textContent = "";
   say(message.message);
   if (message.of === "path") link.newest.path = null;
   if (message.of === "snap") return snaps.end();
+  if (message.of === "diagram") pending = "";
   if (message.of === "state" || message.of === "diagram") {
     shown = null;
     hooks.values = null;
     figure.point(null);
+    inputs.read(state.inputs);
     noNumbers();
   }
   hooks.ready = true;
@@ -281,12 +290,6 @@ $("to-lift-off").onclick = () => {
 };
 const beyond = () => go(state.path ? { path: "", branch: "", which: 0, special: null } : { path: "followed", branch: "", which: 0, special: null }, true);
 $("beyond").onclick = beyond;
-$("ends").onchange = () => go({ inputs: { ...state.inputs, ends: $("ends").value }, special: null, until: null, branch: "", which: 0 }, true);
-$("modes").onchange = () => {
-  const value = $("modes").valueAsNumber;
-  if (Number.isInteger(value) && value >= 1 && value <= hello.most_modes) go({ inputs: { ...state.inputs, modes: value }, special: null, branch: "", which: 0 }, true);
-  else $("modes").value = state.inputs.modes;
-};
 $("branch").onchange = () => go(chosen({ branch: $("branch").value, load: null }), true);
 $("ordinate").onchange = () => { go({ y: $("ordinate").value }, true); if (diagramOf) figure.show(diagram, state.y, shown); };
 $("true-scale").addEventListener("change", () => go({ scale: $("true-scale").checked ? "true" : "" }, true));

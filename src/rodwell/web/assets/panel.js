@@ -26,11 +26,20 @@ export function showNumbers(state) {
   });
 }
 
+// A state in words and numbers.
+export function showState(found) {
+  showNumbers(found);
+  $("certificate").textContent = ""; // of the state before
+  $("now").textContent = `${found.values.force.text}: ${found.branch}, ${found.stable ? "stable" : `unstable (index ${found.index})`}`;
+  $("headline").textContent = `${found.headline[0].toUpperCase()}${found.headline.slice(1)}. ${found.note}${found.accurate ? "" : " Not every number meets the tolerance."}`;
+  $("verdict").textContent = $("headline").textContent;
+}
+
 // What stands in the head and in the lists of a diagram.
 export function showLoads(data, state) {
   $("ordinate").replaceChildren(...data.ordinates.map((each) => new Option(each.label, each.name)));
   $("ordinate").value = state.y;
-  $("branch").replaceChildren(new Option("first, else straight", ""), new Option("straight", "straight"), ...data.branches.map((each) => new Option(each.name, each.name)));
+  $("branch").replaceChildren(new Option(data.straight ? "first, else straight" : "that of the load", ""), ...(data.straight ? [new Option("straight", "straight")] : []), ...data.branches.map((each) => new Option(each.name, each.name)));
   $("branch").value = state.branch;
   $("buckles").textContent = data.buckles.text;
   $("lifts-off").textContent = data.lifts_off ? data.lifts_off.text : "not reached";
@@ -50,7 +59,7 @@ export function showDetails(details) {
   const c = details.certificate;
   const power = (value) => value.toExponential(1).replace(/e([+-]?)(\d+)/, (_, sign, n) => ` × 10${(sign === "-" ? "⁻" : "") + [...n].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`);
   $("certificate").textContent = `Certificate: of the paper's equations ${power(c.worst)} is left, most in ${c.equation}; limit ${power(c.limit)}: ${c.passed ? "passed" : "not passed"}. `
-    + `${details.converged ? "Every number meets" : "Not every number meets"} the tolerance ${power(details.rtol)}. Contact force in all: ${details.wall.total.text}; ${details.wall.torque}.`;
+    + `${details.converged ? "Every number meets" : "Not every number meets"} the tolerance ${power(details.rtol)}. Contact force in all: ${details.wall.total.text}${details.wall.torque && `; ${details.wall.torque}`}.`;
 }
 
 export function save(name, type, content) {

@@ -8,6 +8,12 @@ export function clear() {
   document.body.classList.add("updating");
   $("busy").textContent = "updating …";
   for (const id of ["buckles", "lifts-off", "snaps"]) $(id).textContent = "…";
+  document.querySelectorAll("#string td").forEach((cell) => { cell.textContent = "…"; });
+}
+
+// Nor may a state that belongs to others than those displayed.
+export function blank() {
+  document.body.classList.add("blank");
   noNumbers();
   $("rod").querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = "hidden"; });
 }
