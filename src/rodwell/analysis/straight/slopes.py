@@ -58,7 +58,8 @@ def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArra
 
     below = np.concatenate([[0.0], np.cumsum(each(slope**2))])
     lateral, axial = problem.foundation / problem.clearance, problem.axial_weight
-    stiffer, heavier, lengths, above = 1.0, 1.0, np.diff(breaks), breaks[piece + 1] - space.points
+    lengths, above = np.diff(breaks), breaks[piece + 1] - space.points
+    stiffer, heavier = np.ones((2, above.size))
     if rod.tapered:
         tapers, ends = rod.tapers("weight"), rod.lever.in_pieces(breaks[1:], np.arange(n))
         stiffer = np.where(rod.tapers("stiffness")[piece], rod.stiffness(space.points), 1.0)
