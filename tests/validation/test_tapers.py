@@ -8,18 +8,24 @@ columns, J. Struct. Div. ASCE 88 (1962) 1–11).
 
 from __future__ import annotations
 
+import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import jv, yv
 
-from rodwell import Problem, critical_loads, follow, loads_without_wall
+from rodwell import Problem, critical_loads, follow, load_branch, loads_without_wall, save_branch
 from rodwell.analysis.curves.critical import critical_curves
+from rodwell.analysis.loads.sensitivity import sensitivities
 from rodwell.analysis.path.follow import load_path
+from rodwell.answers.words.steps import steps_data, steps_note
+from rodwell.cli.main import cli
 from rodwell.errors import InputError
 
 C = 1.5
@@ -191,6 +197,48 @@ def test_halves_of_a_symmetric_taper() -> None:
     middle = min(curve.points, key=lambda point: abs(point.x - 10.0))
     load = critical_loads(problem.but(weight=middle.x), 1)[0]
     assert middle.value == pytest.approx(load.force, abs=middle.error + load.error)
+
+
+def test_the_command_line_takes_tapers() -> None:
+    given = ["--weight", "15", "--alpha", "60", "--sections", "0.6:1:1,0.4:1/0.5/0.2:1/0.6:1:1/0.2", "--json"]
+    data = json.loads(CliRunner().invoke(cli, ["liftoff", *given]).output)
+    lift = follow(Problem(15.0, 60.0, sections=TIP)).lift_off
+    assert lift is not None
+    assert data["lift_off"]["force"] == lift.force
+    assert data["steps"] == steps_data(lift.solution.step_loads)
+    assert "has a kink (s/L = 0.6) the wall would have to pull" in steps_note(lift.solution.step_loads)
+    wrong = CliRunner().invoke(cli, ["critical", "--weight", "15", "--alpha", "60", "--sections", "1:1/x"])
+    assert "a taper's parted by /" in str(wrong.exception)
+
+
+def test_derivatives_by_factors_on_tapers() -> None:
+    """Against differences; factors on everything are what a whole string knows."""
+    h = 1e-4
+    critical, lift = sensitivities(Problem(15.0, 60.0, sections=TIP))
+
+    def change(load: Any, which: int) -> float:
+        loads = []
+        for times in (1.0 + h, 1.0 - h):
+            tip = [tuple(times * one for one in ratio) if i == which else ratio for i, ratio in enumerate(TIP[1])]
+            loads.append(load(Problem(15.0, 60.0, sections=(TIP[0], tip))))
+        return float(loads[0] - loads[1]) / (2.0 * h)
+
+    for which, name in ((1, "stiffness_factor"), (2, "weight_factor")):
+        known = change(lambda problem: critical_loads(problem, 1, rtol=1e-11)[0].force, which)
+        assert critical.sections[1][name].value == pytest.approx(known, rel=2e-6)
+    lifted = change(lambda problem: follow(problem, rtol=1e-9).lift_off.force, 1)
+    assert lift.sections[1]["stiffness_factor"].value == pytest.approx(lifted, rel=1e-5)
+    for load in (critical, lift):
+        weight = load.sections[0]["weight"].value + load.sections[1]["weight_factor"].value
+        assert weight / 15.0 == pytest.approx(load.derivatives["weight"].value, rel=1e-8)
+    assert not any("upper_end" in section for section in critical.sections)
+
+
+def test_files_keep_branches_of_strings(tmp_path: Path, branch: Any) -> None:
+    save_branch(branch, tmp_path / "branch.nc")
+    back = load_branch(tmp_path / "branch.nc")
+    assert back.problem == branch.problem
+    assert back.lift_off.force == branch.lift_off.force
 
 
 @pytest.mark.parametrize(

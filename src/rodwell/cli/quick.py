@@ -218,7 +218,7 @@ def _print_sensitivities(loads: tuple[Sensitivity, ...]) -> None:
                 click.echo(f"  {_MORE[name]:<26} {signed(change.value, 6)} %")
         for number, section in enumerate(load.sections, 1):
             for name, slope in section.items():
-                click.echo(f"  dF per {_OF_SECTION[name].format(number):<38} {with_error(slope)}")
+                click.echo(f"  dF per {_OF_SECTION[name].format(number):<44} {with_error(slope)}")
         if load.note:
             wrapped(load.note, "  ")
 
@@ -245,6 +245,8 @@ _PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of �
 _OF_SECTION = {
     "stiffness": "unit of the stiffness ratio, section {}",
     "weight": "unit of the weight ratio, section {}",
+    "stiffness_factor": "unit of a factor on the stiffness, section {}",
+    "weight_factor": "unit of a factor on the weight, section {}",
     "upper_end": "L that section {} is longer, the next shorter",
 }
 _MORE = {

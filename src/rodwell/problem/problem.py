@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -287,6 +288,16 @@ class Problem:
             columns = zip(*self.sections, strict=True)
             out |= {f"section_{name}": list(column) for name, column in zip(COLUMNS, columns, strict=True)}
         return out | {name: getattr(self, name) for name in ("build", "walk") if getattr(self, name) != 0.0}
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """The same as attributes of labelled arrays, which hold numbers, lists of them and text: tapers as JSON."""
+        return {
+            name: json.dumps(given)
+            if isinstance(given, list) and any(isinstance(one, tuple) for one in given)
+            else given
+            for name, given in self.given_more.items()
+        }
 
     def differences(self, other: Problem) -> str:
         """What differs in another problem, in words: names, its value, and that of this one."""

@@ -19,7 +19,7 @@ from rodwell.problem.profile import (
     integral_from_1,
     powers,
 )
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray
 
 Section = tuple[float, Ratio, Ratio, float, Ratio]
 """Length in L, and ratios to the problem's data: bending stiffness, weight, clearance, torsional stiffness."""
@@ -72,6 +72,11 @@ class Rod:
     def tapered(self) -> bool:
         """Whether a ratio varies along a section."""
         return any(isinstance(ratio, tuple) for section in self.sections for ratio in section)
+
+    def tapers(self, ratio: str) -> BoolArray:
+        """In which sections a ratio, one of :data:`RATIOS`, varies, (n,)."""
+        which = COLUMNS.index(ratio)
+        return np.array([isinstance(section[which], tuple) for section in self.sections])
 
     def _profile(self, which: int) -> Profile:
         if self.tapered:

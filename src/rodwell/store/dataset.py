@@ -233,7 +233,7 @@ def problem_attributes(problem: Problem) -> dict[str, Any]:
         "outside": int(problem.outside),
         "floats": int(problem.floats),
         "ends": "-".join(problem.ends),
-        **problem.given_more,
+        **problem.attributes,
     }
 
 

@@ -203,7 +203,8 @@ class _Reading:
         for i, elements in enumerate(self.arrays["mesh_elements"]):
             breaks = self.arrays["breaks"][start : start + int(elements) + 1]
             start += int(elements) + 1
-            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]))
+            kinks = self.problem.rod.breaks[1:-1] if self.problem.sections else None
+            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]), kinks)
             equilibria = family(
                 self.problem, space, parity=int(self.arrays["mesh_parity"][i]), wavenumber=1.0,
                 scale=float(about["lam_scale"]), parameter=str(about["parameter"]), force=float(about["force"]),

@@ -236,7 +236,7 @@ class Curve:
             "outside": int(self.problem.outside),
             "floats": int(self.problem.floats),
             "ends": "-".join(self.problem.ends),
-            **self.problem.given_more,
+            **self.problem.attributes,
             "ended_because": self.ended_because,
         }
 

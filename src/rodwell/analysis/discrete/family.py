@@ -198,9 +198,12 @@ def given_along(problem: Problem) -> Given | None:
     """
     if problem.hole is not None:
         return along_rod(problem)
-    if problem.tapered:
-        return partial(_columns_at, _polynomials(problem.rod), problem.rod)
-    return given_of(problem.rod) if problem.sections else None
+    return given_in_kernels(problem.rod) if problem.sections else None
+
+
+def given_in_kernels(rod: Rod) -> Given:
+    """The same of a rod of sections."""
+    return partial(_columns_at, _polynomials(rod), rod) if rod.tapered else given_of(rod)
 
 
 def _polynomials(rod: Rod) -> FloatArray:

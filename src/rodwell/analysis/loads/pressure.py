@@ -8,7 +8,7 @@ import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
-from rodwell.analysis.discrete.family import given_of
+from rodwell.analysis.discrete.family import given_in_kernels
 from rodwell.analysis.discrete.measures import shape
 from rodwell.analysis.state.fields import pressure_at
 from rodwell.numerics.equilibria.error import estimated_error
@@ -16,7 +16,7 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import Rod
+from rodwell.problem.rod import COLUMNS, Rod
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along
@@ -69,19 +69,20 @@ SECTION_STEP = 1e-4
 def section_pressure_rates(
     solution: Solution, places: tuple[float, ...], number: int, ratio: str
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0).
+    """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0), or a factor on a taper.
 
     Returned as by :func:`pressure_rates`. States move along δc = −H⁻¹ ∂g/∂q.
     """
     problem, at = solution.problem, np.array(places)
-    own = {name: float(getattr(problem.rod, name).coefficients[number, 0]) for name in SECTION_RATIOS}
-    size = own[ratio] or 1.0
+    given = problem.sections[number][COLUMNS.index(ratio)]
+    size = 1.0 if isinstance(given, tuple) else given or 1.0
 
     def changed(step: float) -> Rod:
         sections = list(problem.sections)
-        length, _, _, clearance, twisting = sections[number]
-        moved = own | {ratio: own[ratio] + step}
-        sections[number] = (length, moved["stiffness"], moved["weight"], clearance, twisting)
+        length, stiffness, weight, clearance, twisting = sections[number]
+        moved = tuple(one * (1.0 + step) for one in given) if isinstance(given, tuple) else given + step
+        pair = (moved, weight) if ratio == "stiffness" else (stiffness, moved)
+        sections[number] = (length, *pair, clearance, twisting)
         return Rod(tuple(sections))  # not checked: a weight may be below zero by the step
 
     def rate(family: Family, state: State, h: float) -> np.ndarray:
@@ -89,7 +90,8 @@ def section_pressure_rates(
         banded.factorise(factors)
         half = 0.5 * size
         low, high = (  # the gradient is linear in both ratios
-            replace(family, given=given_of(changed(step))).assemble(state.c, state.lam)[1] for step in (-half, half)
+            replace(family, given=given_in_kernels(changed(step))).assemble(state.c, state.lam)[1]
+            for step in (-half, half)
         )
         moved = family.held.gather(low - high) / size
         banded.solve(factors, moved)

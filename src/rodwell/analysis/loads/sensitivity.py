@@ -58,8 +58,9 @@ class Sensitivity:
         What to know about them, or nothing.
     sections
         Of a string, for each section from s = 0: ∂f by its ratios "stiffness" and "weight", and, of critical loads, by
-        the place "upper_end" of the step above it (all but the last), with error estimates. Torsional stiffness does
-        not enter: T₁ is a dead load.
+        the place "upper_end" of the step above it (all but the last), with error estimates. Where a section tapers
+        they are by "stiffness_factor" and "weight_factor", on all its values, at 1, and those by the places of its ends
+        are left out. Torsional stiffness does not enter: T₁ is a dead load.
     converged
         Whether the load, and the state that the derivatives are taken at, meet the tolerance asked for.
     """
@@ -163,17 +164,26 @@ def of_critical_load(mode: Mode) -> Sensitivity:
 def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
     """Derivatives of a critical load by the data of each section."""
     problem = mode.problem
-    if not problem.sections or problem.tapered:
+    if not problem.sections:
         return ()
+    rod = problem.rod
     fine, coarse = (section_slopes(problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
     size = abs(mode.force) + load_scale(problem)
     out: list[Derivatives] = []
     for i in range(len(problem.sections)):
-        values = {name: (row[i], coarse[name][i]) for name, row in fine.items() if i < row.size}
+        values = {_named(problem, i, name): (row[i], coarse[name][i]) for name, row in fine.items() if i < row.size}
+        if np.any(rod.tapers("stiffness")[i : i + 2] | rod.tapers("weight")[i : i + 2]):
+            values.pop("upper_end", None)
         out.append(
             {k: Value(float(a), float(abs(a - b)) + NUMBER_NOISE * (abs(a) + size)) for k, (a, b) in values.items()}
         )
     return tuple(out)
+
+
+def _named(problem: Problem, number: int, ratio: str) -> str:
+    """The name of what a derivative by the data of a section is by: of a ratio that tapers, a factor on all of it."""
+    tapers = ratio in SECTION_RATIOS and problem.rod.tapers(ratio)[number]
+    return f"{ratio}_factor" if tapers else ratio
 
 
 def of_first_met(mode: SpatialMode) -> Sensitivity:
@@ -212,13 +222,13 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         if np.ptp(each) > 10.0 * np.max(spread):
             note = "lifts off at several places at once: the derivative by α is that towards smaller α"
     by_section = []
-    for i in range(0 if solution.problem.tapered else len(solution.problem.sections)):
+    for i in range(len(solution.problem.sections)):
         each = {}
         for name in SECTION_RATIOS:
             rates, errors = (np.array(part) for part in section_pressure_rates(solution, lift.s, i, name))
             slopes = -rates / by_force
             spread = np.abs(errors / by_force) + np.abs(slopes * force_error / by_force)
             which = int(np.argmax(spread))
-            each[name] = Value(float(slopes[which]), float(spread[which]))
+            each[_named(solution.problem, i, name)] = Value(float(slopes[which]), float(spread[which]))
         by_section.append(each)
     return Sensitivity("lift-off load", solution.problem, solution.force, out, note, tuple(by_section))

@@ -19,12 +19,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.analysis.off_wall.depth import Piece, contact_pieces
+from rodwell.analysis.off_wall.depth import Piece, contact_pieces, least_gaps
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Elements, Pattern
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS
@@ -38,10 +38,7 @@ OPENS, LOST, GROWS, GROWS_AT_END, TOUCHES, LEAVES = "opens", "lost", "grows", "g
 UNHELD, CROSSES, LEAVES_EDGE = "unheld", "crosses", "leaves_edge"
 
 PER_ELEMENT = 12
-"""Places in an element at which pressure and gap are looked at first."""
-
-NOISE = 1e-10
-"""A gap, over the polynomial with which it opens, is not known better than this: it is round-off over that."""
+"""Places in an element at which the pressure is looked at first."""
 
 KNOWN_FORCE = 5e-6
 """A force at the end of a stretch in contact comes from third derivatives, which the elements along a path know to this
@@ -52,10 +49,6 @@ BESIDE_STEP = 2e-4
 
 NO_SLOPE = 1e-7
 """Slope φ′ in rad/L at a step of the stiffness that is as good as none."""
-
-EDGE, SHORTEST_EDGE, WIDEST = 0.02, 5e-4, 0.1
-"""Part of a free stretch at either end where the gap is left to the conditions on forces and curvature; at least so
-much of L, since the gap there is of the size of round-off, but no more than the last part of the stretch."""
 
 
 class Condition(NamedTuple):
@@ -132,10 +125,13 @@ class PatternedState:
         ]
         return sorted(found)
 
+    @cached_property
+    def _starts(self) -> list[int]:
+        return list(accumulate(map(sum, self.elements), initial=0))
+
     def elements_of(self, stretch: int) -> range:
         """Numbers of the elements of a stretch."""
-        first = sum(map(sum, self.elements[:stretch]))
-        return range(first, first + sum(self.elements[stretch]))
+        return range(self._starts[stretch], self._starts[stretch + 1])
 
 
 def conditions(state: PatternedState) -> list[Condition]:
@@ -241,74 +237,10 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
 
 
 def apart(state: PatternedState, stretches: Sequence[int]) -> list[Condition]:
-    """The least gap within each of some free stretches, over the polynomial with which it opens, and where.
-
-    Positive everywhere if and only if the gap is; unlike the gap itself it does not vanish at the ends. An edge that
-    the rod touches parts a stretch. They are looked at together: it takes little longer than for one.
-    """
-    parts = [part for stretch in stretches for part in _parts(state, stretch)]
-    if not parts:
-        return []
-    shape = state.solved.shape
-    bounds = np.array([part.bounds for part in parts])
-    elements = np.concatenate([np.array(state.elements_of(stretch)) for stretch in stretches])
-    own = np.searchsorted(bounds[:, 1], 0.5 * (shape.places[elements] + shape.places[elements + 1]))
-    (left, right), powers = bounds.T, np.array([part.powers for part in parts])
-    inset = np.maximum(EDGE * (right - left), np.minimum(WIDEST * (right - left), SHORTEST_EDGE))
-    low, high = left + inset * (powers[:, 0] > 0), right - inset * (powers[:, 1] > 0)
-    seen = (shape.places[elements] < high[own]) & (shape.places[elements + 1] > low[own])
-    elements, own = elements[seen], own[seen]
-    start, end = shape.places[elements], shape.places[elements + 1]
-    length, radii = end - start, shape.chain.radii[elements, None]
-    opening, closing = powers[own].T[:, :, None]
-
-    def gap(xi: FloatArray) -> FloatArray:
-        x, y = shape.along(elements, xi, 1)[:, 0]
-        at = (start[:, None] + length[:, None] * xi - left[own, None]) / (right - left)[own, None]
-        return np.asarray((radii - np.hypot(x, y)) / (at**opening * (1.0 - at) ** closing))
-
-    inside = (np.maximum(low[own], start) - start) / length, (np.minimum(high[own], end) - start) / length
-    values, xi = lowest(gap, np.linspace(*inside, PER_ELEMENT + 1, axis=1))
-    values[np.abs(values) < NOISE] = 0.0
-    owner, found = np.array([part.stretch for part in parts])[own], []
-    first, last = (np.searchsorted(owner, stretches, side) for side in ("left", "right"))
-    for i, stretch in enumerate(stretches):
-        k = int(first[i]) + int(np.argmin(values[first[i] : last[i]]))
-        found.append(Condition(TOUCHES, stretch, float(values[k]), float(start[k] + length[k] * xi[k])))
-    return found
-
-
-class _Part(NamedTuple):
-    """A part of a free stretch between edges: its ends in L, and with which power of the distance the gap opens."""
-
-    stretch: int
-    bounds: tuple[float, float]
-    powers: tuple[int, int]
-
-
-def _parts(state: PatternedState, stretch: int) -> list[_Part]:
-    """The parts of a free stretch, from s = 0."""
-    left, right = map(float, state.bounds[stretch : stretch + 2])
-    ends = [left, *(edge for edge in state.pattern.edges if left < edge < right), right]
-    return [
-        _Part(stretch, pair, (_power(state, stretch, False, pair[0]), _power(state, stretch, True, pair[1])))
-        for pair in pairwise(ends)
-    ]
-
-
-def _power(state: PatternedState, stretch: int, last: bool, place: float) -> int:
-    """Like which power of the distance the gap opens at an end of a free stretch, or at an edge within it."""
-    if place in state.pattern.edges and 0.0 < place < 1.0:
-        shape = state.solved.shape
-        node = int(np.searchsorted(shape.places, place))
-        own, beyond = shape.chain.radii[[node - 1, node] if last else [node, node - 1]]
-        return 1 if own < beyond else 0  # in the wider part the rod is a step away from the wall
-    neighbour = stretch + (1 if last else -1)
-    touching = state.pattern.touching
-    if 0 <= neighbour < len(touching):
-        return 3 if touching[neighbour] else 2
-    held = state.solved.shape.chain.held[-1 if last else 0]
-    return 2 if held[0] and held[2] else (1 if held[0] else 0)
+    """The least gaps within free stretches, over the polynomials with which they open from their ends, and where."""
+    elements = [np.array(state.elements_of(stretch)) for stretch in stretches]
+    least = least_gaps(state.solved.shape, state.pattern, stretches, elements)
+    return [Condition(TOUCHES, number, *gap) for number, gap in zip(stretches, least, strict=True)]
 
 
 def watched(condition: Condition, state: PatternedState) -> float:

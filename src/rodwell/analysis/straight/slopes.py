@@ -37,14 +37,16 @@ def load_slope(
 def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, FloatArray]:
     """Derivatives of a critical load by the data of each of n sections.
 
-    "stiffness" and "weight", (n,), are those by the ratios b and q; "upper_end", (n − 1,), those by the place of the
-    step above a section, which becomes longer as the next becomes shorter. With the bending moment m = b v″, which is
+    "stiffness" and "weight", (n,), are those by the ratios b and q, where these taper by a factor on all their values;
+    "upper_end", (n − 1,), those by the place of the step above a section, which becomes longer as the next becomes
+    shorter, if neither tapers. With the bending moment m = b v″, which is
     continuous, the change [x] of x at the step towards s = 1, and h′ = q,
 
         dF/db = −∫ v″² ds,   dF/dq = −∫ wₐ ∂h/∂q v′² + (wₗ/Δ) v² ds,
         dF/ds = −(m² [1/b] − (wₗ/Δ)[q] v² + wₐ [q] ∫₀ˢ v′² ds),
 
-    the first two integrals over the section (∂h/∂q is minus the length of it that is above), all over ∫ v′² ds.
+    the first two integrals over the section (∂h/∂q is minus the length of it that is above; by a factor, minus its
+    weight that is above, and the others have b and q in them), all over ∫ v′² ds.
     """
     rod, breaks = problem.rod, problem.rod.breaks
     y, slope, bend = space.at_points(coefficients)
@@ -56,14 +58,21 @@ def section_slopes(problem: Problem, space: SplineSpace, coefficients: FloatArra
 
     below = np.concatenate([[0.0], np.cumsum(each(slope**2))])
     lateral, axial = problem.foundation / problem.clearance, problem.axial_weight
-    inside = each((breaks[piece + 1] - space.points) * slope**2)
-    hung = -(np.diff(breaks) * below[:-1] + inside)
+    lengths, above = np.diff(breaks), breaks[piece + 1] - space.points
+    stiffer, heavier = np.ones((2, above.size))
+    if rod.tapered:
+        tapers, ends = rod.tapers("weight"), rod.lever.in_pieces(breaks[1:], np.arange(n))
+        stiffer = np.where(rod.tapers("stiffness")[piece], rod.stiffness(space.points), 1.0)
+        heavier = np.where(tapers[piece], rod.weight(space.points), 1.0)
+        lengths = np.where(tapers, ends - rod.lever(breaks[:-1]), lengths)
+        above = np.where(tapers[piece], ends[piece] - rod.lever(space.points), above)
+    hung = -(lengths * below[:-1] + each(above * slope**2))
     at, _, curvature = space.evaluate(coefficients, breaks[1:-1], 3)
     b, q = rod.stiffness.coefficients[:, 0], rod.weight.coefficients[:, 0]
     moved = (b[1:] * curvature) ** 2 * np.diff(1.0 / b) - lateral * np.diff(q) * at**2
     return {
-        "stiffness": -each(bend**2) / whole,
-        "weight": -(axial * hung + lateral * each(y**2)) / whole,
+        "stiffness": -each(stiffer * bend**2) / whole,
+        "weight": -(axial * hung + lateral * each(heavier * y**2)) / whole,
         "upper_end": -(moved + axial * np.diff(q) * below[1:-1]) / whole,
     }
 
