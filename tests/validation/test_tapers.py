@@ -24,9 +24,10 @@ from rodwell import Problem, critical_loads, follow, load_branch, loads_without_
 from rodwell.analysis.curves.critical import critical_curves
 from rodwell.analysis.loads.sensitivity import sensitivities
 from rodwell.analysis.path.follow import load_path
-from rodwell.answers.words.steps import steps_data, steps_note
+from rodwell.answers.words.steps import held, steps_data, steps_note
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
+from rodwell.problem.rod import Rod, checked_sections
 
 C = 1.5
 
@@ -261,3 +262,17 @@ def test_what_is_not_computed_of_tapers_is_refused() -> None:
         load_path(Problem(15.0, sections=TIP), until=-100.0)
     with pytest.raises(InputError, match="steps of the clearance are not computed of sections that taper"):
         Problem(15.0, sections=((0.5, (1.0, 0.5)), (0.5, 1.0, 1.0, 2.0)))
+
+
+@pytest.mark.parametrize(
+    ("sections", "conditions"),
+    [
+        (((0.6, 1.0), (0.4, (1.0, 0.3))), ["held to the wall at kinks of its stiffness"]),  # begins to fall
+        (((0.6, (0.3, 1.0)), (0.4, 1.0)), ["held to the wall at kinks of its stiffness"]),  # ceases to rise
+        (((0.6, 1.0), (0.4, (1.0, 2.0))), []),  # begins to rise: [b'] ω₃ presses it to the wall
+        (((0.5, (1.0, 2.0)), (0.5, (2.0, 3.0))), []),  # one taper in two parts
+        (((0.6, 1.0), (0.4, 0.3)), ["its slope held at steps of its stiffness"]),
+    ],
+)
+def test_where_a_wall_would_have_to_pull_the_words_say_what_is_held(sections: Any, conditions: list[str]) -> None:
+    assert held(Rod(checked_sections(sections))) == conditions

@@ -166,6 +166,15 @@ class Rod:
         return self.stiffness_steps.size > 0
 
     @cached_property
+    def kinked(self) -> bool:
+        """Whether the bending stiffness begins to fall, or ceases to rise, without a step: the wall would have to pull.
+
+        A buckled rod stays on the wall there only if it is held to it.
+        """
+        (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
+        return self.tapered and bool(np.any((below == above) & (next_rate < rate)))
+
+    @cached_property
     def whole_weight(self) -> float:
         """∫ w(s)/w ds: weight of the whole, as a ratio to that of a uniform rod."""
         if self.tapered:

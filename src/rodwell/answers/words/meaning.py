@@ -19,7 +19,7 @@ from rodwell.answers.words.floating import floating
 from rodwell.answers.words.in_space import how_it_lies
 from rodwell.answers.words.reach import unreached
 from rodwell.answers.words.shown_loads import shown_sensitivities
-from rodwell.answers.words.steps import steps_note
+from rodwell.answers.words.steps import HOLDS, held, steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text, soft_wall
 from rodwell.case.case import Case
@@ -41,9 +41,6 @@ EFFECTIVE = (
 )
 """What is assumed of mud and pressures."""
 
-HELD_AT_STEPS = "up to lift-off, something holds the rod's slope across the wall at steps of the bending stiffness"
-"""What is assumed of a string of sections."""
-
 LOWER_PART = 0.5
 """A mode that reaches less far up the rod is said to be confined to its lower end."""
 
@@ -61,8 +58,7 @@ ENDS_HOLD = {
 def assumptions(case: Case) -> tuple[str, ...]:
     """What the numbers assume, the ends first."""
     more = (EFFECTIVE,) if case.with_fluids else ()
-    if case.problem.rod.stepped:
-        more = (*more, HELD_AT_STEPS)
+    more = (*more, *held(case.problem.rod, HOLDS))
     hole = "cylinder rigid and straight" if case.problem.hole is None else "hole rigid, curved as given"
     end = "lower end" if case.problem.alpha > 90.0 else "upper end"
     hole += "" if math.isinf(case.wall_stiffness) else ", up to lift-off"

@@ -11,9 +11,23 @@ from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
+    from rodwell.problem.rod import Rod
+
+ASSUMED = ("its slope held at steps of its stiffness", "held to the wall at kinks of its stiffness")
+IF_HELD = ("its slope is held at steps of its stiffness", "it is held to the wall at kinks of its stiffness")
+HOLDS = (
+    "up to lift-off, something holds the rod's slope across the wall at steps of the bending stiffness",
+    "up to lift-off, something holds the rod to the wall where the bending stiffness begins to fall or ceases to rise",
+)
+"""What is assumed of a buckled string at steps, and at kinks, of its stiffness: in short, as a condition, at length."""
 
 MOST = 6
 """Steps that are named."""
+
+
+def held(rod: Rod, words: tuple[str, str] = ASSUMED) -> list[str]:
+    """What has to be held of a rod where its stiffness has steps, and kinks, at which a wall would have to pull."""
+    return [text for text, met in zip(words, (rod.stepped, rod.kinked), strict=True) if met]
 
 
 def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:

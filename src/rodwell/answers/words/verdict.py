@@ -6,6 +6,7 @@ import math
 
 from rodwell.answers.result.assessment import BUCKLED, LEFT, OTHER_SHAPE, PULLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.words.in_space import lies_from, lies_until, what_ends
+from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
@@ -56,10 +57,10 @@ def window_sentences(a: Assessment) -> list[str]:
 def _assumed(case: Case) -> str:
     """The assumptions in a few words."""
     fluids = ", effective forces" if case.with_fluids else ""
-    held = ", its slope held at steps of its stiffness" if case.problem.rod.stepped else ""
+    at_steps = "".join(f", {text}" for text in held(case.problem.rod))
     hole = hole_text(case.problem)
     hole += "" if math.isinf(case.wall_stiffness) else ", wall rigid up to lift-off"
-    return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{held}{fluids}"
+    return f"frictionless, elastic, {hole}, {ends_text(case.problem)}{at_steps}{fluids}"
 
 
 def _range(a: Assessment) -> str:
@@ -133,8 +134,11 @@ def _window(a: Assessment) -> str:
         return "; the shape it buckles into is unstable from the start"
     part = share_shown(a)
     share = "" if part is None else f" ({percent(part)})"
-    held = ", if its slope is held at steps of its stiffness" if a.case.problem.rod.stepped else ""
-    text = f"; buckled, it stays on the wall{held}, stable, for another {size_text(scales, width)}{share} until it "
+    holds = " and ".join(held(a.case.problem.rod, IF_HELD))
+    condition = f", if {holds}" if holds else ""
+    text = (
+        f"; buckled, it stays on the wall{condition}, stable, for another {size_text(scales, width)}{share} until it "
+    )
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
         text += f", {_stress(a, a.at_lift_off)}"

@@ -93,7 +93,9 @@ def _numbers(answer: Answer) -> tuple[Number, ...]:
     out = [_load(first, answer, a.window.buckling, spreads.get("critical load of mode 1"))]
     end = a.window.end
     if end is not None and end.load is not None and not answer.no_window:
-        leaves = "Leaves the wall between steps at" if answer.case.problem.rod.stepped else "Leaves the wall at"
+        rod = answer.case.problem.rod
+        between = " between steps" if rod.stepped else " between kinks" if rod.kinked else ""
+        leaves = f"Leaves the wall{between} at"
         label = leaves if end.kind == LIFTS_OFF else "Loses its stability at"
         out.append(_load(label, answer, end.load, spreads.get("lift-off load") if end.kind == LIFTS_OFF else None))
     return (*out, _third(a, said.scales is not None))[:3]
