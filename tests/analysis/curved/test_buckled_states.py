@@ -61,14 +61,14 @@ def test_forces_and_moments_balance_in_space(given: dict[str, object], drop: flo
 
 def test_certificate_sees_a_wrong_formula(branch: Branch, monkeypatch: pytest.MonkeyPatch) -> None:
     state = branch[-1].own_places
-    fields = curved_certificate.InHole.fields
+    strand = curved_certificate.InHole.strand
     for name in ("rod_F1", "rod_F3", "contact_pressure", "omega2"):
 
-        def wrong(self: object, s: np.ndarray, name: str = name, **how: bool) -> dict[str, np.ndarray]:
-            found = fields(self, s, **how)  # type: ignore[arg-type]
+        def wrong(self: object, s: np.ndarray, name: str = name) -> dict[str, np.ndarray]:
+            found = strand(self, s)  # type: ignore[arg-type]
             return {**found, name: found[name] * (1.0 + 1e-4 * s)}
 
-        monkeypatch.setattr(curved_certificate.InHole, "fields", wrong)
+        monkeypatch.setattr(curved_certificate.InHole, "strand", wrong)
         residuals = curved_certificate.residuals(state.problem, *state.levels[1])
         assert max(residuals.values()) > 1e-7, name
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
-from rodwell.physics.on_wall.curved import RodInCurvedHole, hole_at, strand
+from rodwell.physics.on_wall.curved import RodInCurvedHole, bends_at, strand
 from rodwell.physics.on_wall.parameters import CLEARANCE, COUNT, RAMP
 from rodwell.quantities.arrays import FloatArray
 
@@ -32,7 +32,7 @@ def end_shortening(family: Family, state: State) -> tuple[float, FloatArray]:
         return float(state.space.weights @ slack), slack
     given = family.mesh.given.T
     clearance = float(family.parameters(state.lam)[CLEARANCE])
-    k1, k2, *_ = hole_at(state.space.points, given)
+    k1, k2 = bends_at(state.space.points, given)
     angle = u[0] / clearance
     versine, sine = 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)
     slack = u[1] ** 2 / (1.0 + np.sqrt(1.0 - u[1] ** 2))

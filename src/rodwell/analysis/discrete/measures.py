@@ -43,6 +43,10 @@ HALF = 0.5
 SOFT = 2e-12
 """Round-off in what a soft direction of the rod moves, relative to its scale: the angle at mid-length, the torque."""
 
+ROOM = 3
+"""Elements of the finer mesh that a rod in a curved hole may have, over those of its first coarse mesh: 2 of these it
+has at first."""
+
 OTHER_END = 4.0
 """How many times the moment that the spline has at an end that turns freely, where there is none, the error of the
 curvature at the other end may be."""
@@ -191,7 +195,12 @@ def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArra
 
 
 def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshes:
-    """Return the meshes on which states of ``family`` are measured to a tolerance."""
+    """Return the meshes on which states of ``family`` are measured to a tolerance.
+
+    A long string in a curved hole begins with more elements than are allowed; it may be refined where it is bent.
+    """
+    if isinstance(family.model, RodInCurvedHole):
+        most_elements = max(most_elements, ROOM * family.space.elements)
     return TwoMeshes(family, measure, rtol, most_elements, GROUPS, LINKS)
 
 

@@ -49,7 +49,7 @@ def residuals(problem: Problem, family: Family, state: State) -> dict[str, float
         size = max(least, *(float(np.max(np.linalg.norm(term, axis=1))) for term in terms))
         return float(np.max(np.linalg.norm(np.sum(terms, axis=0), axis=1))) / size
 
-    fields = rod.fields(s, balance=False)
+    fields = rod.strand(s)
     centre, frame = rod.frames(s)
     tangent, d1, u1 = frame.transpose(1, 0, 2)
 
@@ -83,7 +83,7 @@ def _ends(problem: Problem, rod: InHole, forces: FloatArray) -> dict[str, float]
     (ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
     """
     everywhere = np.concatenate([[0.0, 1.0], np.linspace(0.0, 1.0, 201)])
-    (y, y1), fields = rod.shape(everywhere, 2), rod.fields(everywhere, balance=False)
+    (y, y1), fields = rod.shape(everywhere, 2), rod.strand(everywhere)
     cos = np.sqrt(1.0 - y1**2)
     tangent, _, u1 = rod.frames(everywhere[:2])[1].transpose(1, 0, 2)
     u2 = y1[:2, None] * tangent + cos[:2, None] * u1

@@ -17,8 +17,8 @@ from rodwell.analysis.discrete.curved import (
 )
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
+from rodwell.physics.on_wall.curved import bends_at, strand
 from rodwell.physics.on_wall.curved import hole_at as tabulated
-from rodwell.physics.on_wall.curved import strand
 from rodwell.physics.on_wall.frames import material_curvatures
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, TWIST
 from rodwell.problem.problem import Problem
@@ -52,7 +52,7 @@ class InHole:
 
     def step(self, s: FloatArray) -> FloatArray:
         """S′ = cos η/h (m,): arclength of the hole's axis per arclength of the rod."""
-        k1, k2, *_ = tabulated(s, self.given(s))
+        k1, k2 = bends_at(s, self.given(s))
         y, y1 = self.shape(s, 2)
         angle = y / self.clearance
         return np.asarray(np.sqrt(1.0 - y1**2) / (1.0 + self.clearance * (k1 * np.cos(angle) - k2 * np.sin(angle))))
@@ -97,34 +97,40 @@ class InHole:
         ``z`` is the way along the hole's axis from s = 0; components refer to t₁, d₁, u₁. ``balance``: with
         "tangential_balance", which needs the height of the rod and takes as long as all the others.
         """
-        u, p = self.shape(s, 4), self.parameters
-        omega1, omega2, omega3, f1, f2, f3, pressure = strand(s, u, self.given(s), p)
-        torsion = self.problem.torsional_stiffness
+        out, p = self.strand(s), self.parameters
+        bent, torsion = (out["omega2"], out["omega3"]), self.problem.torsional_stiffness
         xi1 = p[TWIST] / torsion * s + self._turned_in_all - self.turned(s)
-        material = material_curvatures(xi1, omega2, omega3, p[TWIST], torsion)
-        out = {
-            "y": u[0],
-            "xi2": self._angle(u[0]),
-            "eta": np.arcsin(u[1]),
-            "omega1": omega1,
-            "omega2": omega2,
-            "omega3": omega3,
+        material = material_curvatures(xi1, *bent, p[TWIST], torsion)
+        out |= {
+            "xi2": self._angle(out["y"]),
             "material_omega1": material[0],
             "material_omega2": material[1],
             "material_omega3": material[2],
             "z": self.place(s) - self._first_place,
             "xi1": xi1,
-            "contact_pressure": np.asarray(pressure),
-            "rod_F1": np.asarray(f1),
-            "rod_F2": np.asarray(f2),
-            "rod_F3": np.asarray(f3),
-            "rod_M1": np.full_like(s, -p[TWIST]),
-            "rod_M2": np.asarray(omega2),
-            "rod_M3": np.asarray(omega3),
         }
         if balance:
-            out["tangential_balance"] = self._energy_along(s, omega2, omega3, f1) - self._energy_at_end
+            out["tangential_balance"] = self._energy_along(s, *bent, out["rod_F1"]) - self._energy_at_end
         return out
+
+    def strand(self, s: FloatArray) -> dict[str, FloatArray]:
+        """Those of the fields that take no integral along the rod: shape, curvatures, forces, moments, contact."""
+        u, p = self.shape(s, 4), self.parameters
+        omega1, omega2, omega3, f1, f2, f3, pressure = map(np.asarray, strand(s, u, self.given(s), p))
+        return {
+            "y": u[0],
+            "eta": np.arcsin(u[1]),
+            "omega1": omega1,
+            "omega2": omega2,
+            "omega3": omega3,
+            "contact_pressure": pressure,
+            "rod_F1": f1,
+            "rod_F2": f2,
+            "rod_F3": f3,
+            "rod_M1": np.full_like(s, -p[TWIST]),
+            "rod_M2": omega2,
+            "rod_M3": omega3,
+        }
 
     def _angle(self, y: FloatArray) -> FloatArray:
         """ξ₂ (m,) from the low side."""

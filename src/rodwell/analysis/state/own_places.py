@@ -43,8 +43,9 @@ SETTLED = 1e-12
 """Change of the shape, in radians around the hole, below which it has settled: in a round, or as the last two foretell
 of the next one."""
 
-BESIDE = 1e-11
-"""Distance along the rod, in L, within which a kink of the mesh is beside a station."""
+BESIDE = 1e-9
+"""Distance along the rod, in L, within which a kink of the mesh is beside a station: by about that part of the jump of
+the contact its balance is off."""
 
 
 def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
@@ -134,10 +135,12 @@ def _at_own_places(problem: Problem, family: Family, state: State, near: bool) -
     change = np.inf
     for _ in range(MOST_ROUNDS):
         before = change
-        space = _beside_stations(InHole(problem, family, state))
+        rod = InHole(problem, family, state)
+        space = _beside_stations(rod)
         if space is not state.space:
             family, state = family.on(space), replace(state, space=space)
-        tables = tables_of(InHole(problem, family, state))
+            rod = InHole(problem, family, state)
+        tables = tables_of(rod)
         family = _given(family, tables)
         solved = _solved(family, state, near)
         change = float(np.max(np.abs(solved.c - state.c))) / family.scale_c

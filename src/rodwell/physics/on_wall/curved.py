@@ -54,6 +54,12 @@ def hole_at(s: Any, given: Any) -> tuple[Any, ...]:
     return tuple(_horner(given, which, x) for which in range(len(FUNCTIONS)))
 
 
+def bends_at(s: Any, given: Any) -> tuple[Any, Any]:
+    """K₁, k₂ at ``s``: what the way along the hole takes."""
+    x = (s - given[0]) * given[1]
+    return _horner(given, 0, x), _horner(given, 1, x)
+
+
 def here_at(s: Any, given: Any) -> Here:
     """Return the hole at ``s`` with the derivatives of its curvatures."""
     x, scale = (s - given[0]) * given[1], given[1]
