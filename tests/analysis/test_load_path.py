@@ -14,22 +14,25 @@ import numpy as np
 import pytest
 
 import rodwell
-from rodwell.analysis.off_wall.arrange import at_load
+from rodwell.analysis.off_wall.arrange import at_load, refined
 from rodwell.analysis.off_wall.certificate import contact_certificate
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import FORCE
+from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path import disturbance
 from rodwell.analysis.path.barrier import Barrier, saddle
 from rodwell.analysis.path.disturbance import comes_back, held_by
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.analysis.path.snap import Flow
+from rodwell.analysis.path.snap import Flow, _disturbed, flowed, kicked
+from rodwell.analysis.path.straightening import straight_state
 from rodwell.cli.path_text import print_barrier
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.stretches.assembly import assemble
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
+from rodwell.numerics.stretches.walk import ahead, between, row_of, step, tangent_in_load
 from rodwell.quantities.value import Value
 
 
@@ -196,6 +199,48 @@ def test_states_of_partial_contact(loop: LoadPath, force: float, breaks, forces,
         if largest:
             assert gap.largest.value == pytest.approx(largest, rel=5e-6)
     assert state.certificate.passed
+
+
+def test_balance_in_a_stretch_in_contact_that_is_about_to_be_a_point(loop: LoadPath) -> None:
+    """Third derivatives there are sums of values over the cube of its length, 3e-11, that cancel."""
+    states = [state for state in loop.legs[0].runs[0] if state.pattern.text() == "=-=-=-="]
+    assert np.diff(states[-1].bounds).min() < 4e-4
+    fine = refined(states[-1], 6)
+    assert fine is not None
+    assert contact_certificate(fine).worst < 5e-9
+
+
+def test_a_step_begins_on_the_cubic_through_two_states(loop: LoadPath) -> None:
+    """Where the next state of the helix is, from the last two and their tangents; error of the fourth order."""
+    run = [state.solved for state in loop.legs[1].runs[0] if state.pattern.full]
+    first, second, third = next(
+        trio for trio in zip(run, run[1:], run[2:], strict=False)
+        if len({one.shape.chain for one in trio}) == 1 and trio[0].shape.load - trio[1].shape.load < -2.0
+    )  # fmt: skip
+    before, along = (tangent_in_load(one, 1.0) for one in (first, second))
+    row = row_of(along, second.shape.chain, second.shape.load)
+    chord = between(second.shape, third.shape)
+    size = row.of(chord.nodes, chord.breaks, chord.load)
+    errors = [
+        abs(ahead(second.shape, along, part * size, passed).nodes - found.shape.nodes).max()
+        for passed in (None, (first, before)) for part in (0.5, 1.0)
+        if (found := step(second.model, second, along, part * size)[1]) is not None
+    ]  # fmt: skip
+    assert errors[3] < 0.05 * errors[1]
+    assert errors[2] < errors[3] / 4.0
+
+
+def test_flows_that_meet_go_on_as_one() -> None:
+    """From the straight rod beyond its buckling load: two to one side, the third to the other, a mirror image."""
+    event, ways = straight_state(RodInHole(rodwell.Problem(weight=15)), -114.0), []
+    starts = [_disturbed(kicked(event.solved, sign), seed) for sign, seed in ((1.0, 0), (1.0, 1), (-1.0, 0))]
+    first, second, third = (flowed(event, start, FORCE, -114.0, ways=ways) for start in starts)
+    assert first is not None
+    assert third is not None
+    assert second is first
+    assert third is not first
+    assert third.out.energy == pytest.approx(first.out.energy, rel=1e-9)
+    assert flowed(event, starts[1], FORCE, -114.0).out.energy == pytest.approx(first.out.energy, rel=1e-9)
 
 
 @pytest.mark.parametrize(("force", "energy"), [(-140.0, -0.043325), (-148.5, -0.062934371), (-160.0, -0.089700)])

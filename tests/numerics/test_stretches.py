@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.polynomial import legendre
@@ -9,9 +11,10 @@ from numpy.polynomial import legendre
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern, chain
 from rodwell.numerics.stretches.assembly import assemble, bubbles_of
-from rodwell.numerics.stretches.basis import tabulate
+from rodwell.numerics.stretches.basis import bent, tabulate
 from rodwell.numerics.stretches.carry import fields_at, fit, rim_fields, sampler
 from rodwell.numerics.stretches.chain import Shape, cartesian, cartesian_curvature, cartesian_derivatives
+from rodwell.numerics.stretches.descent import way_from
 from rodwell.problem.problem import Problem
 
 PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), ((2,), (2,), (1,), (1,), (1,), (2,))
@@ -36,6 +39,26 @@ def test_derivatives_by_places_are_differences() -> None:
     for order in range(3):
         change = (tabulate(8, places + h, 4)[order] - tabulate(8, places - h, 4)[order]) / (2 * h)
         assert change == pytest.approx(table[order + 1], rel=1e-6, abs=1e-6)
+
+
+def test_what_moves_and_turns_an_element_does_not_bend_it() -> None:
+    places, a = np.linspace(0.0, 1.0, 7), np.random.default_rng(3).standard_normal(10)
+    one, other = tabulate(9, places, 4) @ a, tabulate(9, places, 4, rigid=True) @ bent(a)
+    assert other == pytest.approx(one, rel=1e-12, abs=1e-11)
+    turned = np.array([0.75, 2.0**-11, 0.75 + 2.0**-11, 2.0**-11, *np.zeros(6)])
+    assert not (tabulate(9, places, 4, rigid=True) @ bent(turned))[2:].any()
+
+
+def test_a_way_downhill_is_joined_from_where_it_lingered_last() -> None:
+    """Past a saddle at the origin along x = exp(t), y = exp(−t), at rest at x = 10."""
+    x = np.array([0.0, 0.01, 0.1, 2.0, 9.0, 10.0])
+    places, rates = np.stack([x, np.array([5.0, 0.3, 0.1, 0.0, 0.0, 0.0])], axis=1), np.array([9.0, 1.0, 1.0, 1.0, 1.0])
+    end: Any = "at rest"
+    way = way_from(places, rates, end)
+    assert way.places[0] == pytest.approx([0.1, 0.1])
+    assert way.passes(np.array([5.0, 0.9e-3]))
+    assert not way.passes(np.array([5.0, 1.1e-3]))
+    assert not way.passes(np.array([0.01, 0.3]))
 
 
 def _disturbed(model: RodInHole) -> Shape:

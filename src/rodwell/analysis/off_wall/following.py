@@ -26,6 +26,7 @@ from rodwell.analysis.off_wall.turning import driven_rate, growing_direction
 from rodwell.analysis.off_wall.within import Step, first_event
 from rodwell.numerics.stretches.walk import (
     Motion,
+    Passed,
     between,
     length,
     locate,
@@ -96,6 +97,7 @@ class _Walker:
     size: float = FIRST_STEP
     largest: float = LARGEST_STEP
     close: bool = False
+    before: Passed | None = None
     progress: Callable[[float], str | None] | None = None
 
     def walk(self, most_states: int) -> Followed:
@@ -117,7 +119,7 @@ class _Walker:
         most = MOST_SHRUNK / max(
             float(np.max(-rates / lengths)), MOST_SHRUNK / self.largest
         )  # no stretch is passed over
-        outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most))
+        outcome, solved, steps = step(state.model, state.solved, self.along, min(self.size, most), self.before)
         if solved is None:
             self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
             return
@@ -282,6 +284,7 @@ class _Walker:
         return any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))
 
     def _accept(self, new: PatternedState, along: Motion) -> None:
+        self.before = self.state.solved, self.along
         self.state, self.along, self.close = new, along, False
         self.result.states.append(new)
         if self.progress is not None and (enough := self.progress(new.load)):

@@ -54,7 +54,8 @@ class Destination:
     """Where a snap leads: the kind of state, its turns around the hole, its energy relative to the straight rod.
 
     ``force`` is the end force there: where it is controlled that of the snap.
-    ``starts`` is how many disturbed starts were tried, ``agree`` how many ended in this state or its mirror image.
+    ``starts`` is how many disturbed starts were tried, ``agree`` how many ended in this state or its mirror image,
+    or came upon the way of one that did.
     """
 
     kind: str

@@ -20,7 +20,7 @@ from rodwell.analysis.off_wall.soft import settled
 from rodwell.numerics.stretches.assembly import bubbles_of
 from rodwell.numerics.stretches.carry import Sampler, fields_at, sampler
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.descent import WANTED, descended
+from rodwell.numerics.stretches.descent import WANTED, Way, descended
 from rodwell.numerics.stretches.newton import Solved, softest
 from rodwell.quantities.arrays import FloatArray
 
@@ -93,9 +93,10 @@ def snapped(
 def _minima(event: PatternedState, seeds: int, control: Control, value: float, near: float) -> list[Solved]:
     """Minima behind a soft wall to which the disturbed state flows; none if the first is ``near`` that state."""
     minima: list[Solved] = []
+    ways: list[Way] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
-            low = flowed(event, _disturbed(kicked(event.solved, sign), seed), control, value)
+            low = flowed(event, _disturbed(kicked(event.solved, sign), seed), control, value, ways=ways)
             if low is not None:
                 minima.append(low)
             if near and len(minima) == 1 and distance(minima[0], event.solved) < near:
@@ -133,16 +134,24 @@ class Flow:
 
 
 def flowed(
-    event: PatternedState, sample: Sampler, control: Control, value: float, flow: Flow = Flow()
+    event: PatternedState,
+    sample: Sampler,
+    control: Control,
+    value: float,
+    flow: Flow = Flow(),
+    ways: list[Way] | None = None,
 ) -> Solved | None:
-    """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held."""
+    """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held.
+
+    ``ways``: of other flows there, which it may join.
+    """
     model, load = event.model, value if control.by_force else event.load
     pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
     elements = element_counts(model, nowhere, load, 1.0 / flow.elements, FEWEST_ELEMENTS)
     shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
     stiffness = 0.0 if model.soft else flow.stiffness  # a soft wall is in the model already
     row = control.row(shape.chain, value)
-    return descended(model, shape, stiffness, row, control.index_at, flow.wanted)
+    return descended(model, shape, stiffness, row, control.index_at, flow.wanted, ways)
 
 
 def kicked(state: Solved, sign: float) -> Shape:

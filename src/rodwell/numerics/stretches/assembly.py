@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.numerics.stretches.basis import ENDS, reference_element
+from rodwell.numerics.stretches.basis import ENDS, bent, reference_element
 from rodwell.numerics.stretches.chain import RADIAL_SLOPE, Shape, cartesian_curvature
 from rodwell.quantities.arrays import FloatArray, IntArray
 
@@ -124,7 +124,9 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     q, order = element.points.size, np.arange(3.0)
     flat = table.reshape(3 * q, size)
     inverse = h[:, None] ** -order  # (k, 3): h^-d
-    u = (a @ flat.T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3) * inverse.T[None, :, :, None]
+    u = (bent(a) @ element.bending.reshape(3 * q, size).T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3) * inverse.T[
+        None, :, :, None
+    ]
     s = start[:, None] + h[:, None] * element.points
     given = shape.chain.given[group].T[:, :, None]
     per_length = model.load_per_length(given)

@@ -22,10 +22,14 @@ ENDS = 4
 
 
 class ReferenceElement(NamedTuple):
-    """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points``, ``weights`` (q,) on [0, 1]."""
+    """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points``, ``weights`` (q,) on [0, 1].
+
+    ``bending`` (3, q, p+1) is the table for coefficients as :func:`bent` has them.
+    """
 
     degree: int
     table: FloatArray
+    bending: FloatArray
     points: FloatArray
     weights: FloatArray
 
@@ -35,7 +39,8 @@ def reference_element(degree: int) -> ReferenceElement:
     """Return the functions of an element of this degree; the rule is exact to degree 2p + 3."""
     points, weights = legendre.leggauss(degree + 2)
     places = 0.5 * (points + 1.0)
-    return ReferenceElement(degree, tabulate(degree, places, 3), places, 0.5 * weights)
+    table, bending = (tabulate(degree, places, 3, rigid=rigid) for rigid in (False, True))
+    return ReferenceElement(degree, table, bending, places, 0.5 * weights)
 
 
 @lru_cache(maxsize=32)
@@ -54,24 +59,43 @@ def _coefficients(degree: int) -> FloatArray:
 
 
 @lru_cache(maxsize=64)
-def _derivatives(degree: int, orders: int) -> FloatArray:
+def _derivatives(degree: int, orders: int, rigid: bool) -> FloatArray:
     """Legendre coefficients of all functions and their derivatives by ξ, (orders, p+1, p+1)."""
     out = np.zeros((orders, degree + 1, degree + 1))
     out[0] = _coefficients(degree)
+    if rigid:
+        out[0, :ENDS, :2] = np.array([[1.0, 0.5], [0.0, 0.5], [0.0, 0.0], [0.0, 0.0]])
     for order in range(1, orders):
         out[order, :-1] = 2.0 * legendre.legder(out[order - 1])
     return out
 
 
-def tabulate(degree: int, places: FloatArray, orders: int) -> FloatArray:
-    """All functions and their first ``orders`` − 1 derivatives by ξ at ``places`` (k,): (orders, k, p+1)."""
+def bent(a: FloatArray) -> FloatArray:
+    """Coefficients (…, p+1) of the functions with 1 and ξ in place of the first two cubics.
+
+    Value and slope at 0 move and turn the element; what it is bent by are the differences of those at 1. In an element
+    of length h a derivative of order d is a sum of values over h^d that cancel: in one that is a thousandth of the rod
+    the third would be round-off times 1e9 and the sum of all functions' derivatives. Differences are exact.
+    """
+    out = a.copy()
+    out[..., 2] -= a[..., 0]
+    out[..., 2] -= a[..., 1]
+    out[..., 3] -= a[..., 1]
+    return out
+
+
+def tabulate(degree: int, places: FloatArray, orders: int, *, rigid: bool = False) -> FloatArray:
+    """All functions and their first ``orders`` − 1 derivatives by ξ at ``places`` (k,): (orders, k, p+1).
+
+    With ``rigid`` those that belong to the coefficients of :func:`bent`.
+    """
     t = 2.0 * np.asarray(places, dtype=float) - 1.0
     values = np.ones((t.size, degree + 1))
     if degree:
         values[:, 1] = t
     for n in range(2, degree + 1):  # Legendre polynomials by their recurrence
         values[:, n] = ((2 * n - 1) * t * values[:, n - 1] - (n - 1) * values[:, n - 2]) / n
-    return np.asarray(values @ _derivatives(degree, orders))
+    return np.asarray(values @ _derivatives(degree, orders, rigid))
 
 
 @lru_cache(maxsize=32)

@@ -20,7 +20,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.numerics.stretches.basis import ENDS, tabulate
+from rodwell.numerics.stretches.basis import ENDS, bent, tabulate
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 
 RADIUS, ANGLE, RADIAL_SLOPE, ANGLE_RATE = range(4)
@@ -155,9 +155,9 @@ class Shape:
 
     def along(self, elements: IntArray, xi: FloatArray, orders: int = 4) -> FloatArray:
         """Fields and derivatives by s at parts ``xi`` (k, n) of elements of one kind (k,): (fields, orders, k, n)."""
-        a = self.local(elements)[0]
+        a = bent(self.local(elements)[0])
         h = self.places[elements + 1] - self.places[elements]
-        table = tabulate(self.chain.degree, xi.ravel(), orders).reshape(orders, *xi.shape, -1)
+        table = tabulate(self.chain.degree, xi.ravel(), orders, rigid=True).reshape(orders, *xi.shape, -1)
         values = np.moveaxis(table @ a.transpose(0, 2, 1), -1, 0)
         return np.asarray(values * (h ** -np.arange(orders)[:, None])[..., None])
 

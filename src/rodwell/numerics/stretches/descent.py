@@ -36,6 +36,37 @@ SLOWER, FASTER = 2.5, 0.4
 POSITION_MASS, SLOPE_MASS = 0.5, 1.0 / 105.0
 """Mass at a node from an element beside it: of values, times its length, and of slopes, times its cube."""
 
+JOINED, LINGERED = 1e-3, 0.1
+"""Distance from another way downhill, in radii of the disc, within which one is on it, and part of the speed that comes
+later below which a way lingers beside a saddle.
+
+The speed of the flow is a small disturbance of it that is carried along: by as much as it grows, others may. So ways
+that are close where one lingers may part yet, and those that are close later are one to ten times that distance.
+"""
+
+
+@dataclass(eq=False, repr=False)
+class Way:
+    """A way downhill from where it lingered last: places of the nodes at each step (k, 2n), and where it led."""
+
+    places: FloatArray
+    end: Solved
+
+    def passes(self, place: FloatArray) -> bool:
+        """Whether nodes at a place (2n,) lie on the way: on a chord between two steps."""
+        start, chord = self.places[:-1], np.diff(self.places, axis=0)
+        part = np.sum((place - start) * chord, axis=1) / np.maximum(np.sum(chord**2, axis=1), 1e-30)
+        off = place - start - np.clip(part, 0.0, 1.0)[:, None] * chord
+        return bool(np.min(np.max(np.abs(off), axis=1), initial=np.inf) <= JOINED)
+
+
+def way_from(places: FloatArray, rates: FloatArray, end: Solved) -> Way:
+    """The way through ``places`` (k+1, 2n), in steps of the times 1/``rates`` (k,), that led to ``end``."""
+    speeds = np.max(np.abs(np.diff(places, axis=0)), axis=1) * rates
+    later = np.maximum.accumulate(speeds[::-1])[::-1]
+    lingers = np.flatnonzero(speeds < LINGERED * later)
+    return Way(places[lingers[-1] + 1 if lingers.size else 0 :], end)
+
 
 @dataclass(frozen=True)
 class SoftRim:
@@ -90,15 +121,25 @@ def _mass(shape: Shape) -> FloatArray:
 
 
 def descended(
-    model: Any, shape: Shape, stiffness: float, row: Row, index: Callable[[Solved], int], wanted: float = WANTED
+    model: Any,
+    shape: Shape,
+    stiffness: float,
+    row: Row,
+    index: Callable[[Solved], int],
+    wanted: float = WANTED,
+    ways: list[Way] | None = None,
 ) -> Solved | None:
     """The minimum of the energy behind a rim of this stiffness to which the flow leads from ``shape``, free everywhere.
 
     ``row`` is what is held on the way, and ``index`` the stability index where it is. The way is followed the closer,
     the less of itself a step is ``wanted`` to be wrong by. None if the flow does not come to rest.
+
+    Where it comes upon one of ``ways``, from other shapes of the same chain, the rest is known: from there on they are
+    one, within what steps are wrong by. A way that joins none is added.
     """
     rim, rate = SoftRim(model, stiffness), FIRST_RATE
     out, mass = assemble(rim, shape), _mass(shape)
+    walked, rates = [shape.cartesian[:, :2].ravel()], []
     for _ in range(MOST_EULER_STEPS):
         pulled = replace(out, diagonal=out.diagonal + rate * mass)
         ahead, wrong = None, np.inf
@@ -110,10 +151,17 @@ def descended(
                 return None
             continue
         out = ahead
+        walked.append(out.shape.cartesian[:, :2].ravel())
+        rates.append(rate)
+        met = next((way for way in ways or () if way.passes(walked[-1])), None)
+        if met is not None:
+            return met.end
         rate *= min(max(wrong / wanted, FASTER), SLOWER)
         if rate < LOWEST_RATE:
             rest = solve(rim, out.shape, row)[1]
             if rest is not None and index(rest) == 0:
+                if ways is not None:
+                    ways.append(way_from(np.array(walked), np.array(rates), rest))
                 return rest
             rate *= 64.0
     return None

@@ -81,12 +81,36 @@ def _moved(shape: Shape, motion: Motion, step: float) -> Shape:
     return shape.moved(by.nodes, by.bubbles, by.breaks, by.load)
 
 
-def step(model: Any, state: Solved, along: Motion, size: float) -> tuple[Outcome, Solved | None, int]:
-    """One step of arclength ``size`` along a tangent."""
+Passed = tuple[Solved, Motion]
+"""A state, and the direction of the path there."""
+
+
+def step(
+    model: Any, state: Solved, along: Motion, size: float, before: Passed | None = None
+) -> tuple[Outcome, Solved | None, int]:
+    """One step of arclength ``size`` along a tangent; Newton's method begins :func:`ahead`."""
     shape = state.shape
     row = row_of(along, shape.chain, shape.load)
     row = replace(row, target=row.of(shape.nodes, shape.breaks, shape.load) + size)
-    return solve(model, _moved(shape, along, size), row)
+    return solve(model, ahead(shape, along, size, before), row)
+
+
+def ahead(shape: Shape, along: Motion, size: float, before: Passed | None) -> Shape:
+    """The shape to be expected at a distance along a tangent: on it, to first order.
+
+    To third, where a state ``before`` is on the same chain: on the cubic through both with their tangents.
+    """
+    if before is None or before[0].shape.chain is not shape.chain:
+        return _moved(shape, along, size)
+    back, rate = between(shape, before[0].shape), before[1]
+    row = row_of(along, shape.chain, shape.load)
+    far, turned = (row.of(motion.nodes, motion.breaks, motion.load) for motion in (back, rate))
+    if not far < 0.0 < turned:
+        return _moved(shape, along, size)
+    part = -size / far
+    shape = _moved(shape, along, size * (1.0 + part) ** 2)
+    shape = _moved(shape, rate, size * part * (1.0 + part) / turned)
+    return _moved(shape, back, part**2 * (3.0 + 2.0 * part))
 
 
 def between(first: Shape, second: Shape) -> Motion:
