@@ -9,7 +9,7 @@ import rodwell
 from rodwell import Problem
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state import certificate
-from rodwell.physics.on_wall import braid, equations
+from rodwell.physics.on_wall import braid, end_loads, equations
 from rodwell.physics.on_wall.equations import NAMES, Fifteen, Load
 from rodwell.physics.on_wall.parameters import SIDE
 
@@ -147,7 +147,7 @@ def test_exact_weightless_helix(eta: float) -> None:
     assert parameters[SIDE] == 1.0
     s = np.linspace(0.0, 1.0, 7)
     u = np.array([s * np.sin(eta), np.full(7, np.sin(eta)), np.zeros(7), np.zeros(7)])
-    end = braid.end_force(0.0, 0.0, float(u[0, -1]), float(u[1, -1]), parameters)
+    end = end_loads.end_force(0.0, 0.0, float(u[0, -1]), float(u[1, -1]), parameters)
 
     def rates(places: np.ndarray) -> np.ndarray:
         values = np.array([places * np.sin(eta), *np.ones((3, places.size)) * [[np.sin(eta)], [0.0], [0.0]]])

@@ -27,7 +27,8 @@ from rodwell.analysis.path.follow import load_path
 from rodwell.answers.words.steps import held, steps_data, steps_note
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
-from rodwell.problem.rod import Rod, checked_sections
+from rodwell.problem.rod import Rod
+from rodwell.problem.sections import checked_sections
 
 C = 1.5
 

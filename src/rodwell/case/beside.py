@@ -10,7 +10,7 @@ from rodwell.case.hole.sections import WHOLE, HolePart
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.string.sections import Member, PhysicalString
 from rodwell.errors import InputError
-from rodwell.problem.rod import PLAIN, Section
+from rodwell.problem.sections import PLAIN, Section
 
 EQUAL = 1e-9
 """Relative difference of clearances, and difference of places in L, that counts as none."""

@@ -11,8 +11,7 @@ from rodwell.errors import InputError
 from rodwell.problem.checks import LIMITS
 from rodwell.problem.ends import checked_ends
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import checked_sections
-from rodwell.problem.section_text import sections_from
+from rodwell.problem.sections import checked_sections, sections_from
 
 
 def check_sections(parsed: schema.CaseFile) -> None:

@@ -124,7 +124,7 @@ def make_problem(given: dict[str, Any]) -> Problem:
         If it is no problem, or two options say the same thing.
     """
     from rodwell.problem.problem import Problem  # noqa: PLC0415
-    from rodwell.problem.section_text import sections_from  # noqa: PLC0415
+    from rodwell.problem.sections import sections_from  # noqa: PLC0415
 
     values = {name: given[name] for name in PARAMETERS if given.get(name) is not None}
     check_torsion(values)

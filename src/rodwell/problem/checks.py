@@ -9,7 +9,7 @@ from typing import Any
 from rodwell.errors import InputError, InputWarning, checked_number
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
 from rodwell.problem.hole import Hole, checked_axis
-from rodwell.problem.rod import checked_sections
+from rodwell.problem.sections import checked_sections
 
 LARGEST_WEIGHT = 1e9
 LARGEST_TWIST = 1e4

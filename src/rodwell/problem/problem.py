@@ -16,7 +16,8 @@ from rodwell.problem.hole import Hole
 from rodwell.problem.lying import rise_of_lying_rod
 from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
-from rodwell.problem.rod import COLUMNS, PLAIN, Rod, Section, seen_from_s_1
+from rodwell.problem.rod import Rod
+from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 
 
 def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:

@@ -1,50 +1,21 @@
-"""The rod along s: sections of a string, checked, and the profiles that follow from them."""
+"""The rod along s: the profiles that follow from its sections."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from rodwell.errors import InputError, checked_number
-from rodwell.problem.profile import (
-    MOST_VALUES,
-    Profile,
-    Ratio,
-    ReciprocalIntegral,
-    along,
-    extremes,
-    integral_from_1,
-    powers,
-)
+from rodwell.problem.profile import Profile, Ratio, ReciprocalIntegral, along, extremes, integral_from_1, powers
+from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 from rodwell.quantities.arrays import BoolArray, FloatArray
-
-Section = tuple[float, Ratio, Ratio, float, Ratio]
-"""Length in L, and ratios to the problem's data: bending stiffness, weight, clearance, torsional stiffness."""
-
-RATIOS = ("stiffness", "weight", "clearance", "torsion")
-COLUMNS = ("length", *RATIOS)
-SMALLEST_RATIO, LARGEST_RATIO = 1e-6, 1e6
-MOST_SECTIONS = 100_000
-
-ROUNDED = 1e-9
-"""How far the lengths of sections may be from adding up to 1."""
 
 EQUAL_LENGTHS = 1e-12
 """Lengths that differ by less count as equal."""
 
 SMOOTH = 1e-12
 """Kinks of the stiffness below this part of the largest stiffness over a section's length are round-off."""
-
-PLAIN: tuple[Section, ...] = ((1.0, 1.0, 1.0, 1.0, 1.0),)
-"""The one section of a uniform rod."""
-
-FORM = (
-    "must be a sequence of (length, stiffness, weight, clearance, torsion), from s = 0; all but the length may be left "
-    f"out, and all but length and clearance may be 2 to {MOST_VALUES} values at evenly spaced places of the section"
-)
 
 
 @dataclass(frozen=True)
@@ -74,7 +45,7 @@ class Rod:
         return any(isinstance(ratio, tuple) for section in self.sections for ratio in section)
 
     def tapers(self, ratio: str) -> BoolArray:
-        """In which sections a ratio, one of :data:`RATIOS`, varies, (n,)."""
+        """In which sections a ratio, one of :data:`rodwell.problem.sections.RATIOS`, varies, (n,)."""
         which = COLUMNS.index(ratio)
         return np.array([isinstance(section[which], tuple) for section in self.sections])
 
@@ -213,24 +184,6 @@ def _at(ratio: Ratio, end: int) -> float:
     return ratio[end] if isinstance(ratio, tuple) else ratio
 
 
-def seen_from_s_1(sections: tuple[Section, ...]) -> tuple[Section, ...]:
-    """Sections of the rod turned round."""
-    return tuple(
-        (length, _turned(stiffness), _turned(weight), clearance, _turned(torsion))
-        for length, stiffness, weight, clearance, torsion in sections[::-1]
-    )
-
-
-def _turned(ratio: Ratio) -> Ratio:
-    return ratio[::-1] if isinstance(ratio, tuple) else ratio
-
-
-def refuse_sections(sections: tuple[Section, ...], why: str) -> None:
-    """Raise for a string of sections, where only a uniform rod is taken; ``why`` says why, and what to do."""
-    if sections:
-        raise InputError("sections", f"{len(sections)} of them", why)
-
-
 def lower_half(sections: tuple[Section, ...]) -> tuple[Section, ...]:
     """Sections of the half from s = 0 to ½, with lengths in its own length."""
     breaks, out = Rod(sections).breaks if sections else np.array([0.0]), []
@@ -250,75 +203,3 @@ def _first_part(ratio: Ratio, part: float) -> Ratio:
         return ratio
     found = np.polynomial.Polynomial(powers(ratio))
     return tuple(map(float, found(part * np.linspace(0.0, 1.0, len(ratio)))))
-
-
-def checked_sections(sections: object) -> tuple[Section, ...]:
-    """Return sections whole, their lengths adding up to 1, neighbours that are alike joined; none for the plain rod.
-
-    Raises
-    ------
-    InputError
-        Where one is not as it must be: it is named by its number, from s = 0.
-    """
-    if isinstance(sections, str) or not isinstance(sections, Iterable):
-        raise InputError("sections", sections, FORM)
-    given = list(sections)
-    if not given:
-        return ()
-    if len(given) > MOST_SECTIONS:
-        raise InputError("sections", len(given), f"may be at most {MOST_SECTIONS} of them")
-    whole = [_checked(section, number) for number, section in enumerate(given, 1)]
-    total = float(np.sum([section[0] for section in whole]))
-    if abs(total - 1.0) > ROUNDED:
-        lengths = " + ".join(f"{section[0]:.10g}" for section in whole[:6]) + (" + …" if len(whole) > 6 else "")
-        raise InputError(
-            "sections", lengths, f"lengths are parts of the rod's length and must add up to 1, not to {total:.10g}"
-        )
-    joined: list[Section] = []
-    for section in whole:
-        if joined and joined[-1][1:] == section[1:] and not any(isinstance(ratio, tuple) for ratio in section):
-            joined[-1] = (joined[-1][0] + section[0], *section[1:])
-        else:
-            joined.append(section)
-    if len(joined) == 1:
-        joined = [(1.0, *joined[0][1:])]
-    return () if tuple(joined) == PLAIN else tuple(joined)
-
-
-def _checked(section: object, number: int) -> Section:
-    """A section with all its five numbers, each checked."""
-    if isinstance(section, str) or not isinstance(section, Iterable):
-        raise InputError(f"section {number}", section, FORM)
-    values = list(section)
-    if not 1 <= len(values) <= 1 + len(RATIOS):
-        raise InputError(f"section {number}", section, FORM)
-    length = checked_number(
-        f"section {number}, length", values[0], 1e-9, 1.0, "above 0 and at most 1, a part of the length"
-    )
-    b, q, d, c = (
-        _checked_ratio(f"section {number}, {name}", name, value)
-        for name, value in zip(RATIOS, [*values[1:], *[1.0] * 4], strict=False)
-    )
-    assert isinstance(d, float)
-    return (length, b, q, d, c)
-
-
-def _checked_ratio(field: str, name: str, value: object) -> Ratio:
-    """A ratio: a number, or its values along the section; values that are all alike are a number."""
-    low = 0.0 if name == "weight" else SMALLEST_RATIO
-    allowed = f"from {low:g} to {LARGEST_RATIO:g}, a ratio to the {name} of the problem"
-    if name == "clearance" or isinstance(value, str) or not isinstance(value, Iterable):
-        return float(checked_number(field, value, low, LARGEST_RATIO, allowed))
-    given = list(value)
-    if not 1 <= len(given) <= MOST_VALUES:
-        what = f"must be a number, or 2 to {MOST_VALUES} of them, its values at evenly spaced places of the section"
-        raise InputError(field, f"{len(given)} values", f"{what}: part the section for more")
-    ratio = tuple(float(checked_number(field, one, low, LARGEST_RATIO, allowed)) for one in given)
-    if min(ratio) == max(ratio):
-        return ratio[0]
-    least, where, most = extremes(ratio)
-    if least < low or most > LARGEST_RATIO:
-        found = f"{least:.4g} at {where:.4g}" if least < low else f"{most:.4g} at most"
-        what = f"the polynomial through them is {found} of the section's length: part the section, or give fewer values"
-        raise InputError(field, " / ".join(f"{one:g}" for one in ratio), what)
-    return ratio

@@ -10,7 +10,7 @@ from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.verdict import verdict
 from rodwell.case.applied import AppliedLoad
 from rodwell.problem.problem import Problem
-from rodwell.problem.section_text import sections_text
+from rodwell.problem.sections import sections_text
 from rodwell.web.explored import STRAIGHT, Explored
 from rodwell.web.files import case_data
 from rodwell.web.off_wall import leg_of

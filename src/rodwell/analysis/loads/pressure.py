@@ -16,7 +16,8 @@ from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import COLUMNS, Rod
+from rodwell.problem.rod import Rod
+from rodwell.problem.sections import COLUMNS
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along

@@ -7,7 +7,7 @@ import math
 from rodwell.analysis.off_wall.control import FORCE, NAMES, Control, shortening
 from rodwell.errors import InputError, checked_number
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import refuse_sections
+from rodwell.problem.sections import refuse_sections
 from rodwell.quantities.tolerance import checked_force
 
 SOFTEST, STIFFEST = 1e-6, 1e18

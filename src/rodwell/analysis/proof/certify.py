@@ -22,7 +22,7 @@ from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem, ends_text
-from rodwell.problem.rod import refuse_sections
+from rodwell.problem.sections import refuse_sections
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""

@@ -15,9 +15,9 @@ from rodwell.analysis.state.in_hole import in_hole
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.spaces import SplineSpace
-from rodwell.physics.on_wall import braid
+from rodwell.physics.on_wall import braid, end_loads
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT
-from rodwell.physics.on_wall.sections import of_section, step_loads
+from rodwell.physics.on_wall.sections import of_section, step_jumps, step_loads
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray, IntArray
@@ -74,17 +74,17 @@ def local(rod: Rod, parameters: FloatArray, s: FloatArray) -> Local:
     return Local(of_section(own, parameters), own[0], rod.torsion(s), rod.stiffness.piece_of(s), taper)
 
 
-def end_force(problem: Problem, family: Family, state: State) -> braid.EndForce:
+def end_force(problem: Problem, family: Family, state: State) -> end_loads.EndForce:
     """What acts on the rod at s = 1, and where that is."""
     if problem.hole is not None:
         last = in_hole(problem, family, state).fields(np.array([1.0]))
         shear, moment, angle, eta = (float(last[name][0]) for name in ("rod_F3", "rod_M2", "xi2", "eta"))
-        return braid.EndForce(shear, moment, angle, float(np.sin(eta)))
+        return end_loads.EndForce(shear, moment, angle, float(np.sin(eta)))
     y, y1 = shape(family, state, np.array([1.0]), 2)[:, 0]
     profile = problem.rod.stiffness
     stiffness, rate = (float(along(np.ones(1))[0]) for along in (profile, profile.derivative))
     moment, reaction = _end_reactions(family, state)
-    return braid.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), (stiffness, rate))
+    return end_loads.end_force(moment, reaction, float(y), float(y1), family.parameters(state.lam), (stiffness, rate))
 
 
 def _end_reactions(family: Family, state: State) -> tuple[float, float]:
@@ -120,14 +120,14 @@ def total_wall_force(problem: Problem, family: Family, state: State) -> float:
 def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps, and the rod's jumps (2, k).
 
-    See :func:`rodwell.physics.on_wall.sections.step_loads` and :func:`rodwell.physics.on_wall.braid.step_jumps`.
+    See :func:`rodwell.physics.on_wall.sections.step_loads` and :func:`~rodwell.physics.on_wall.sections.step_jumps`.
     """
     rod, parameters = problem.rod, family.parameters(state.lam)
     y, y1, y2 = shape(family, state, rod.breaks[1:-1], 3)
     stiffness = rod.stiffness_sides
     moment = -stiffness[1] * y2 / np.sqrt(1.0 - y1**2)
     couple, radial = step_loads(y1, moment, stiffness, parameters, rod.stiffness_rate_sides)
-    return couple, radial, braid.step_jumps(y, y1, (couple, radial), float(parameters[CLEARANCE]))
+    return couple, radial, step_jumps(y, y1, (couple, radial), float(parameters[CLEARANCE]))
 
 
 def _with_steps(
@@ -253,7 +253,7 @@ def _peaks(sizes: FloatArray) -> FloatArray:
     return np.asarray(np.sort(peaks[np.argsort(-sizes[peaks], kind="stable")[:MOST_PEAKS]]))
 
 
-def _rates(problem: Problem, parameters: FloatArray, end: braid.EndForce) -> Rates:
+def _rates(problem: Problem, parameters: FloatArray, end: end_loads.EndForce) -> Rates:
     def rates(s: FloatArray, u: FloatArray) -> FloatArray:
         here = local(problem.rod, parameters, s)
         torsion = problem.torsional_stiffness * here.torsion
@@ -268,7 +268,7 @@ def _rebuilt(
     u: FloatArray,
     integrals: tuple[FloatArray, FloatArray],
     parameters: FloatArray,
-    end: braid.EndForce,
+    end: end_loads.EndForce,
 ) -> dict[str, FloatArray]:
     here = local(problem.rod, parameters, s)
     torsion = problem.torsional_stiffness * here.torsion

@@ -15,7 +15,7 @@ from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
 from rodwell.case.string.tool_joints import TOOL_JOINT, body_between_tool_joints, tool_joint_of
 from rodwell.errors import InputError
-from rodwell.problem.rod import Section
+from rodwell.problem.sections import Section
 
 EQUAL = 1e-9
 """Relative difference of lengths that counts as none."""

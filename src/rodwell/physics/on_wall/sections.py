@@ -69,3 +69,14 @@ def step_loads(
     curvature = slope**2 / parameters[CLEARANCE]
     force = parameters[TWIST] * moment * (1.0 / above - 1.0 / below) + (rates[1] - rates[0]) * curvature
     return (below - above) * curvature, np.asarray(force)
+
+
+def step_jumps(y: FloatArray, slope: FloatArray, loads: tuple[FloatArray, FloatArray], clearance: float) -> FloatArray:
+    """Jumps (2, k) of the rod's force along i and j at k steps of b, towards s = 1, where y and y′ are (k,).
+
+    ``loads`` are those of :func:`step_loads`: the force along d₁, and the couple c
+    about u₁, which leaves the force c d₁′ = c (ω₁ u₁ − ω₃ t₁) = −c sin η/Δ u₂.
+    """
+    couple, radial = loads
+    sin_a, cos_a, around = np.sin(y / clearance), np.cos(y / clearance), -couple * slope / clearance
+    return np.array([-(radial * cos_a + around * sin_a), -(-radial * sin_a + around * cos_a)])

@@ -15,7 +15,7 @@ from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.formulas import FORMULAS, FormulaInputs
 from rodwell.problem.problem import Problem
-from rodwell.problem.rod import refuse_sections
+from rodwell.problem.sections import refuse_sections
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain as text_of
 from rodwell.quantities.tolerance import RTOL

@@ -17,7 +17,7 @@ from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.errors import InputError
 from rodwell.faces import Shown, drawn, plain
-from rodwell.problem.rod import refuse_sections
+from rodwell.problem.sections import refuse_sections
 from rodwell.quantities.tolerance import RTOL
 from rodwell.strength.stress import Loading, Stresses, section_of, stresses
 from rodwell.studies.packer.lengths import Conditions, Tubing, weights

@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell.errors import InputError
-from rodwell.problem.rod import checked_sections
-from rodwell.problem.section_text import sections_from, sections_text
+from rodwell.problem.sections import checked_sections, sections_from, sections_text
 
 number = st.floats(0.1, 10.0)
 ratio = number | st.lists(number, min_size=2, max_size=2).map(tuple)
