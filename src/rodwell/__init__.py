@@ -94,7 +94,7 @@ _HOME = {
     "tensile_loads": "rodwell.analysis.straight.critical",
     "torsion": "rodwell.analysis.loads.torsion",
     "twist_curve": "rodwell.analysis.curves.states",
-    "turns_of_least_energy": "rodwell.analysis.branch.turns",
+    "turns_of_least_energy": "rodwell.analysis.loads.turns",
     "verify": "rodwell.analysis.branch.verifying.verify",
 }
 
@@ -108,7 +108,6 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.minimum import equilibrium
     from rodwell.analysis.branch.solution import Solution
     from rodwell.analysis.branch.special import SpecialPoint
-    from rodwell.analysis.branch.turns import turns_of_least_energy
     from rodwell.analysis.branch.verifying.verify import verify
     from rodwell.analysis.curves.critical import critical_curves
     from rodwell.analysis.curves.curve import Curve
@@ -120,6 +119,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
+    from rodwell.analysis.loads.turns import turns_of_least_energy
     from rodwell.analysis.path.follow import load_path
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.analysis.proof.certify import CertifiedLoads, certify

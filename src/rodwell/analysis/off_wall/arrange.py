@@ -10,9 +10,10 @@ import numpy as np
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import DEGREE, WAVES, Elements, Pattern, chain, counts, pieces_of
+from rodwell.numerics.stretches.bordered import Row, fixed_load
 from rodwell.numerics.stretches.carry import Sampler, fit, sampler
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, solve
+from rodwell.numerics.stretches.newton import Solved, solve
 from rodwell.numerics.stretches.walk import Motion, row_of
 from rodwell.problem.ends import HOLD_ANGLE
 from rodwell.quantities.arrays import FloatArray

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 
 from rodwell.analysis.off_wall.arrange import at_load
 from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.numerics.stretches.bordered import Row, fixed_load, fixed_work
 from rodwell.numerics.stretches.chain import Chain
-from rodwell.numerics.stretches.newton import Row, Solved, fixed_load, fixed_work, solve
+from rodwell.numerics.stretches.newton import Solved, solve
 from rodwell.numerics.stretches.walk import Motion, search, tangent_in_load
 from rodwell.problem.problem import Problem
 

@@ -14,9 +14,10 @@ from rodwell.analysis.off_wall.arrange import solved, with_new_elements
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.pattern import chain
 from rodwell.numerics.stretches.assembly import bubbles_of
+from rodwell.numerics.stretches.bordered import Row
 from rodwell.numerics.stretches.carry import Sampler, sampler
 from rodwell.numerics.stretches.chain import Chain
-from rodwell.numerics.stretches.newton import Row, Solved, softest, solve
+from rodwell.numerics.stretches.newton import Solved, softest, solve
 from rodwell.quantities.arrays import FloatArray
 
 ASIDE = 0.1

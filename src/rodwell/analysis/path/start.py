@@ -18,9 +18,10 @@ from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.off_wall.turning import growing_direction
 from rodwell.analysis.straight.critical import Mode
+from rodwell.numerics.stretches.bordered import Row
 from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
 from rodwell.numerics.stretches.chain import RADIUS
-from rodwell.numerics.stretches.newton import Row, solve
+from rodwell.numerics.stretches.newton import solve
 from rodwell.problem.ends import OFF_WALL_ENDS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray

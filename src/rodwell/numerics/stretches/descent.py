@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
+from rodwell.numerics.stretches.bordered import Row, bordered, residuals
 from rodwell.numerics.stretches.chain import Shape
-from rodwell.numerics.stretches.newton import MOST_MOVED, Row, Solved, bordered, residuals, solve
+from rodwell.numerics.stretches.newton import MOST_MOVED, Solved, solve
 from rodwell.quantities.arrays import FloatArray
 
 FIRST_RATE, LOWEST_RATE, HIGHEST_RATE = 2e3, 1e-1, 1e9

@@ -11,18 +11,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from rodwell.numerics.splines import banded
 from rodwell.numerics.stretches.assembly import Assembled, assemble, bubbles_of
-from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain, Shape
-from rodwell.quantities.arrays import BoolArray, FloatArray
-
-WIDTH = 8
-"""Coordinates of two neighbouring nodes: the Hessian's band."""
+from rodwell.numerics.stretches.bordered import Row, bordered, factorised, lower_band, residuals, solved_with
+from rodwell.numerics.stretches.chain import RADIAL_SLOPE, Shape
+from rodwell.quantities.arrays import FloatArray
 
 TOLERANCE = 1e-10
 """Increment of the nodes' coordinates, relative, at which Newton's method has converged."""
@@ -41,48 +39,12 @@ MOST_SHRUNK, MOST_MOVED = 0.6, 0.5
 MOST_STEPS = 14
 
 
-@cache
-def _lapack() -> Any:
-    """LAPACK, when a state off the wall is solved for: results on the wall do not wait for it."""
-    from scipy.linalg import lapack  # noqa: PLC0415 - slow to import
-
-    return lapack
-
-
 class Outcome(Enum):
     """What came of a solve."""
 
     CONVERGED = "converged"
     NOT_CONVERGED = "Newton's method did not converge"
     OUT_OF_RANGE = "the rod turned across the hole (|t·k| → 0), or a stretch vanished"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Row:
-    """A condition nodes·N + breaks·B + load·λ + work·∂E/∂λ = target, with weights of the same shapes as the unknowns.
-
-    It is linear but for the derivative of the energy by the load, what the load does its work on.
-    """
-
-    nodes: FloatArray
-    breaks: FloatArray
-    load: float
-    target: float
-    work: float = 0.0
-
-    def of(self, nodes: FloatArray, breaks: FloatArray, load: float) -> float:
-        """Its left side without the work."""
-        return float(np.sum(self.nodes * nodes) + self.breaks @ breaks + self.load * load)
-
-
-def fixed_load(chain: Chain, load: float) -> Row:
-    """The row that prescribes the load."""
-    return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), 1.0, load)
-
-
-def fixed_work(chain: Chain, work: float, load: float = 0.0) -> Row:
-    """The row that prescribes ∂E/∂λ + ``load`` · λ."""
-    return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), load, work, 1.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -151,99 +113,6 @@ def gap_curvature(shape: Shape, element: int, xi: float) -> float:
     return -(float(u[:, 0] @ u[:, 2] + u[:, 1] @ u[:, 1]) / r - radial**2 / r)
 
 
-def lower_band(diagonal: FloatArray, below: FloatArray, held: BoolArray) -> FloatArray:
-    """Blocks as the lower triangle of a band, rows and columns that are held replaced by those of the identity."""
-    n = diagonal.shape[0]
-    free = ~held
-    diagonal = diagonal * (free[:, :, None] & free[:, None, :])
-    diagonal[:, np.arange(4), np.arange(4)] += held
-    below = below * (free[1:, :, None] & free[:-1, None, :])
-    band = np.zeros((n, 4, WIDTH))
-    for j in range(4):
-        for i in range(j, 4):
-            band[:, j, i - j] = diagonal[:, i, j]
-        for i in range(4):
-            band[:-1, j, 4 + i - j] = below[:, i, j]
-    return band.reshape(4 * n, WIDTH)
-
-
-def _general(band: FloatArray) -> tuple[FloatArray, Any]:
-    """Factors with pivoting of a symmetric band (size, 8)."""
-    size, reach = band.shape[0], WIDTH - 1
-    general = np.zeros((3 * reach + 1, size))
-    for k in range(WIDTH):
-        general[2 * reach + k, : size - k] = band[: size - k, k]
-        general[2 * reach - k, k:] = band[: size - k, k]
-    lu, pivots, _ = _lapack().dgbtrf(general, reach, reach, overwrite_ab=True)
-    return lu, pivots
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Bordered:
-    """The bordered matrix of an assembly and a row, factorised.
-
-    ``lines`` (m, n, 4) are the rows of the breaks' equations in the nodes, ``answers`` (n, 4, m+1) what the banded part
-    makes of its columns for breaks and load, ``small`` (m+1, m+1) what remains of the border. ``row`` has the weights
-    of its work, if any, added to those of the unknowns.
-    """
-
-    chain: Chain
-    row: Row
-    factors: tuple[FloatArray, Any]
-    lines: FloatArray
-    answers: FloatArray
-    small: FloatArray
-
-    def increments(
-        self, residual: FloatArray, moments: FloatArray, target: float
-    ) -> tuple[FloatArray, FloatArray, float]:
-        """Increments of nodes, breaks and load that cancel residuals (n, 4) and (m,), and for which the row is met."""
-        m, free = moments.size, ~self.chain.unmoved
-        first = _banded_answer(self.factors, residual * free)
-        known = np.append(np.tensordot(self.lines, first, 2) - moments, target + np.sum(self.row.nodes * free * first))
-        extra = np.linalg.solve(self.small, known)
-        nodes = -(first + self.answers @ extra)
-        return np.asarray(nodes * free), np.asarray(extra[:m], dtype=float), float(extra[m])
-
-
-def _banded_answer(factors: tuple[FloatArray, Any], columns: FloatArray) -> FloatArray:
-    """Solve with the factors of the band: columns (n, 4, …) at once."""
-    flat = columns.reshape(4 * columns.shape[0], -1)
-    return np.asarray(_lapack().dgbtrs(factors[0], WIDTH - 1, WIDTH - 1, flat, factors[1])[0].reshape(columns.shape))
-
-
-def bordered(out: Assembled, row: Row) -> Bordered:
-    """Factorise the matrix of Newton's method: banded in the nodes, a border of one row for each break and the load."""
-    chain = out.shape.chain
-    if row.work:
-        row = Row(
-            row.nodes + row.work * out.by_load, row.breaks + row.work * out.work_by_break,
-            row.load + row.work * out.work_by_load, row.target,
-        )  # fmt: skip
-    n, m, free = chain.elements + 1, chain.moving.size, ~chain.unmoved
-    columns = np.concatenate([out.by_break, out.by_load[..., None]], axis=2)
-    factors = _general(lower_band(out.diagonal, out.below, chain.unmoved))
-    answers = _banded_answer(factors, columns * free[..., None])
-    moving, breaks = chain.moving, np.arange(m)
-    lines = np.zeros((m, n, 4))
-    lines[breaks, moving] = out.diagonal[moving, RADIAL_SLOPE]
-    lines[breaks, moving - 1] = out.below[moving - 1, RADIAL_SLOPE]
-    lines[breaks, moving + 1] = out.below[moving, :, RADIAL_SLOPE]
-    lines[breaks, moving, ANGLE_RATE] += out.moment_rates
-    lines *= free
-    small = np.vstack([columns[moving, RADIAL_SLOPE], np.append(row.breaks, row.load)])
-    small[:m] -= np.tensordot(lines, answers, 2)
-    small[m] -= np.tensordot(row.nodes * free, answers, 2)
-    return Bordered(chain, row, factors, lines, answers, small)
-
-
-def residuals(out: Assembled, row: Row) -> tuple[FloatArray, FloatArray, float]:
-    """What is left of the equations of nodes and breaks, and what the row lacks."""
-    shape = out.shape
-    lacks = row.target - row.of(shape.nodes, shape.breaks, shape.load)
-    return out.residual, out.moments, lacks - row.work * (out.energy_by_load + out.work_residual)
-
-
 def solve(
     model: Any, shape: Shape, row: Row, tolerance: float = TOLERANCE, most: int = MOST_STEPS
 ) -> tuple[Outcome, Solved | None, int]:
@@ -292,17 +161,15 @@ def _safe_part(shape: Shape, nodes: FloatArray, breaks: FloatArray) -> float:
 
 def softest(state: Solved, rounds: int = 4) -> FloatArray:
     """Direction (4n,) in which the stability Hessian is nearest to singular, by inverse iteration."""
-    lu, pivots = _general(state.band)
+    factors = factorised(state.band)
     rng = np.random.default_rng(0)
     vector = rng.standard_normal(state.band.shape[0]) * np.where(state.shape.chain.held, 0.0, 1.0).ravel()
     for _ in range(rounds):
-        vector, _ = _lapack().dgbtrs(lu, WIDTH - 1, WIDTH - 1, vector, pivots)
+        vector = solved_with(factors, vector)
         vector /= np.linalg.norm(vector)
     return np.asarray(vector)
 
 
 def stiffness_along(state: Solved, direction: FloatArray) -> float:
     """1/(dᵀA⁻¹d) of the stability Hessian A: a smooth function that vanishes where A is singular along about d."""
-    lu, pivots = _general(state.band)
-    solved, _ = _lapack().dgbtrs(lu, WIDTH - 1, WIDTH - 1, direction, pivots)
-    return 1.0 / float(direction @ solved)
+    return 1.0 / float(direction @ solved_with(factorised(state.band), direction))

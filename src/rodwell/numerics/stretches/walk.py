@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.numerics.stretches.bordered import Row
 from rodwell.numerics.stretches.chain import Chain, Shape
-from rodwell.numerics.stretches.newton import Outcome, Row, Solved, solve
+from rodwell.numerics.stretches.newton import Outcome, Solved, solve
 from rodwell.quantities.arrays import FloatArray
 
 BREAK_SCALE, LOAD_SCALE = 0.1, 0.1
