@@ -10,6 +10,7 @@ from an input to its paint are taken in the page, the rest outside. Kernels are 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import platform
@@ -180,7 +181,8 @@ class Explorer:
         """End the command; the processes that are left two seconds later."""
         pids = self.tree()
         os.kill(self.server.pid, how)
-        self.server.wait(20)
+        with contextlib.suppress(subprocess.TimeoutExpired):  # then it is among those that are left
+            self.server.wait(20)
         time.sleep(2.0)
         return [pid for pid in pids if Path(f"/proc/{pid}").exists()]
 
@@ -242,6 +244,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--soak", type=float, metavar="MINUTES", help="random moves for so long instead")
     minutes = parser.parse_args().soak
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the command is hung up on; under nohup it would not hear that
     with sync_playwright() as play:
         found = {"soak": soak(play, minutes)} if minutes else {"speeds": speeds(play)}
     for measured in found.values():

@@ -313,6 +313,19 @@ def test_a_load_that_moves_faster_than_states_are_computed_shows_states_on_the_w
     until(page, READY)
 
 
+LINES = """async () => {
+    const { added, changed, line, parsed, removed } = await import(location.pathname + "sections.js");
+    const tapers = parsed("0.6:1:1, 0.4:1/0.5/0.2:1");
+    return [tapers, added(tapers), changed(tapers, 0, 0, 0.5), removed(tapers, 0)].map(line);
+}"""
+
+
+def test_what_tapers_stays_as_it_was_given(page: Any) -> None:
+    assert page.evaluate(LINES) == [
+        "0.6:1:1,0.4:1/0.5/0.2:1", "0.6:1:1,0.2:1/0.5/0.2:1,0.2:0.2:1", "0.5:1:1,0.5:1/0.5/0.2:1", "1:1/0.5/0.2:1"
+    ]  # fmt: skip
+
+
 DRAG_WEIGHT = """async () => {
     const rw = window.__rodwell, slider = document.querySelector("#controls input[type=range]");
     const field = document.querySelector("#input-dimensionless-weight"), out = [];

@@ -53,7 +53,7 @@ function number(name, text) {
 }
 
 function sectionsLine(text) {
-  for (const part of text.split(/[,:]/)) number("sections", part);
+  for (const part of text.split(/[,:/]/)) number("sections", part);
   return text;
 }
 

@@ -45,7 +45,7 @@ function heard(message) {
   else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
   else if (message.kind === "diagram" || message.kind === "path") haveDiagram(message);
   else if (message.kind === "state" || message.kind === "followed") haveState(message);
-  else if (message.kind === "verdict") haveVerdict(message);
+  else if (message.kind === "verdict" && shown !== null) $("verdict").textContent = message.text;
   else if (message.kind === "details") showDetails(message.details);
   else if (message.kind === "snap") snaps.play(message.scenes);
   else if (message.kind === "copy") taking.haveCopy(message);
@@ -229,10 +229,6 @@ function settled() {
   link.ask("details", request());
   if (!rod) taking.picture();
   if (!load.slider.matches(":active") && !player.since) history.replaceState(null, "", address.written(state, hello));
-}
-
-function haveVerdict({ text }) {
-  if (shown !== null && shown.load !== null) $("verdict").textContent = text;
 }
 
 function scene(found) {

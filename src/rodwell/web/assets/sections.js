@@ -7,11 +7,11 @@ const COLUMNS = ["length", "stiffness", "weight"];
 const RANGES = { length: [0.02, 0.98], stiffness: [0.1, 10], weight: [0, 10] };
 const UNITS = { length: "L", stiffness: "B", weight: "γ" };
 
-// Numbers of each section of a line "0.6:1:1,0.4:0.3:0.5"; one of a uniform rod.
+// Numbers of each section of a line "0.6:1:1,0.4:1/0.3:0.5"; one of a uniform rod. What tapers along it stays text.
 export function parsed(line) {
   if (!line) return [[1, 1, 1]];
   return line.split(",").map((section) => {
-    const numbers = section.split(":").map(Number);
+    const numbers = section.trim().split(":").map((part) => (part.includes("/") ? part : Number(part)));
     return [...numbers, ...[1, 1].slice(0, Math.max(3 - numbers.length, 0))];
   });
 }
@@ -21,10 +21,11 @@ export function line(sections) {
   return plain ? "" : sections.map((section) => section.join(":")).join(",");
 }
 
-// A section of half the length of the last one, with its ratios, behind it.
+// A section of half the length of the last one, with its ratios (of one that tapers, its last), behind it.
 export function added(sections) {
   const [length, ...ratios] = sections.at(-1), half = short(length / 2);
-  return [...sections.slice(0, -1), [short(length - half), ...ratios], [half, ...ratios]];
+  const behind = ratios.map((ratio) => (typeof ratio === "string" ? Number(ratio.split("/").at(-1)) : ratio));
+  return [...sections.slice(0, -1), [short(length - half), ...ratios], [half, ...behind]];
 }
 
 // Its neighbour takes its place.
@@ -58,7 +59,7 @@ export class Sections {
   begin(hello) {
     this.editable = hello.sections !== null;
     $("section-rows").replaceChildren();
-    this.rows = [];
+    [this.rows, this.tapers] = [[], "[]"];
     $("add-section").hidden = !this.editable;
     $("string").hidden = this.editable || !hello.controls.some((each) => each.name.startsWith("string."));
     $("sectioned").hidden = !this.editable && $("string").hidden;
@@ -69,29 +70,41 @@ export class Sections {
     this.line = line;
     if (!this.editable) return;
     const sections = line ? parsed(line) : [];
-    if (sections.length !== this.rows.length) this.build(sections);
-    sections.forEach((section, i) => COLUMNS.forEach((_, k) => { if (this.rows[i][k].value !== section[k]) this.rows[i][k].set(section[k], { field }); }));
+    const tapers = JSON.stringify(sections.map((section) => section.slice(0, 3).filter((ratio) => typeof ratio === "string")));
+    if (tapers !== this.tapers) this.build(sections);
+    this.tapers = tapers;
+    this.each(sections, (control, value) => { if (control.value !== value) control.set(value, { field }); });
+  }
+
+  each(sections, act) {
+    sections.forEach((section, i) => this.rows[i].forEach((control, k) => { if (control) act(control, section[k]); }));
   }
 
   // Fields show the sections of what is shown.
   read(line) {
     const sections = line ? parsed(line) : [];
-    if (sections.length === this.rows.length) sections.forEach((section, i) => COLUMNS.forEach((_, k) => this.rows[i][k].read(section[k])));
+    if (sections.length === this.rows.length) this.each(sections, (control, value) => control.read(value));
   }
 
   build(sections) {
     const at = document.activeElement?.id;
     $("section-rows").replaceChildren();
-    this.rows = sections.map((_, i) => {
+    this.rows = sections.map((section, i) => {
       const box = document.createElement("fieldset");
       box.innerHTML = '<legend></legend><button type="button">remove</button>';
       box.querySelector("legend").textContent = `section ${i + 1}${i ? "" : ", from s = 0"}`;
       const remove = box.querySelector("button");
       remove.setAttribute("aria-label", `remove section ${i + 1}`);
       remove.onclick = () => this.put(line(removed(parsed(this.line), i)), true);
-      const row = COLUMNS.map((name, k) => new Control(box, {
-        name: `section-${i + 1}-${name}`, label: name, hint: "", unit: UNITS[name], low: RANGES[name][0], high: RANGES[name][1],
-      }, (value, done) => this.take(i, k, value, done)));
+      const row = COLUMNS.map((name, k) => {
+        if (typeof section[k] === "string") { // as it was given: one number would not say it
+          box.append(Object.assign(document.createElement("p"), { textContent: `${name} ${section[k].replaceAll("/", " → ")} ${UNITS[name]}`, className: "small" }));
+          return null;
+        }
+        return new Control(box, {
+          name: `section-${i + 1}-${name}`, label: name, hint: "", unit: UNITS[name], low: RANGES[name][0], high: RANGES[name][1],
+        }, (value, done) => this.take(i, k, value, done));
+      });
       $("section-rows").append(box);
       return row;
     });
