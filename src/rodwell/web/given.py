@@ -11,7 +11,6 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.case.case import Case
-from rodwell.errors import InputError
 from rodwell.web.inputs import DEFAULT, ENDS, MOST_MODES, controls, moved
 
 
@@ -45,9 +44,6 @@ class Given:
         if case.modes > MOST_MODES:
             data = {**data, "analysis": {**data.get("analysis", {}), "modes": MOST_MODES}}
             case = Case.from_dict(data, source=self._source, folder=self._folder)
-        if case.problem.rod.tapered:
-            what = "must have one stiffness and weight for each section here: part what tapers into sections"
-            raise InputError("dimensionless.sections", data["dimensionless"]["sections"], what)
         return case
 
     def moved(self, inputs: Mapping[str, Any] | None) -> tuple[dict[str, Any], Case]:
