@@ -3,7 +3,7 @@
 // input is dragged, the next one waits until the state shown has been followed to the one before.
 
 const ON_THE_WAY = "state";
-const PATIENCE = 300; // milliseconds for a state to be followed
+const PATIENCE = 1000; // milliseconds for a state to be followed: on a busy machine it takes hundreds, and what is broken off shows none
 
 export class Link {
   constructor(heard, lost) {
