@@ -91,7 +91,7 @@ def _numbers(data: dict[str, Any], result: Verification) -> Numbers:
 
 
 def _print(result: Verification, title: str, mode: int) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     click.echo(f"{title}: mode {mode}, {ends_text(result.branch.problem)}")
     wrapped("Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15)).")

@@ -95,7 +95,7 @@ def _untouched(problem: Problem) -> bool:
 
 
 def _data(loads: CriticalLoads, free: LoadsWithoutWall) -> dict[str, Any]:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem, kept = free.problem, (loads.forces, loads.errors)
     data: dict[str, Any] = {}
@@ -122,7 +122,7 @@ def _data(loads: CriticalLoads, free: LoadsWithoutWall) -> dict[str, Any]:
 
 def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
     """Loads of a rod that weight presses to the wall, that weight would pull off it, or that no twist moves off it."""
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem, alone = free.problem, free.modes[0]
     if problem.twist != 0.0:
@@ -151,7 +151,7 @@ def _print_pressed(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
 
 def _print_untouched(loads: CriticalLoads, free: LoadsWithoutWall) -> None:
     """Loads of a twisted rod that lies at the wall without being pressed to it."""
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem, touch = free.problem, free.at_wall
     assert touch is not None

@@ -84,7 +84,7 @@ def _one_clearance(problem: Problem) -> tuple[tuple[float, Value], ...]:
 
 
 def _data(path: LoadPath) -> dict[str, Any]:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     found = _critical(path)
     assert found.state is not None
@@ -107,7 +107,7 @@ def _data(path: LoadPath) -> dict[str, Any]:
 
 
 def _print(path: LoadPath) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     found = _critical(path)
     assert found.state is not None

@@ -43,7 +43,7 @@ def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads) -> Numbers:
 
 def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:
     from rodwell.analysis.straight.lying import least_contact, lies_between  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem = loads[0].problem
     low, high = lies_between(problem)
@@ -71,7 +71,7 @@ def _peak(peak: Peak | None) -> dict[str, float] | None:
 
 
 def _print(loads: CriticalLoads, tensile: CriticalLoads) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem = loads[0].problem
     wrapped(f"{_hole(problem)} End force along the tangent of the rod on the wall at s = 1, tension positive.")

@@ -55,7 +55,7 @@ def certify(modes: int | None, digits: int, as_json: bool, **given: Any) -> None
 
 
 def _print_certified(loads: CertifiedLoads) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem = loads[0].problem
     wrapped(f"Certified critical end force at s = 1 in {UNIT} (tension positive), {ends_text(problem)}:")

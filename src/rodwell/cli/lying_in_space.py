@@ -129,7 +129,7 @@ def _what_ends(end: SpecialPoint | None, branch: Branch, lying: LyingRod) -> str
 
 
 def _said(lying: LyingRod) -> dict[str, Any]:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     return {
         "lying": lying.as_dict(),
@@ -148,7 +148,7 @@ def _ways(lying: LyingRod) -> tuple[tuple[str, Value, SpecialPoint | None, Branc
 
 
 def _print(lying: LyingRod) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     p = lying.problem
     given = "the axis given" if p.axis else f"build {plain(p.build, 6)}/L, walk {plain(p.walk, 6)}/L"

@@ -116,7 +116,7 @@ def _print_diagram(result: Diagram) -> None:
     from rodwell.analysis.branch.special import END  # noqa: PLC0415
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
     from rodwell.quantities.value import Value  # noqa: PLC0415
     from rodwell.report.reports.texts import KINDS  # noqa: PLC0415
 

@@ -115,7 +115,7 @@ def path(
 
         write_path(result, out, forces, read, barriers)
     if as_json:
-        from rodwell.problem.problem import ends_text  # noqa: PLC0415
+        from rodwell.problem.words import ends_text  # noqa: PLC0415
 
         convention = "end force F at s = 1, tension positive; places in L, gaps in clearances; "
         print_json(

@@ -72,7 +72,7 @@ def print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
 
 def print_path(result: LoadPath) -> None:
     """Print events as a list."""
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     click.echo(
         f"End force at s = 1 in {UNIT} (tension positive), {ends_text(result.problem)}; the {result.way.held} is"

@@ -51,7 +51,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
     from rodwell.analysis.straight.critical import critical_loads  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_data  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
     if leaves_the_plane(problem):
@@ -106,7 +106,7 @@ def _print_liftoff(
 ) -> None:
     """The load with the wall's help, and of a curved hole that with every cross-section at its own place."""
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem, buckling, (load, own) = branch.problem, branch.mode, loads
     assert buckling is not None
@@ -190,7 +190,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
     input, the others constant.
     """
     from rodwell.analysis.loads.sensitivity import sensitivities  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     where, problem = take_keep(given), make_problem(given)
     loads = sensitivities(problem, mode, rtol=rtol)
@@ -206,7 +206,7 @@ def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
 
 
 def _print_sensitivities(loads: tuple[Sensitivity, ...]) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     for load in loads:
         problem = load.problem
@@ -287,7 +287,7 @@ def twist(mode: int, mirror: bool, until: float, rtol: float, as_json: bool, **g
 
 
 def _print_twist(result: Torsion, mode: int) -> None:
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     lift = result.prepared
     wrapped(f"End force at s = 1 in {UNIT} (tension positive), T₁ at s = 1 in B/L, {ends_text(result.problem)}:")

@@ -154,7 +154,7 @@ def _details(answer: Answer) -> None:
     from rich.markup import escape  # noqa: PLC0415
 
     from rodwell.answers.words.wording import forces_of  # noqa: PLC0415
-    from rodwell.problem.problem import ends_text  # noqa: PLC0415
+    from rodwell.problem.words import ends_text  # noqa: PLC0415
     from rodwell.quantities.text import plain  # noqa: PLC0415
     from rodwell.report.reports.texts import rows  # noqa: PLC0415
 

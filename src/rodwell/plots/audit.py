@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from rodwell.formulas import FORMULAS
 from rodwell.formulas.record import Place
 from rodwell.plots.style import FORMULA, GREY, INK, LIMIT, MODES, RC, new_axes
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.text import minus, plain
 from rodwell.studies.audit.error_map import PANELS, ErrorMap

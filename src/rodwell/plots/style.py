@@ -8,7 +8,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import ends_text
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain, separated
 

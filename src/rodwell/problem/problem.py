@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
@@ -18,21 +17,6 @@ from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
-
-
-def ends_text(problem: Problem, words: Mapping[str, str] | None = None) -> str:
-    """End conditions in words: names, or what ``words`` says of each; how many sections, and whether the rod floats."""
-    first, last = (words[end] if words else end for end in problem.ends)
-    ends = f"both ends {first}" if first == last else f"end s = 0 {first}, end s = 1 {last}"
-    if problem.sections:
-        ends += f", string of {len(problem.sections)} sections" if len(problem.sections) > 1 else ", one section"
-        ends += ", tapered" if problem.tapered else ""
-    return f"{ends}, rod floats: pressed to the upper side" if problem.floats else ends
-
-
-def hole_text(problem: Problem) -> str:
-    """Whether the hole is straight or curved, in words."""
-    return "straight hole" if problem.hole is None else "curved hole"
 
 
 @dataclass(frozen=True)

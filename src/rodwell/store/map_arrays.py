@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodwell._version import __version__
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import ends_text
 from rodwell.quantities.table import Variable
 from rodwell.studies.maps import jumps
 from rodwell.studies.maps.axes import about_parameter

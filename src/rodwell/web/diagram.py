@@ -101,12 +101,12 @@ def _branch(explored: Explored, branch: Branch) -> dict[str, Any]:
         for point in (p for p in branch.special_points if p.after == i and p.kind not in ("critical", "end")):
             here = {which: float(point.solution.number(which).value) for which in Measured}
             states.append((point.force, here, point.index_after, point))
-    lines = columns([explored.ordinates(at) for _, at, _, _ in states])
+    lines = explored.lines(at for _, at, _, _ in states)
     measured = {which: np.array([at[which] for _, at, _, _ in states]) for which in Measured}
     images = []
     for image in branch.images[1:]:
         turned = image.numbers(measured)
-        images.append(columns([explored.ordinates({w: turned[w][i] for w in Measured}) for i in range(len(states))]))
+        images.append(explored.lines({w: turned[w][i] for w in Measured} for i in range(len(states))))
     return {
         "name": branch.name,
         "mode": branch.mode.number if branch.mode else None,
@@ -133,11 +133,6 @@ def _special(explored: Explored, branch: Branch, point: SpecialPoint) -> dict[st
         "s": list(point.s),
         "converged": branch.meets_tolerance(point),
     }
-
-
-def columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
-    """Numbers by name of many points, each a dictionary of one."""
-    return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def beyond_lift_off(branch: Branch, states: list[Any]) -> list[bool]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -113,6 +113,11 @@ class Explored:
         return {
             ORDINATES[which][0]: float(at[which]) * factor for which, (factor, _) in self.factors.items() if which in at
         }
+
+    def lines(self, points: Iterable[Mapping[Measured, float]]) -> dict[str, list[float]]:
+        """The ordinates of many points, at least one, by name."""
+        rows = [self.ordinates(at) for at in points]
+        return {name: [row[name] for row in rows] for name in rows[0]}
 
     def __getitem__(self, name: str) -> Branch:
         return next(branch for branch in self.branches if branch.name == name)

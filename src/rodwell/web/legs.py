@@ -10,7 +10,6 @@ from rodwell.analysis.path.events import Leg, PathPoint
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.quantities.value import Value
 from rodwell.web import off_wall
-from rodwell.web.diagram import columns
 from rodwell.web.explored import Explored, farthest
 
 
@@ -39,7 +38,7 @@ def _leg(explored: Explored, path: LoadPath, leg: Leg) -> dict[str, Any]:
         "mode": None,
         "parent": "",
         "load": [explored.shown(state.load) for state in states],
-        "y": columns([explored.ordinates(off_wall.ordinates(state)) for state in states]),
+        "y": explored.lines(off_wall.ordinates(state) for state in states),
         "images": [],
         "index": [state.solved.index for state in states],
         "off": [False] * len(states),

@@ -23,8 +23,9 @@ from rodwell.analysis.discrete.family import PATHS
 from rodwell.analysis.straight.critical import MOST_MODES, CriticalLoads, critical_loads
 from rodwell.errors import InputError, checked_whole
 from rodwell.faces import drawn
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
 from rodwell.problem.varying import Along, Parameter, ParameterPath, checked_parameter
+from rodwell.problem.words import ends_text
 from rodwell.quantities.tolerance import RTOL, checked_force, checked_rtol
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from rodwell.analysis.discrete.family import TORSIONAL
 from rodwell.errors import InputError, checked_number
 from rodwell.faces import drawn
 from rodwell.problem.checks import LIMITS, SMALLEST_CLEARANCE
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
 from rodwell.problem.varying import (
     FORCE,
     Along,
@@ -25,6 +25,7 @@ from rodwell.problem.varying import (
     varied,
     words_for,
 )
+from rodwell.problem.words import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.names import UNITS
 from rodwell.quantities.table import Variable

@@ -14,7 +14,8 @@ from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.loads.pressure import pressure_rates
 from rodwell.analysis.straight.critical import Mode
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import ends_text
 from rodwell.quantities.text import plain, with_error
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 from rodwell.quantities.value import Value

@@ -21,8 +21,9 @@ from rodwell.analysis.proof.roots import Counter, Critical, critical_values
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
 from rodwell.problem.sections import refuse_sections
+from rodwell.problem.words import ends_text
 
 Ball = Any
 """A real number with a bound of its error: flint.arb."""

@@ -17,7 +17,7 @@ from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.curved import left_out
 from rodwell.answers.words.verdict import verdict
 from rodwell.answers.words.wording import side_of
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.names import UNITS
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.value import Value

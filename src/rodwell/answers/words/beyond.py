@@ -14,7 +14,7 @@ from rodwell.answers.words.verdict import load_text
 from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 

@@ -23,7 +23,7 @@ from rodwell.answers.words.steps import HOLDS, held, steps_note
 from rodwell.answers.words.verdict import load_sentences, verdict, window_sentences
 from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text, soft_wall
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import minus, percent, plain, signed
 from rodwell.quantities.value import Value

@@ -10,7 +10,7 @@ from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.answers.words.wording import forces_of, place_text, quantity, side_of, size_text
 from rodwell.case.applied import AppliedLoad
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text, hole_text
+from rodwell.problem.words import ends_text, hole_text
 from rodwell.quantities.forces import end_name
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value

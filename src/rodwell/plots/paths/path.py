@@ -12,7 +12,7 @@ from rodwell.analysis.path.load_path import LoadPath
 from rodwell.case.case import Case
 from rodwell.plots.paths.axes import Units, across_of, units_of
 from rodwell.plots.style import GREY, INK, MODES, WARN, new_axes
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.text import minus
 
 MARKS = {CRITICAL: ("o", INK, "buckles"), LIFT_OFF: ("^", MODES[1], "lifts off")}

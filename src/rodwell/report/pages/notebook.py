@@ -17,7 +17,8 @@ from rodwell.answers.words.advice import statuses
 from rodwell.answers.words.meaning import sentences
 from rodwell.case.case import Case
 from rodwell.plots.ordinates import ORDINATES
-from rodwell.problem.problem import Problem, ends_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import ends_text
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.text import minus
 from rodwell.report.pages.templates import template

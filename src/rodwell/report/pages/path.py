@@ -23,7 +23,7 @@ from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.plots.paths.axes import Units, units_of
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales

@@ -13,7 +13,8 @@ from rodwell.answers.words.advice import BAD, CAUTION, GOOD, OPEN, Status
 from rodwell.case.about import NOBODY, About
 from rodwell.formulas import LEFT_OUT
 from rodwell.formulas.record import NOMENCLATURE
-from rodwell.problem.problem import Problem, ends_text, hole_text
+from rodwell.problem.problem import Problem
+from rodwell.problem.words import ends_text, hole_text
 from rodwell.quantities.text import minus, plain, raised
 from rodwell.report.reports.content import Block, Front, Grid, Items, Number, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import linked

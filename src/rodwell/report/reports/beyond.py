@@ -6,7 +6,7 @@ from rodwell.answers.result.beyond import Beyond, Step
 from rodwell.answers.words.beyond import assumed_beyond, beyond_sentences
 from rodwell.answers.words.wording import forces_of, quantity, size_text
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.text import amount
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Block, Grid, Items, Picture, ReportSection, Words

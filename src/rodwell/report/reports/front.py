@@ -14,7 +14,7 @@ from rodwell.answers.words.shown_loads import shown_sensitivities
 from rodwell.answers.words.verdict import load_text, share_shown
 from rodwell.answers.words.wording import bend_text, forces_of, quantity, size_text
 from rodwell.case.case import Case
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.text import amount, percent, plain
 from rodwell.quantities.value import Value
 from rodwell.report.reports.content import Front, Number, Picture

@@ -8,7 +8,7 @@ from rodwell._version import __version__
 from rodwell.answers.comparison.exact_loads import PLACES
 from rodwell.formulas import LEFT_OUT
 from rodwell.formulas.record import NAMES, NOMENCLATURE
-from rodwell.problem.problem import ends_text
+from rodwell.problem.words import ends_text
 from rodwell.quantities.units import SI
 
 if TYPE_CHECKING:

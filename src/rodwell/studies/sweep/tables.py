@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from rodwell.problem.problem import hole_text
+from rodwell.problem.words import hole_text
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.text import amount, number_text, percent, plain
 from rodwell.studies.sweep import load_columns
