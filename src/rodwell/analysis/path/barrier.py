@@ -83,7 +83,8 @@ class Barrier:
 
         The whole rod is turned, by ψ sin²(πs), and let go; it follows the gradient flow, as in something viscous. The
         least ψ after which it does not come back. The estimate of the error is that of the flow and of the soft wall in
-        which it runs, and coarse; another way to turn the rod has another least turn.
+        which it runs, and coarse; another way to turn the rod has another least turn, that may be
+        larger or smaller by a tenth.
         """
         return turned_over(self.state.coarse, self.held)
 
