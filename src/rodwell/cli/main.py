@@ -27,9 +27,9 @@ with Python's own number, 700, a tenth of a short command is spent looking."""
 
 MODULES = {
     **{name: name for name in ("run", "screen", "drag", "packer", "audit", "critical", "path", "endless", "explore")},
-    **{name: name for name in ("export", "init", "keys", "catalogue", "paper")},
+    **{name: name for name in ("export", "init", "keys", "catalogue", "paper", "sensitivity")},
     **dict.fromkeys(("certify", "modes"), "exact"),
-    **dict.fromkeys(("liftoff", "sensitivity", "twist"), "quick"),
+    **dict.fromkeys(("liftoff", "twist"), "quick"),
     **dict.fromkeys(("diagram", "curve"), "maps"),
     **{"verify": "check", "map": "mapping"},
 }

@@ -46,8 +46,7 @@ SHARPENED = 40.0
 
 MOST_HALVINGS = 5
 
-BESIDE_NODES = np.array([0.03, 0.21, 0.37, 0.52, 0.68, 0.83, 0.97])
-"""Places in a piece at which that is looked at."""
+BESIDE_NODES = np.array([0.03, 0.21, 0.37, 0.52, 0.68, 0.83, 0.97])  # places in a piece at which that is looked at
 
 PIECES_PER_RADIAN = 12.0
 """More pieces where the hole turns more."""
@@ -62,7 +61,7 @@ like h⁻³. Of stations closer together some are left to the mesh as it is."""
 MOST_PIECES = MOST_ELEMENTS_OF_BRANCH // 4
 """More pieces of a hole, as through very many points, are left to the mesh as it is."""
 
-PLACES = 257
+PLACES = np.linspace(0.0, 1.0, 257)  # at which the local wavenumber is looked at
 
 Along = Callable[[FloatArray], FloatArray]
 """Something along the rod: values at places (m,), of several (k, m)."""
@@ -232,7 +231,7 @@ def _breaks(problem: Problem) -> FloatArray:
     even = np.linspace(0.0, 1.0, count + 1)
     if not hole.breaks.size or _missed(even, problem) <= RESOLVED * hole.sharpest:
         return even
-    return _pieces(_inside(np.interp(hole.breaks, undeformed_place(problem, _PLACES), _PLACES)), count)
+    return _pieces(_inside(np.interp(hole.breaks, undeformed_place(problem, PLACES), PLACES)), count)
 
 
 def _pieces(ends: FloatArray, count: int) -> FloatArray:
@@ -274,30 +273,26 @@ def first_space(problem: Problem, compression: float, tension: float) -> SplineS
 
 
 def _space(problem: Problem, wavenumber: FloatArray, per_radian: float, per_element: int | None = None) -> SplineSpace:
-    """Space that resolves a wavenumber at _PLACES, no element on two pieces of the hole; with kinks at stations."""
+    """Space that resolves a wavenumber at PLACES, no element on two pieces of the hole; with kinks at stations."""
     if not problem.axis:  # the pieces of an arc go over into each other
-        return SplineSpace(graded_mesh(wavenumber, _PLACES, per_radian), DEGREE, per_element)
+        return SplineSpace(graded_mesh(wavenumber, PLACES, per_radian), DEGREE, per_element)
     kinks, last = [], 0.0
     stations = stations_along(problem)
-    phase = np.interp([*stations, 1.0], _PLACES, running_integral(wavenumber, _PLACES))
+    phase = np.interp([*stations, 1.0], PLACES, running_integral(wavenumber, PLACES))
     for place, reached in zip(stations, phase[:-1], strict=True):
         if reached - last >= APART <= phase[-1] - reached:
             kinks.append(place)
             last = reached
     pieces = _breaks(problem)[1:-1]
     breaks = pieces if pieces.size <= MOST_PIECES else np.array(kinks)
-    return SplineSpace(
-        graded_mesh(wavenumber, _PLACES, per_radian, breaks=breaks), DEGREE, per_element, np.array(kinks)
-    )
-
-
-_PLACES = np.linspace(0.0, 1.0, PLACES)
+    mesh = graded_mesh(wavenumber, PLACES, per_radian, breaks=breaks)
+    return SplineSpace(mesh, DEGREE, per_element, np.array(kinks))
 
 
 def _wavenumber(problem: Problem, loads: tuple[float, float]) -> FloatArray:
     """√|N| + (p/Δ)^¼ with the largest contact p per length between two end forces, at PLACES places."""
-    k1, k2, g1, g2 = hole_at(problem, undeformed_place(problem, _PLACES))[0]
-    hung = problem.weight * lifted(_PLACES, lambda s: hole_at(problem, undeformed_place(problem, s))[1])(_PLACES)
+    k1, k2, g1, g2 = hole_at(problem, undeformed_place(problem, PLACES))[0]
+    hung = problem.weight * lifted(PLACES, lambda s: hole_at(problem, undeformed_place(problem, s))[1])(PLACES)
     axial = np.maximum(*(np.abs(load - hung) for load in loads))
     pressed = problem.weight * np.hypot(g1, g2) + np.hypot(k1, k2) * axial
     return np.asarray(np.sqrt(axial) + (pressed / problem.clearance) ** 0.25)

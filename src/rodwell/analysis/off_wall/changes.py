@@ -30,7 +30,6 @@ from rodwell.analysis.off_wall.conditions import (
     conditions,
     watched,
 )
-from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.steps import Plan, cross, edge_at, open_at, release
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
@@ -268,7 +267,7 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
             breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         elif touching[i]:
             del touching[i], breaks[-1 if last else 0]
-        elif between_points(state.pattern, i):
+        elif state.pattern.between_points(i):
             del touching[i]
             breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
         else:
@@ -280,23 +279,14 @@ def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Con
     if found is None:
         return None
     on, ends = state.pattern.touching[first], first in (0, len(state.pattern.touching) - 1)
-    merged = between_points(state.pattern, first)
+    merged = state.pattern.between_points(first)
     kind = (GROWS_AT_END if ends else GROWS) if on or merged else OPENS
     name = ("contact_lost" if ends else "contact_point") if on else "contacts_merge" if merged else "gap_closes"
     near = [one for one in conditions(found) if one.kind == kind]
     if not near:
         return None
     condition = min(near, key=lambda one: abs(one.s - where))
-
-    def value(one: Solved) -> float:
-        return watched(condition, PatternedState(new, found.elements, one))
-
-    return Changed(found, value, name), condition
-
-
-def between_points(pattern: Pattern, i: int) -> bool:
-    """Whether a stretch is a gap between two points of contact."""
-    return 0 < i < pattern.breaks and pattern.is_point(i - 1) and pattern.is_point(i)
+    return Changed(found, lambda one: watched(condition, PatternedState(new, found.elements, one)), name), condition
 
 
 def _close(touching: list[bool], breaks: list[float], i: int) -> None:

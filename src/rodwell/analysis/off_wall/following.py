@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rodwell.analysis.off_wall.arrange import needs_new_elements, wavenumber, with_new_elements
-from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, between_points, changed, shortened
+from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, changed, shortened
 from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
 from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.happening import (
@@ -252,7 +252,7 @@ class _Walker:
         vanishing = [
             i for i, on in enumerate(state.pattern.touching)
             if lengths[i] < (
-                FIRST_CONTACT if on or between_points(state.pattern, i) else (short if self._beside_line(i) else 0.0)
+                FIRST_CONTACT if on or state.pattern.between_points(i) else (short if self._beside_line(i) else 0.0)
             ) and rates[i] < 0.0
         ]  # fmt: skip
         if not vanishing:

@@ -55,6 +55,10 @@ class Pattern:
         """Whether break ``i`` is a point of contact."""
         return not (self.touching[i] or self.touching[i + 1])
 
+    def between_points(self, i: int) -> bool:
+        """Whether stretch ``i`` is a gap between two points of contact."""
+        return 0 < i < self.breaks and self.is_point(i - 1) and self.is_point(i)
+
     def text(self) -> str:
         """The pattern in a few signs: = contact, - free, · point of contact."""
         out = ""

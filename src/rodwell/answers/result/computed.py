@@ -295,7 +295,5 @@ def _first_branch(
 def _reach(critical: CriticalLoads, lift: SpecialPoint | None) -> float:
     """End force past lift-off and all modes."""
     first = critical[0].force
-    beyond = [1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2]
-    if lift is not None:
-        beyond.append(1.3 * (first - lift.force))
-    return float(first - max(beyond))
+    past = 0.0 if lift is None else 1.3 * (first - lift.force)
+    return float(first - max(1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2, past))

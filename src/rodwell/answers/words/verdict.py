@@ -132,13 +132,10 @@ def _window(a: Assessment) -> str:
         return ""
     if not end.buckled:
         return "; the shape it buckles into is unstable from the start"
-    part = share_shown(a)
-    share = "" if part is None else f" ({percent(part)})"
-    holds = " and ".join(held(a.case.problem.rod, IF_HELD))
+    part, holds = share_shown(a), " and ".join(held(a.case.problem.rod, IF_HELD))
+    further = size_text(scales, width) + ("" if part is None else f" ({percent(part)})")
     condition = f", if {holds}" if holds else ""
-    text = (
-        f"; buckled, it stays on the wall{condition}, stable, for another {size_text(scales, width)}{share} until it "
-    )
+    text = f"; buckled, it stays on the wall{condition}, stable, for another {further} until it "
     text += "lifts off" if end.kind == LIFTS_OFF else "loses its stability and takes another shape"
     if end.kind == LIFTS_OFF and a.at_lift_off is not None and a.stress(a.at_lift_off) is not None:
         text += f", {_stress(a, a.at_lift_off)}"
