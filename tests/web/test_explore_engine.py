@@ -128,7 +128,7 @@ def test_the_straight_rod_is_followed_and_what_ends_in_it(plain: Engine) -> None
 
 def test_what_cannot_be_followed_comes_with_the_branches(plain: Engine) -> None:
     origin = {"inputs": {}, "until": None, "load": 118.4, "branch": "mode 1", "which": 0}
-    for inputs in ({"ends": "pinned-clamped"}, {"sections": "0.5:1:1,0.5:2:1", "modes": 1}):
+    for inputs in ({"ends": "pinned-clamped", "modes": 1}, {"sections": "0.6:1:1,0.4:0.5:2", "modes": 1}):
         assert followed(plain, origin, inputs) is None
     unknown = origin | {"inputs": {"dimensionless.weight": 7.0}}
     assert followed(plain, unknown, {"dimensionless.weight": 16.5}) is None
