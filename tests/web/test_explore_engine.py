@@ -349,7 +349,7 @@ def test_the_rod_lies_in_a_hole_that_leaves_the_vertical_plane(plain: Engine) ->
     assert names["state"].largest("contact_pressure").value == pytest.approx(expected, rel=1e-8)
     assert state["values"]["largest_push"]["value"] == pytest.approx(expected, rel=1e-8)
     assert "lies along the hole" in ask(plain, "verdict", inputs=inputs, load=80.0)["text"]
-    assert texts["command"] == "rodwell critical --weight 15.0 --alpha 90.0 --clearance 0.01 --walk 0.1"
+    assert texts["command"] == "rodwell diagram --weight 15.0 --alpha 90.0 --clearance 0.01 --walk 0.1"
     with pytest.raises(rodwell.InputError, match="none at which the rod was followed"):
         ask(plain, "state", inputs=inputs, load=1e4)
 

@@ -99,7 +99,7 @@ def as_command(explored: Explored, solution: Shown) -> str:
         way = f"--until {path.until!r} --unload-to {path.unload_to!r}"
         return f"rodwell path {' '.join(options)} {way} --at {solution.force!r}"
     if explored.computed.lying is not None:
-        return f"rodwell critical {' '.join(options)}"
+        return f"rodwell diagram {' '.join(options)}"
     many = len(explored.computed.critical)
     return f"rodwell diagram {' '.join(options)} --modes {many} --until {explored.computed.until!r}"
 
