@@ -11,7 +11,7 @@ from rodwell.cli.critical_in_hole import lying_numbers, show_lying
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.lying_in_space import critical_in_space, leaves_the_plane
-from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
+from rodwell.cli.options import UNIT, check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import error_digit, plain, with_error
 from rodwell.quantities.value import Value
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from rodwell.analysis.straight.without_wall import LoadsWithoutWall, SpatialMode
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 @click.command()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, print_json
+from rodwell.cli.options import UNIT, check_missed, print_json
 from rodwell.cli.path_text import print_contacts
 from rodwell.quantities.text import plain, with_error
 from rodwell.quantities.value import Value
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.problem.problem import Problem
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 def first_buckling(problem: Problem, rtol: float) -> LoadPath:
@@ -95,8 +93,7 @@ def _data(path: LoadPath) -> dict[str, Any]:
         "without_wall": None,
         "bridged": found.state.as_dict(),
         "one_clearance": [
-            {"clearance": clearance, "load": {"value": load.value, "error": load.error}}
-            for clearance, load in _one_clearance(path.problem)
+            {"clearance": clearance, "load": load.as_dict()} for clearance, load in _one_clearance(path.problem)
         ],
         "converged": not path.missed,
         "assumptions": path.assumptions,

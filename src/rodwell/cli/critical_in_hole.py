@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import print_json
+from rodwell.cli.options import UNIT, print_json
 from rodwell.quantities.text import plain, with_error
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from rodwell.quantities.value import Peak
     from rodwell.report.folders.numbers import Numbers
 
-UNIT = "B/L²"
 CONTACT = "B/L³"
 
 

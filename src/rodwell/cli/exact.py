@@ -8,7 +8,7 @@ import click
 
 from rodwell.cli.keep import Keep, keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import json_option, make_problem, print_json, problem_options
+from rodwell.cli.options import UNIT, json_option, make_problem, print_json, problem_options
 from rodwell.errors import InputError
 from rodwell.quantities.text import minus, plain, separated, with_error
 from rodwell.quantities.value import Value
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from rodwell.analysis.straight.modes import ModePair
     from rodwell.physics.exact.horizontal import Switching
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 @click.command(short_help="Critical loads with proof, to 30 digits.")

@@ -8,7 +8,7 @@ import click
 
 from rodwell.cli.keep import Keep, keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, places_text, print_json, progress_bar
+from rodwell.cli.options import UNIT, check_missed, places_text, print_json, progress_bar
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.quantities.text import plain, with_error
 
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from rodwell.problem.problem import Problem
     from rodwell.quantities.value import Value
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 def leaves_the_plane(problem: Problem) -> bool:
@@ -36,7 +34,7 @@ def critical_in_space(problem: Problem, rtol: float, where: Keep, as_json: bool)
     data = {
         "critical_loads": [load.value for load in loads["lost"]],
         "error": [load.error for load in loads["lost"]],
-        "tensile_loads": [{"value": load.value, "error": load.error} for load in loads["lost_in_tension"]],
+        "tensile_loads": [load.as_dict() for load in loads["lost_in_tension"]],
         "without_wall": None,
         **_said(lying),
     }
@@ -68,7 +66,7 @@ def lift_off_in_space(problem: Problem, rtol: float, where: Keep, as_json: bool)
         "lift_off": {"force": lift.force, "error": lift.error, "s": list(lift.s)},
         "other_arm": None,
         "coincides_with_buckling": False,
-        "lift_off_own_places": {"value": own.value, "error": own.error},
+        "lift_off_own_places": own.as_dict(),
         **_said(lying),
     }
     if as_json:

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 TOLERANCE_MISSED = 3
 
+UNIT = "B/L²"
+"""Unit of forces of a rod without dimensions."""
+
 Progress = Callable[[str, float], None]
 
 PARAMETERS = (

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import wrapped
+from rodwell.cli.options import UNIT
 from rodwell.errors import InputError
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from rodwell.errors import RodwellError
     from rodwell.quantities.value import Value
 
-UNIT = "B/L²"
 
 WHERE = {
     "point": "at a point of contact", "end": "at the end of a stretch in contact",

@@ -10,6 +10,7 @@ from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
 from rodwell.cli.lying_in_space import leaves_the_plane, lift_off_in_space, only_first_mode
 from rodwell.cli.options import (
+    UNIT,
     check_missed,
     json_option,
     make_problem,
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from rodwell.analysis.branch.special import SpecialPoint
     from rodwell.analysis.loads.torsion import Torsion
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 @click.command()
@@ -81,7 +80,7 @@ def liftoff(mode: int, mirror: bool, rtol: float, as_json: bool, **given: Any) -
         "other_arm": _arm(other),
         "coincides_with_buckling": branch.lift_off_at_buckling,
         **({"steps": steps_data(lift.solution.step_loads)} if problem.sections else {}),
-        **({} if own is None else {"lift_off_own_places": {"value": own.value, "error": own.error}}),
+        **({} if own is None else {"lift_off_own_places": own.as_dict()}),
         "converged": not what,
         "unit": "B/L^2",
         "convention": "end force at s = 1, tension positive; " + ends_text(problem),

@@ -8,14 +8,12 @@ import click
 
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
-from rodwell.cli.options import check_missed, json_option, make_problem, print_json, problem_options, rtol_option
+from rodwell.cli.options import UNIT, check_missed, json_option, make_problem, print_json, problem_options, rtol_option
 from rodwell.quantities.text import signed, with_error
 
 if TYPE_CHECKING:
     from rodwell.analysis.loads.sensitivity import Sensitivity
     from rodwell.report.folders.numbers import Numbers
-
-UNIT = "B/L²"
 
 
 @click.command(short_help="How loads change with weight, inclination, clearance, twist.")

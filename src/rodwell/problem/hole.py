@@ -165,7 +165,7 @@ class Hole:
         """Arclengths S, rising, between which the axis is smooth; of an arc none, it is smooth throughout."""
         return self._axis.breaks if self.axis else np.empty(0)
 
-    @property
+    @cached_property
     def stations(self) -> FloatArray:
         """Arclengths S, rising, at which the second derivative of the curvature jumps: stations between the ends."""
         if not self.axis or len(self.axis[0]) != COLUMNS:

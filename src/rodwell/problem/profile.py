@@ -86,6 +86,8 @@ def powers(ratio: Ratio) -> tuple[float, ...]:
 
 def extremes(ratio: Ratio) -> tuple[float, float, float]:
     """Least value of a ratio within its section, where, as a part of its length, and its largest value."""
+    if isinstance(ratio, float):
+        return ratio, 0.0, ratio
     found = np.polynomial.Polynomial(powers(ratio))
     roots = found.deriv().roots() if found.degree() > 1 else np.zeros(0)
     within = roots.real[(np.abs(roots.imag) < _EDGE) & (roots.real > 0.0) & (roots.real < 1.0)]

@@ -142,8 +142,10 @@ class Rod:
 
         A buckled rod stays on the wall there only if it is held to it.
         """
+        if not self.tapered:
+            return False
         (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
-        return self.tapered and bool(np.any((below == above) & (next_rate < rate)))
+        return bool(np.any((below == above) & (next_rate < rate)))
 
     @cached_property
     def whole_weight(self) -> float:

@@ -21,6 +21,10 @@ class Value:
         yield self.value
         yield self.error
 
+    def as_dict(self) -> dict[str, float]:
+        """Number and error as plain data."""
+        return {"value": self.value, "error": self.error}
+
     def times(self, factor: float) -> Value:
         """The number in another unit, or with the other sign."""
         return Value(self.value * factor, self.error * abs(factor))

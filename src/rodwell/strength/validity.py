@@ -76,7 +76,7 @@ class Measure:
 
     def as_dict(self) -> dict[str, Any]:
         """Everything about it, for JSON."""
-        number = None if self.number is None else {"value": self.number.value, "error": self.number.error}
+        number = None if self.number is None else self.number.as_dict()
         return {"label": self.label, "number": number, "limit": self.limit, "status": self.status, "where": self.where}
 
 

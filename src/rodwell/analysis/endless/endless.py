@@ -165,7 +165,7 @@ def endless(beta: float | None = None, slope: float = 0.0) -> Endless:
 
 
 def _plain(number: Value | None) -> dict[str, float] | None:
-    return None if number is None else {"value": number.value, "error": number.error}
+    return None if number is None else number.as_dict()
 
 
 def _stage(stage: Stage) -> dict[str, Any]:

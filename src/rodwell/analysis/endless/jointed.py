@@ -72,19 +72,15 @@ class JointedString:
     def as_dict(self) -> dict[str, Any]:
         """All numbers, units B = L = 1 of one period."""
         return {
-            "load": _plain(self.load),
+            "load": self.load.as_dict(),
             "phase": self.phase,
-            "edge_force": _plain(self.edge_force),
-            "sag": _plain(self.sag),
-            "room": _plain(self.room),
-            "spread_load": _plain(self.spread),
+            "edge_force": self.edge_force.as_dict(),
+            "sag": self.sag.as_dict(),
+            "room": self.room.as_dict(),
+            "spread_load": self.spread.as_dict(),
             "unit": "B/L^2, lengths in L, the length of one joint",
             "convention": "axial force, tension positive",
         }
-
-
-def _plain(number: Value) -> dict[str, float]:
-    return {"value": number.value, "error": number.error}
 
 
 def _closed(number: float) -> Value:

@@ -206,15 +206,20 @@ class ContactState:
             "force": self.force,
             "kind": self.kind,
             "turns": self.turns,
-            "energy": plain(self.energy),
+            "energy": self.energy.as_dict(),
             "stability_index": self.stability_index,
             "gaps": [
-                {"from": plain(g.start), "to": plain(g.end), "largest": plain(g.largest), "at": g.at} for g in self.gaps
+                {"from": g.start.as_dict(), "to": g.end.as_dict(), "largest": g.largest.as_dict(), "at": g.at}
+                for g in self.gaps
             ],
-            "contacts": [{"from": plain(c.start), "to": plain(c.end), "force": plain(c.force)} for c in self.contacts],
-            "point_contacts": [{"s": plain(p.s), "force": plain(p.force), "kind": p.kind} for p in self.point_forces],
-            "contact_total": plain(self.contact_total),
-            "shortening": plain(self.shortening),
+            "contacts": [
+                {"from": c.start.as_dict(), "to": c.end.as_dict(), "force": c.force.as_dict()} for c in self.contacts
+            ],
+            "point_contacts": [
+                {"s": p.s.as_dict(), "force": p.force.as_dict(), "kind": p.kind} for p in self.point_forces
+            ],
+            "contact_total": self.contact_total.as_dict(),
+            "shortening": self.shortening.as_dict(),
             "certificate": self.certificate.as_dict(),
         }
 
@@ -231,11 +236,6 @@ def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
         "curvature": rod.curvature, "tension": rod.tension, "bending_moment": stiffness * rod.curvature,
         "contact_pressure": pressure,
     }  # fmt: skip
-
-
-def plain(number: Value) -> dict[str, float]:
-    """A number with its error, for JSON."""
-    return {"value": number.value, "error": number.error}
 
 
 def contact_state(state: PatternedState) -> ContactState:

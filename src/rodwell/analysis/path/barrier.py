@@ -20,7 +20,7 @@ from rodwell.analysis.off_wall.following import followed
 from rodwell.analysis.off_wall.happening import END
 from rodwell.analysis.off_wall.recognise import recognised
 from rodwell.analysis.off_wall.soft import settled
-from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
+from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.disturbance import Held, held_by, turned_over
 from rodwell.analysis.path.events import SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.plane import displaced
@@ -112,8 +112,8 @@ class Barrier:
         """Plain data, for JSON."""
         turn, why = self.turn_or_why()
         return {
-            "leg": self.leg, "force": self.state.force, "height": plain(self.height),
-            "turn": None if turn is None else plain(turn), **({"why_no_turn": why} if why else {}),
+            "leg": self.leg, "force": self.state.force, "height": self.height.as_dict(),
+            "turn": None if turn is None else turn.as_dict(), **({"why_no_turn": why} if why else {}),
             "to": self.to.as_dict(), "saddle": self.saddle.as_dict(),
         }  # fmt: skip
 

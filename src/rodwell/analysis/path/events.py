@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE, Control
-from rodwell.analysis.off_wall.state import BRIDGED, STRAIGHT, ContactState, plain
+from rodwell.analysis.off_wall.state import BRIDGED, STRAIGHT, ContactState
 from rodwell.faces import drawn_in_space
 from rodwell.quantities.value import Value
 
@@ -76,7 +76,7 @@ class Destination:
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
         return {
-            "state": self.kind, "turns": self.turns, "energy": plain(self.energy), "force": plain(self.force),
+            "state": self.kind, "turns": self.turns, "energy": self.energy.as_dict(), "force": self.force.as_dict(),
             "starts": self.starts, "agree": self.agree,
         }  # fmt: skip
 
@@ -125,7 +125,7 @@ class PathPoint:
     def as_dict(self) -> dict[str, Any]:
         """Plain data, for JSON."""
         return {
-            "kind": self.kind, "force": plain(self.force), "s": list(self.s), "leg": self.leg,
+            "kind": self.kind, "force": self.force.as_dict(), "s": list(self.s), "leg": self.leg,
             "to": None if self.to is None else self.to.as_dict(),
         }  # fmt: skip
 

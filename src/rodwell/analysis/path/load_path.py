@@ -13,7 +13,7 @@ import numpy as np
 from rodwell.analysis.off_wall.conditions import conditions
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.state import ContactState, contact_state, plain
+from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.barrier import Barrier, barrier
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.plain import found_or_why
@@ -234,7 +234,7 @@ class LoadPath(Shown):
     def _driven(self, event: PathPoint) -> dict[str, Any]:
         """The controlled shortening at an event, for JSON."""
         found = self.driven(event)
-        return {} if found is None else {"driven": plain(found)}
+        return {} if found is None else {"driven": found.as_dict()}
 
     def driven(self, event: PathPoint) -> Value | None:
         """The shortening of the driven end at an event, in L, with its error; None where the force is controlled."""

@@ -79,8 +79,8 @@ def steps_data(steps: tuple[StepLoad, ...]) -> list[dict[str, Any]]:
     return [
         {
             "s": step.s,
-            "couple": {"value": step.couple.value, "error": step.couple.error},
-            "force": {"value": step.force.value, "error": step.force.error},
+            "couple": step.couple.as_dict(),
+            "force": step.force.as_dict(),
             "leaves_wall": step.lifts,
         }
         for step in steps

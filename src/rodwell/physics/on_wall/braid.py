@@ -138,7 +138,8 @@ def reconstruct(
     if taper is not None:
         for i, more in enumerate(more_force(u[1], u[2], u[3], parameters[CLEARANCE], taper.rate), 1):
             out[f"rod_F{i}"] = out[f"rod_F{i}"] + more
-        out["contact_pressure"] = wall_pressure(s, u, parameters, stiffness, taper)
+        bent = more_pressure(u[1], u[2], u[3], parameters[CLEARANCE], taper.rate, taper.bend)
+        out["contact_pressure"] = out["contact_pressure"] + bent
     frame = _Frame.along(u[0] / parameters[CLEARANCE], u[1])
     out |= _braid(s, frame, from_right[3:6], parameters, end)
     out |= _cylinder(frame, out, from_right[:8], parameters, end)

@@ -15,10 +15,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from rodwell.physics.on_wall.model import RodOnCylinder
+from rodwell.physics.on_wall.model import RodOfSections
 from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP, SIDE
-from rodwell.physics.on_wall.sections import of_section, section_density
-from rodwell.physics.on_wall.strand import contact_pressure, curvatures
+from rodwell.physics.on_wall.strand import curvatures
 
 TERMS = 5
 """Coefficients of b and q; h has one more."""
@@ -82,20 +81,16 @@ class RodOfTapers(NamedTuple):
     @staticmethod
     def out_of_range() -> str:
         """What an energy that is no number means."""
-        return RodOnCylinder.out_of_range()
+        return RodOfSections.out_of_range()
 
     @staticmethod
     def density(s: Any, u: Any, given: Any, parameters: Any, rates: Any) -> Any:
         """Energy density and its derivatives at ``s``, in the section whose polynomials are ``given``."""
-        ramp = parameters[RAMP]
-        return section_density(s, u[0] + ramp * s, u[1] + ramp, u[2], here(s, given), parameters, rates)
+        return RodOfSections.density(s, u, here(s, given), parameters, rates)
 
     @staticmethod
     def observed(s: Any, u: Any, given: Any, parameters: Any) -> Any:
         """Return the contact pressure, negative in contact, at ``s``, from ``u`` with the third derivative."""
-        b, q, d = here(s, given)
-        rate, bend = stiffness_rates(s, given)
-        ramp, clearance = parameters[RAMP], parameters[CLEARANCE]
-        own = of_section((b, q, d), parameters)
-        plain = contact_pressure(s, u[0] + ramp * s, u[1] + ramp, u[2], u[3], own, b)
-        return parameters[SIDE] * (plain + more_pressure(u[1] + ramp, u[2], u[3], clearance, rate, bend))
+        plain = RodOfSections.observed(s, u, here(s, given), parameters)
+        more = more_pressure(u[1] + parameters[RAMP], u[2], u[3], parameters[CLEARANCE], *stiffness_rates(s, given))
+        return plain + parameters[SIDE] * more
