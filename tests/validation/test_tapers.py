@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import math
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from scipy.optimize import brentq
 from scipy.special import jv, yv
 
 from rodwell import Problem, critical_loads, follow, load_branch, loads_without_wall, save_branch
+from rodwell.analysis.branch.verifying.other_program import most_sections, takes
 from rodwell.analysis.curves.critical import critical_curves
 from rodwell.analysis.loads.sensitivity import sensitivities
 from rodwell.analysis.path.follow import load_path
@@ -277,3 +279,13 @@ def test_what_is_not_computed_of_tapers_is_refused() -> None:
 )
 def test_where_a_wall_would_have_to_pull_the_words_say_what_is_held(sections: Any, conditions: list[str]) -> None:
     assert held(Rod(checked_sections(sections))) == conditions
+
+
+@pytest.mark.parametrize("count", [1, 6, 7])
+@pytest.mark.parametrize("last", [2.0, (2.0, 1.0)])
+def test_the_other_program_is_advised_where_it_takes_the_problem(count: int, last: Any) -> None:
+    stiffness = [1.0 + i for i in range(count - 1)] + [last]
+    problem = Problem(15.0, sections=[(1.0 / count, ratio) for ratio in stiffness])
+    with nullcontext() if takes(problem) else pytest.raises(InputError):
+        most_sections(problem)
+    assert takes(problem) == (count < 7 and last == 2.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rodwell.analysis.branch.solution import Solution
+from rodwell.analysis.branch.verifying.other_program import takes
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
 from rodwell.answers.result.computed import Computed
@@ -230,7 +231,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
         )
     if case.scales is not None and not case.problem.sections and answer.lying is None:
         out.append(f"Hold the formulas of practice against these loads: rodwell audit {case.source}.")
-    elif answer.lying is None:
+    elif takes(case.problem):
         out.append(f"Have the loads checked by another program: rodwell verify {case.source}.")
     return tuple(out)
 

@@ -35,6 +35,11 @@ FORCES = [name in LOADS for name in Fifteen._fields]
 LAMBDA, OMEGA2, OMEGA3 = (Fifteen._fields.index(name) for name in ("lam", "omega2", "omega3"))
 
 
+def takes(problem: Problem) -> bool:
+    """Whether the other program solves states of a problem: in straight holes, of few sections without tapers."""
+    return problem.hole is None and not problem.tapered and len(problem.sections) <= MOST_SECTIONS
+
+
 def most_sections(problem: Problem) -> None:
     """Raise where a string has more sections than the other program is given, or sections that taper."""
     problem.refuse_tapers("the equations of the other program")
