@@ -77,6 +77,27 @@ def _absolute_values(app, what, name, obj, options, lines):
     lines[:] = [re.sub(r"\|(\w[^|\s]*)\|", r"\\|\1\\|", line) for line in lines]
 
 
+_beside = {}
+
+
+def _navigation_once(app, pagename, templatename, context, doctree):
+    """Pages of source code stand in no table of contents: those of one folder have the same one beside them.
+
+    The theme asks for it on every page, and most of the pages are of source code: a third of the time of a build.
+    """
+    if doctree is None and pagename.startswith("_modules/"):
+        made, folder = context["toctree"], pagename.rpartition("/")[0]
+
+        def navigation(**options):
+            key = folder, *sorted(options.items())
+            if key not in _beside:
+                _beside[key] = made(**options)
+            return _beside[key]
+
+        context["toctree"] = navigation
+
+
 def setup(app):
+    app.connect("html-page-context", _navigation_once, priority=400)  # before the theme's own
     app.connect("autodoc-process-docstring", _colons, priority=400)
     app.connect("autodoc-process-docstring", _absolute_values, priority=600)
