@@ -75,6 +75,8 @@ def begin(problem: Problem | None = None) -> None:
     """
     if problem is not None and (problem.sections or problem.hole is not None):
         return
+    if not hasattr(newton, "overloads"):  # NUMBA_DISABLE_JIT: a plain function
+        return
     if not newton.overloads and newton.stats.cache_path is not None and not done():
         second_process.begin(__name__)
 
