@@ -18,7 +18,7 @@ from rodwell.case.checks.plausible import RANGES, likely_units
 from rodwell.case.file import read_case
 from rodwell.quantities.units import KINDS as QUANTITIES
 from rodwell.quantities.units import to_si
-from rodwell.studies.sweep.study import is_study
+from rodwell.studies.sweep.varied import is_study
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 STEEL: dict[str, Any] = {

@@ -19,8 +19,8 @@ from rodwell.case.file import LARGEST_CASE, LARGEST_CATALOGUE, parsed, printable
 from rodwell.case.uncertain import split
 from rodwell.errors import InputError, printable
 from rodwell.quantities.units import in_unit_of, to_si
-from rodwell.studies.sweep.study import is_study, study
-from rodwell.studies.sweep.varied import varied_inputs
+from rodwell.studies.sweep.study import study
+from rodwell.studies.sweep.varied import is_study, varied_inputs
 from rodwell.studies.varied import is_varied
 
 CASE = "[dimensionless]\nweight = 16.5\n"

@@ -6,6 +6,7 @@ import ast
 import errno
 import fcntl
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -21,11 +22,13 @@ import numba
 import pytest
 from numba.core.caching import CacheImpl
 from numba.core.dispatcher import Dispatcher
+from numba.core.environment import Environment
 
 from rodwell.analysis.discrete import first_run
 from rodwell.cli import main as command_line
 from rodwell.compiling import cache, turns
 from rodwell.compiling.kernels import kernel
+from rodwell.compiling.reading import read
 from rodwell.errors import CacheWarning
 from rodwell.physics.on_wall.model import RodOnCylinder
 
@@ -225,6 +228,17 @@ def test_without_any_folder_kernels_are_compiled_in_each_process(monkeypatch):
     assert len(told) == 1
     assert (one(2.0), two(RodOnCylinder(2), 1)) == (6.0, 3)
     assert not cache.on_disk(one, FLOAT)
+
+
+def test_parts_of_numba_are_read_without_their_modules():
+    written = Environment({"__name__": "numba.no_such_module"})
+    written.consts[:], written.env_name = ["a constant"], "name of a part"
+    code = pickle.dumps(written)
+    found = read(code)
+    assert found.consts == ["a constant"]
+    assert found.can_cache()  # with what is compiled on it, it is written again
+    assert pickle.dumps(found) == code
+    assert read(code) is found
 
 
 def test_with_another_numba_its_own_cache_serves(monkeypatch, folder):

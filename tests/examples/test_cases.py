@@ -19,7 +19,7 @@ from rodwell.quantities.units import SYSTEMS
 from rodwell.report.reports.bridged import bridged_report
 from rodwell.report.reports.case import case_report
 from rodwell.report.reports.study import study_report
-from rodwell.studies.sweep.study import is_study
+from rodwell.studies.sweep.varied import is_study
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 ELSEWHERE = ("[packer]", "[[hole.section]]")

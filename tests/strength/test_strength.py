@@ -478,7 +478,7 @@ def test_bad_loads_without_dimensions() -> None:
 
 
 def test_a_list_of_loads_is_no_parameter_study(tmp_path: Path) -> None:
-    from rodwell.studies.sweep.study import is_study
+    from rodwell.studies.sweep.varied import is_study
 
     text = '[rod]\nlength = "30 m"\n[load]\napplied = ["-20 kN", "-30 kN"]\n'
     studied = "study = true\n" + text.replace('"30 m"', '["30 m", "40 m"]')

@@ -13,8 +13,7 @@ from click.testing import CliRunner, Result
 import rodwell
 from rodwell import InputError
 from rodwell.cli.main import cli
-from rodwell.studies.sweep.study import is_study
-from rodwell.studies.sweep.varied import varied_inputs
+from rodwell.studies.sweep.varied import is_study, varied_inputs
 
 TAPER = """
 [rod]

@@ -12,6 +12,7 @@ from typing import Any
 
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")  # threads slow small banded systems; must be set before NumPy loads
+os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # case files are read the same wherever others add some
 
 import click
 

@@ -60,7 +60,7 @@ def run(
     from rodwell.case.case import Case  # noqa: PLC0415
     from rodwell.case.file import read_case  # noqa: PLC0415
     from rodwell.store.folder import check_writable  # noqa: PLC0415
-    from rodwell.studies.sweep.study import is_study  # noqa: PLC0415
+    from rodwell.studies.sweep.varied import is_study  # noqa: PLC0415
 
     if with_pdf:
         from rodwell.report.pages.pdf import check_pdf  # noqa: PLC0415

@@ -17,7 +17,6 @@ A file is written beside its place and moved there, so processes that read and w
 from __future__ import annotations
 
 import gc
-import pickle
 import re
 import sys
 import uuid
@@ -38,6 +37,7 @@ from numba.core.serialize import dumps
 
 from rodwell._version import __version__
 from rodwell.compiling import turns
+from rodwell.compiling.reading import read
 from rodwell.errors import CacheWarning
 
 ROOM = Path(__file__).resolve().parent
@@ -154,7 +154,7 @@ class _Files:
         if code is None:
             return None
         try:
-            stored, data = pickle.loads(code)
+            stored, data = read(code)
         except Exception:  # what it names is no longer there
             return None
         return data if stored == key else None

@@ -9,7 +9,6 @@ from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.comparison.beside import FormulaRow
-from rodwell.answers.data.beyond import beyond_dict
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment, AtLoad
 from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
@@ -179,8 +178,14 @@ def answer_dict(answer: Answer, *, path: bool = False) -> dict[str, Any]:
         "converged": answer.converged,
         "certificate": answer.worst_certificate.as_dict(),
         "rtol": case.rtol,
-        **({"beyond_lift_off": beyond_dict(case, answer.beyond)} if path else {}),
+        **({"beyond_lift_off": _beyond(answer)} if path else {}),
     }
+
+
+def _beyond(answer: Answer) -> dict[str, Any]:
+    from rodwell.answers.data.beyond import beyond_dict  # noqa: PLC0415 - takes a third of a second: only where the load path is asked for
+
+    return beyond_dict(answer.case, answer.beyond)
 
 
 def _critical_loads(answer: Answer) -> dict[str, Any]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,9 +16,9 @@ from rodwell.errors import InputError
 from rodwell.problem import hole as problem
 from rodwell.problem.points import Rows
 from rodwell.quantities.text import plain
-from rodwell.survey.centerline import read_centerline
-from rodwell.survey.path import HolePath, Piece, Tortuosity, path_of_points, path_of_survey
-from rodwell.survey.survey import Survey
+
+if TYPE_CHECKING:
+    from rodwell.survey.path import HolePath, Piece
 
 SAME_LENGTH = 1e-4
 """Relative difference of ``to`` − ``from`` and the length of the rod that counts as none: depths are rounded."""
@@ -67,8 +67,10 @@ def lie_of(hole: Hole, length: float, folder: Path, by_depth: bool = False) -> L
     file = _one_way(hole, by_depth)
     if file is None:
         return _bent(hole, length)
+    from rodwell.case.hole.along_file import path_of  # noqa: PLC0415 - reading surveys is for those who have one
+
     name = "from" if hole.from_ is not None else "to"
-    path = _named(f"hole.{file}", getattr(hole, file), lambda: _path(hole, file, folder))
+    path = _named(f"hole.{file}", getattr(hole, file), lambda: path_of(hole, file, folder))
     upper, lower = depths_of(hole, length, path.bottom)
     if not path.top - SAME_LENGTH * length <= upper < lower <= path.bottom + SAME_LENGTH * length:
         given = getattr(hole, "from_" if name == "from" else "to")
@@ -146,34 +148,6 @@ def _one_way(hole: Hole, by_depth: bool) -> str | None:
     if hole.tortuosity is None and {"tortuosity_step", "tortuosity_seed"} & given:
         raise InputError("hole.tortuosity", None, "is missing: give it beside its step and seed, or leave these out")
     return file
-
-
-def _path(hole: Hole, file: str, folder: Path) -> HolePath:
-    path = folder / str(getattr(hole, file))
-    try:
-        stat = path.stat()
-        stamp = (stat.st_mtime_ns, stat.st_size)
-    except OSError:
-        stamp = (0, 0)  # said when it is read
-    if file == "centerline":
-        return _of_points(path, stamp)
-    tortuosity = None
-    if hole.tortuosity is not None:
-        tortuosity = Tortuosity(hole.tortuosity, hole.tortuosity_step, hole.tortuosity_seed)
-    return _of_survey(path, stamp, hole.well, hole.depth_unit, tortuosity)
-
-
-@lru_cache(maxsize=8)
-def _of_survey(
-    path: Path, stamp: tuple[int, int], well: str | None, depth_unit: str | None, tortuosity: Tortuosity | None
-) -> HolePath:
-    """Path of a survey, read once for all points of a study; ``stamp`` says that the file is still the same."""
-    return path_of_survey(Survey.read(path, well=well, depth_unit=depth_unit), tortuosity)
-
-
-@lru_cache(maxsize=8)
-def _of_points(path: Path, stamp: tuple[int, int]) -> HolePath:
-    return path_of_points(read_centerline(path), path.name)
 
 
 def _named(key: str, value: str, compute: Callable[[], HolePath]) -> HolePath:

@@ -15,7 +15,6 @@ from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
 from rodwell.plots.ordinates import ORDINATES, telling
 from rodwell.quantities.text import plain
-from rodwell.report.reports.beyond import beyond_section
 from rodwell.report.reports.content import Grid, Items, Picture, Report, ReportSection, Words
 from rodwell.report.reports.files import CONVENTION_OF_DATA, FILES, linked
 from rodwell.report.reports.front import LOGO, front
@@ -47,7 +46,7 @@ def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False
         sections=(
             ReportSection("What the numbers mean", (Items(tuple(sentences(answer)[1:])),)),
             _in_space(answer),
-            *([beyond_section(case, answer.beyond)] if path else []),
+            *([_beyond(answer)] if path else []),
             *string_section(answer.assessment),
             *strength_sections(answer.assessment),
             _pictures(answer),
@@ -66,6 +65,12 @@ def case_report(answer: Answer, files: Iterable[str] = (), *, path: bool = False
         logo="" if case.about.logo is None else LOGO,
         files=linked(files, FILES),
     )
+
+
+def _beyond(answer: Answer) -> ReportSection:
+    from rodwell.report.reports.beyond import beyond_section  # noqa: PLC0415 - takes a third of a second: only where the load path is asked for
+
+    return beyond_section(answer.case, answer.beyond)
 
 
 def _in_space(answer: Answer) -> ReportSection:

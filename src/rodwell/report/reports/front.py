@@ -7,7 +7,6 @@ from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import BUCKLED, STRAIGHT, Assessment, AtLoad
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.advice import next_steps, statuses
-from rodwell.answers.words.beyond import story
 from rodwell.answers.words.in_space import what_ends
 from rodwell.answers.words.meaning import assumptions, sentences
 from rodwell.answers.words.shown_loads import shown_sensitivities
@@ -27,7 +26,7 @@ LOGO = "logo"
 def front(answer: Answer, *, path: bool = False) -> Front:
     """Return the first sheet; with ``path`` its verdict goes on beyond lift-off."""
     a, case = answer.assessment, answer.case
-    beyond = f" {story(case, answer.beyond)}" if path and answer.beyond.path is not None else ""
+    beyond = f" {_beyond(answer)}" if path and answer.beyond.path is not None else ""
     effective = "Forces are effective ones. " if case.with_fluids else ""
     return Front(
         verdict=sentences(answer)[0] + beyond,
@@ -43,6 +42,12 @@ def front(answer: Answer, *, path: bool = False) -> Front:
         inputs=inputs_in_words(case),
         limits=_limits(a),
     )
+
+
+def _beyond(answer: Answer) -> str:
+    from rodwell.answers.words.beyond import story  # noqa: PLC0415 - takes a third of a second: only where the load path is asked for
+
+    return story(answer.case, answer.beyond)
 
 
 def inputs_in_words(case: Case) -> tuple[tuple[str, str], ...]:

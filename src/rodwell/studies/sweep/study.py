@@ -8,13 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from rodwell.case.case import Case
-from rodwell.case.file import CaseText, read_case
 from rodwell.errors import InputError
 from rodwell.faces import plain
 from rodwell.quantities.units import SI, System
 from rodwell.studies.given import Given, grid_of, in_words, read_given, what_varies
 from rodwell.studies.sweep.points import StudyPoint, computed, computed_point, followed_to_loads
-from rodwell.studies.sweep.varied import LISTS, check_declared, may_vary, varied_inputs
+from rodwell.studies.sweep.varied import check_declared, varied_inputs
 from rodwell.studies.varied import Varied
 
 APPLIED = "load.applied"
@@ -153,20 +152,6 @@ def _points(grid: list[tuple[int, ...]], cases: list[Case | InputError], tell: P
             shared = followed_to_loads(computed(case) if shared is None else shared, case)
             points.append(computed_point(number, grid[number], case, shared))
     return tuple(sorted(points, key=lambda point: point.number))
-
-
-def is_study(case: str | Path | CaseText) -> bool:
-    """Whether a file is a case file with a range, or says that it is a study.
-
-    False for what cannot be read, and for lists in a file that does not say so: ``Case`` explains both.
-    """
-    try:
-        data = case.data if isinstance(case, CaseText) else read_case(case).data
-    except InputError:
-        return False
-    sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
-    values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
-    return data.get("study") is True or any(isinstance(v, str) and may_vary(name, v) for name, v in values)
 
 
 def _case(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from rodwell.case.checks.explain import LIST, TAPER, TAPERED
+from rodwell.case.file import CaseText, read_case
 from rodwell.case.string.sections import check_beside
 from rodwell.errors import InputError
 from rodwell.studies.labels import label
@@ -26,6 +28,20 @@ ALLOWED_LOAD = 'write a range, "-100..-20 kN in 5", which varies, or a list of l
 def may_vary(name: str, value: object) -> bool:
     """Whether the value of a key, "section.key", is one that varies: a list of loads that act is none, a range is."""
     return is_varied(value) and (name not in LISTS or isinstance(value, str))
+
+
+def is_study(case: str | Path | CaseText) -> bool:
+    """Whether a file is a case file with a range, or says that it is a study.
+
+    False for what cannot be read, and for lists in a file that does not say so: ``Case`` explains both.
+    """
+    try:
+        data = case.data if isinstance(case, CaseText) else read_case(case).data
+    except InputError:
+        return False
+    sections = {name: section for name, section in data.items() if isinstance(section, dict) and name not in LISTS}
+    values = ((f"{name}.{key}", value) for name, section in sections.items() for key, value in section.items())
+    return data.get("study") is True or any(isinstance(v, str) and may_vary(name, v) for name, v in values)
 
 
 def check_declared(data: Mapping[str, Any]) -> None:
