@@ -66,11 +66,11 @@ def computed() -> Answer:
 def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let ``rodwell run`` find its answer computed and its figures drawn."""
 
-    def draw(_: Answer) -> dict[str, Any]:
-        return {"bifurcation": {"png": b"new figure"}}
-
     monkeypatch.setattr("rodwell.answers.result.answer.answer", lambda *_: computed)
-    monkeypatch.setattr("rodwell.report.folders.pictures.draw", draw)
+    for half in ("draw_branches", "draw_rod"):
+        monkeypatch.setattr(
+            f"rodwell.report.folders.pictures.{half}", lambda *_: {"bifurcation": {"png": b"new figure"}}
+        )
     monkeypatch.setattr("rodwell.report.pages.pdf.render", lambda *_: "<p>new report</p>")
 
 
@@ -271,7 +271,8 @@ def disk_full(*_: object, **__: object) -> None:
 
 STAGES = [
     pytest.param("rodwell.answers.result.answer.answer", id="computing"),
-    pytest.param("rodwell.report.folders.pictures.draw", id="drawing"),
+    pytest.param("rodwell.report.folders.pictures.draw_branches", id="drawing"),
+    pytest.param("rodwell.report.folders.pictures.draw_rod", id="drawing the rod"),
     pytest.param("rodwell.report.pages.pdf.render", id="rendering"),
     pytest.param("rodwell.report.folders.case.write_answer", id="writing-data"),
 ]

@@ -70,6 +70,20 @@ def test_nothing_is_left_where_no_work_comes() -> None:
     assert multiprocessing.active_children() == []
 
 
+def test_the_second_process_may_start_a_third() -> None:
+    def halves(add: int) -> list[tuple[int, int]]:
+        with beside(lambda: number_of_process) as start:
+            other = start(add)
+            return [number_of_process(add), other()]
+
+    with beside(lambda: halves) as start:
+        processes, answers = zip(*start(41)(), strict=True)
+    assert answers == (42, 42)
+    if sys.platform == "linux" and (os.cpu_count() or 1) > 1 and threading.active_count() == 1:
+        assert len({*processes, os.getpid()}) == 3
+    assert multiprocessing.active_children() == []
+
+
 def test_with_threads_it_is_done_here() -> None:
     wait = threading.Event()
     thread = threading.Thread(target=wait.wait)

@@ -233,7 +233,7 @@ def test_without_typst(tmp_path: Path, capsys: pytest.CaptureFixture[str], monke
 
 
 def test_front_stays_one_sheet_and_letter_paper_for_field_units() -> None:
-    from rodwell.report.folders.pictures import draw
+    from rodwell.report.folders.pictures import draw_branches, draw_rod
     from rodwell.report.pages.pdf import pdf
     from rodwell.report.reports.case import case_report
     from rodwell.report.reports.content import Words
@@ -249,7 +249,8 @@ def test_front_stays_one_sheet_and_letter_paper_for_field_units() -> None:
     )
     answer = rodwell.answer(case)
     report = case_report(answer)
-    pictures = {name: next(reversed(formats.items())) for name, formats in draw(answer).items()}
+    drawn = draw_branches(answer) | draw_rod(answer)
+    pictures = {name: next(reversed(formats.items())) for name, formats in drawn.items()}
     paragraphs = [block.text for part in report.sections for block in part.blocks if isinstance(block, Words)]
     assert all(text.endswith((".", ":")) for text in paragraphs)  # nothing is cut off
     more = replace(report, front=replace(report.front, steps=report.front.steps * 4))

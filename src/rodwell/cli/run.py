@@ -82,15 +82,15 @@ def run(
         run_bridged(read, folder, as_json=as_json, quiet=quiet, with_pdf=with_pdf)
         return
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
-    from rodwell.report.folders.beside import beside, drawing  # noqa: PLC0415
+    from rodwell.report.folders.beside import drawing_beside  # noqa: PLC0415
 
-    with beside(drawing) as start:
+    with drawing_beside() as draw:
         shown = not quiet and not as_json
         with progress_bar(shown, "critical loads") as tell:
             result = answer(read, tell)
         if shown:
             _verdict(result)
-        drawn = start(result)
+        drawn = draw(result)
         if shown and not result.converged:
             _not_converged(read.rtol)
         from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415

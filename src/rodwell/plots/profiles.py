@@ -8,7 +8,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 
-from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.branch import Branch, states_to_lift_off
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.extent import drawn_places, shown_part, straight_beyond
@@ -17,9 +17,6 @@ from rodwell.plots.style import GREY, INK, SIZE, WARN, marked, new_axes, paramet
 from rodwell.plots.units import axis
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
-
-SHOWN = 5
-"""States between buckling and lift-off of which the contact pressure is drawn."""
 
 
 def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = None, most: int = 4) -> Any:
@@ -43,18 +40,6 @@ def plot_modes(critical: CriticalLoads, scales: Scales | None = None, ax: Any = 
     ax.legend(loc="upper center", ncols=2, title=said.legend.replace("\n", " "))
     ax.set_title(parameters(critical[0].problem, scales), loc="left", fontsize=8.5)
     return ax
-
-
-def states_to_lift_off(branch: Branch, count: int = SHOWN) -> list[Solution]:
-    """States of a branch from buckling to lift-off, evenly spread in load; to its end if it has no lift-off."""
-    lift = branch.lift_off
-    if lift is None or branch.lift_off_at_buckling:
-        picks = np.linspace(1, len(branch) - 1, min(count, len(branch) - 1)).round().astype(int)
-        return [branch[int(i)] for i in dict.fromkeys(picks)]
-    start = branch.force[0]
-    forces = start + (lift.force - start) * np.linspace(0.0, 1.0, count)
-    inner = [branch.at(float(f)) for f in forces[1:-1]]
-    return [branch[0], *inner, lift.solution]
 
 
 def plot_contact_pressure(
@@ -165,12 +150,12 @@ def plot_around(states: Sequence[Solution], scales: Scales | None = None, ax: An
     return ax
 
 
-def plot_wall_loads(branch: Branch, scales: Scales | None = None) -> Any:
+def plot_wall_loads(branch: Branch, scales: Scales | None = None, states: Sequence[Solution] | None = None) -> Any:
     """Draw contact pressure above twisting moment in the cylinder, at the same loads; return the upper axes.
 
     In a curved hole above the angle around the hole, which says which part of the wall bears it.
     """
-    states = states_to_lift_off(branch)
+    states = states_to_lift_off(branch) if states is None else states
     upper = new_axes(size=(SIZE[0], 6.2), nrows=2, index=1)
     lower = upper.figure.add_subplot(2, 1, 2, sharex=upper)
     plot_contact_pressure(branch, scales, ax=upper, states=states)

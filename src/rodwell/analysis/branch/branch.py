@@ -11,6 +11,7 @@ import numpy as np
 from rodwell.analysis.branch.control import Controlled
 from rodwell.analysis.branch.functionals import Number, number_of, value_of
 from rodwell.analysis.branch.record import BranchRecord
+from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import END, LIFT_OFF, Origin, SpecialPoint
 from rodwell.analysis.branch.symmetry import Reflection, images
 from rodwell.analysis.discrete.measures import measured
@@ -191,3 +192,15 @@ class Branch(BranchRecord, Shown):
         """Return the same branch under another name."""
         ending = self.reached_end, self.ended_because
         return Branch(self.problem, origin, self.trace, self.special_points, *ending, self.parameter)
+
+
+def states_to_lift_off(branch: Branch, count: int = 5) -> list[Solution]:
+    """States of a branch from buckling to lift-off, evenly spread in load; to its end if it has no lift-off."""
+    lift = branch.lift_off
+    if lift is None or branch.lift_off_at_buckling:
+        picks = np.linspace(1, len(branch) - 1, min(count, len(branch) - 1)).round().astype(int)
+        return [branch[int(i)] for i in dict.fromkeys(picks)]
+    start = branch.force[0]
+    forces = start + (lift.force - start) * np.linspace(0.0, 1.0, count)
+    inner = [branch.at(float(f)) for f in forces[1:-1]]
+    return [branch[0], *inner, lift.solution]

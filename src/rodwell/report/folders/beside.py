@@ -12,7 +12,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
+
+from rodwell.analysis.branch.branch import states_to_lift_off
+
+if TYPE_CHECKING:
+    from rodwell.analysis.branch.solution import Solution
+    from rodwell.answers.result.answer import Answer
 
 Work = Callable[..., Any]
 Start = Callable[..., Callable[[], Any]]
@@ -40,7 +46,7 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
     # arguments go by a file in memory: a pipe would keep this process until the other one is ready to read
     with os.fdopen(os.memfd_create("arguments"), "w+b") as file:
         here, there = context.Pipe()
-        process = context.Process(target=_serve, args=(ready, here, there, file), daemon=True)
+        process = context.Process(target=_serve, args=(ready, here, there, file))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of forks with threads of compiled libraries
             process.start()
@@ -68,9 +74,24 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
                 process.join()
 
 
+@contextmanager
+def drawing_beside() -> Iterator[Callable[[Answer], Callable[[], Any]]]:
+    """Start a second process that draws the pictures of an answer, known later; what is computed for them stays here.
+
+    The states that they show take kernels, and here these have been read from the disk.
+    """
+    with beside(drawing) as start:
+        yield lambda answer: start(answer, states_to_lift_off(answer.first))
+
+
 def drawing() -> Work:
-    """Ready to draw the pictures of a case: what that needs is imported."""
-    from rodwell.report.folders.pictures import draw  # noqa: PLC0415 - slow to import, Matplotlib above all
+    """Ready to draw the pictures of a case, half of them in a third process: what that needs is imported."""
+    from rodwell.report.folders.pictures import draw_branches, draw_rod  # noqa: PLC0415 - imports Matplotlib
+
+    def draw(answer: Answer, states: list[Solution]) -> dict[str, dict[str, bytes]]:
+        with beside(lambda: draw_rod) as start:
+            others = start(answer)
+            return {**draw_branches(answer, states), **others()}
 
     return draw
 

@@ -11,7 +11,7 @@ from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
-from rodwell.report.folders.beside import beside, drawing
+from rodwell.report.folders.beside import drawing_beside
 from rodwell.report.pages.pdf import PDF, report_folder, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
@@ -46,7 +46,7 @@ def write_results(
     """
     with report_folder(out, with_pdf=with_pdf) as folder:
         with ExitStack() as stack:
-            drawn = drawn or stack.enter_context(beside(drawing))(answer)
+            drawn = drawn or stack.enter_context(drawing_beside())(answer)
             followed = _beyond(answer, folder) if path else {}
             write_json(answer_dict(answer, path=path), folder / "answer.json")
             tables, states = answer_tables(answer), along_tables(answer.assessment)

@@ -8,6 +8,7 @@ from typing import Any
 
 import matplotlib as mpl
 
+from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
@@ -28,14 +29,25 @@ Drawn = dict[str, dict[str, bytes]]
 """What each picture is in each format, by name and suffix."""
 
 
-def draw(answer: Answer) -> Drawn:
-    """Draw all pictures: PNG and SVG, the 3-D picture as PNG."""
+def draw_branches(answer: Answer, states: Sequence[Solution] | None = None) -> Drawn:
+    """Draw what happens as the load changes: half of the work.
+
+    ``states`` are those of the first branch on the way to lift-off, where these are known already.
+    """
+    scales = answer.case.scales
+    with mpl.rc_context(RC):
+        return _files({
+            "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
+            "wall-loads": plot_wall_loads(answer.first, scales, states),
+        })  # fmt: skip
+
+
+def draw_rod(answer: Answer) -> Drawn:
+    """Draw the case, and the rod in one state: the other half."""
     scales = answer.case.scales
     with mpl.rc_context(RC):
         axes: dict[str, Any] = {
             "sketch": plot_sketch(answer.case),
-            "bifurcation": plot_bifurcation(answer.branches, answer.critical, scales),
-            "wall-loads": plot_wall_loads(answer.first, scales),
             "rod-3d": plot_rod(answer.shown, scales),
             "along-rod": _along(answer.assessment),
         }
@@ -45,11 +57,15 @@ def draw(answer: Answer) -> Drawn:
             axes["cylinder"] = plot_cylinder_moments(answer.shown, scales)
         if answer.case.string is not None:
             axes["string"] = plot_string(answer.case)
-        figures = {name: getattr(ax, "figure", ax) for name, ax in axes.items()}
-        return {
-            name: {"png": as_png(figure)} if name == "rod-3d" else png_and_svg(figure)
-            for name, figure in figures.items()
-        }
+        return _files(axes)
+
+
+def _files(axes: dict[str, Any]) -> Drawn:
+    """PNG and SVG of all, the 3-D picture as PNG."""
+    figures = {name: getattr(ax, "figure", ax) for name, ax in axes.items()}
+    return {
+        name: {"png": as_png(figure)} if name == "rod-3d" else png_and_svg(figure) for name, figure in figures.items()
+    }
 
 
 def _along(a: Assessment) -> Any:
