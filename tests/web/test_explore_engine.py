@@ -14,11 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rodwell
+from rodwell.quantities.as_json import as_json
 from rodwell.web import words
 from rodwell.web.engine import Cancelled, Engine
 from rodwell.web.given import Given
 from rodwell.web.inputs import DEFAULT, as_toml, moved
-from rodwell.web.worker import as_json
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FIELD = EXAMPLES / "field-drill-pipe.toml"

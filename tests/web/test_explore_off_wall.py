@@ -11,10 +11,10 @@ import pytest
 
 import rodwell
 from rodwell.errors import InputError
+from rodwell.quantities.as_json import as_json
 from rodwell.web import off_wall
 from rodwell.web.engine import Cancelled, Engine
 from rodwell.web.given import Given
-from rodwell.web.worker import as_json
 
 FARTHEST, BACK = -124.5, -112.0
 BEYOND = off_wall.LEGS["loading"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -13,6 +12,7 @@ import click
 
 from rodwell.cli.terminal import has_all_characters
 from rodwell.errors import InputError, printable
+from rodwell.quantities.as_json import as_json
 from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ def check_torsion(given: Mapping[str, Any]) -> None:
 
 def print_json(data: dict[str, Any], indent: int | None = None) -> None:
     """Print data as JSON, with escapes for characters that the terminal's encoding does not have."""
-    click.echo(json.dumps(data, ensure_ascii=not has_all_characters(), indent=indent))
+    click.echo(as_json(data, reasons=True, indent=indent, ensure_ascii=not has_all_characters()))
 
 
 def print_written(folder: Path, page: str = "", with_pdf: bool = False) -> None:

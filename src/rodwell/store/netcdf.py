@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +14,7 @@ from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.quantities.as_json import as_json
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Variable
@@ -79,7 +79,7 @@ def answer_attributes(answer: Answer) -> dict[str, Any]:
     case = answer.case
     out = _attributes(answer.first) | {
         "title": case.title,
-        "case": case.text or json.dumps(dict(case.given)),
+        "case": case.text or as_json(dict(case.given)),
         "converged": int(answer.converged),
         "certificate": answer.worst_certificate.worst,
     }

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
 from pathlib import Path
 from typing import Any
 
 from rodwell.errors import InputError
+from rodwell.quantities.as_json import as_json
 
 
-def write_json(data: dict[str, Any], path: Path, *, finite: bool = False) -> None:
-    """Write data as JSON, indented; with ``finite``, NaN and infinities are refused (ValueError)."""
-    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=not finite)
-    path.write_text(text + "\n", encoding="utf-8")
+def write_json(data: dict[str, Any], path: Path) -> None:
+    """Write data as JSON, indented; what is not finite is null, and named under "not_finite"."""
+    path.write_text(as_json(data, reasons=True, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 def write_whole(text: str, path: Path) -> None:

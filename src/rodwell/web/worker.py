@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import json
-import math
 import multiprocessing
 import os
 import signal
@@ -14,6 +12,7 @@ from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from rodwell.errors import RodwellError
+from rodwell.quantities.as_json import as_json
 
 Start = tuple[dict[str, Any] | None, str, str]
 """Content of the case file or None, the folder of its files, its name for messages."""
@@ -42,9 +41,9 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     try:
         given = Given(*start)
     except RodwellError as error:
-        pipe.send((0, True, json.dumps({"kind": "failed", "message": str(error)})))
+        pipe.send((0, True, as_json({"kind": "failed", "message": str(error)})))
         return
-    pipe.send((0, True, as_json(given.hello())))
+    pipe.send((0, True, as_json(given.hello(), compact=True)))
     from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow: the page is loaded meanwhile
 
     engine = Engine(given)
@@ -59,7 +58,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
             return
 
         def send(message: dict[str, Any], number: int = number, request: dict[str, Any] = request) -> None:
-            text = as_json({"id": request.get("id"), **message})
+            text = as_json({"id": request.get("id"), **message}, compact=True)
             pipe.send((number, bool(message.get("last")), text))
 
         def check(number: int = number) -> None:
@@ -86,19 +85,3 @@ def _end_with_parent() -> None:
     if parent is not None:
         wait([parent.sentinel])
         os._exit(1)
-
-
-def as_json(message: dict[str, Any]) -> str:
-    """JSON that every browser reads: what is not finite is null."""
-    try:
-        return json.dumps(message, allow_nan=False, separators=(",", ":"))
-    except ValueError:
-        return json.dumps(_finite(message), separators=(",", ":"))
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -156,7 +156,7 @@ def _orders(known: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def main() -> None:
     """Write the table beside this file."""
-    FILE.write_text(json.dumps(table(), indent=0) + "\n", encoding="utf-8")
+    FILE.write_text(json.dumps(table(), indent=0, allow_nan=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ def write_audit(
         If ``out`` cannot be written.
     """
     with whole_folder(out) as folder:
-        write_json(audit.as_dict(), folder / "audit.json", finite=True)
+        write_json(audit.as_dict(), folder / "audit.json")
         _write_csv(folder / "audit.csv", csv_rows(audit))
         if chart is not None:
             _write_csv(folder / "audit-chart.csv", _chart_rows(chart))

@@ -46,6 +46,6 @@ def write_drag(
         for name, table in tables.items():
             write_csv(table, folder / f"{name}.csv")
         write_xlsx([*tables.values(), *(along_table(found, one) for one in found.operations)], folder / "drag.xlsx")
-        write_json(drag_dict(found, calibration), folder / "drag.json", finite=True)
+        write_json(drag_dict(found, calibration), folder / "drag.json")
         (folder / "well.toml").write_text(found.well.text, encoding="utf-8")
         return tuple(sorted(file.name for file in folder.iterdir()))

@@ -116,7 +116,7 @@ def draw_item(name: str, rtol: float, folder: Path) -> str:
 
 def write_tables(table: Agreement, folder: Path) -> None:
     """Write the agreement table to a folder in three forms."""
-    write_json(table.as_dict(), folder / "agreement.json", finite=True)
+    write_json(table.as_dict(), folder / "agreement.json")
     (folder / "agreement.md").write_text(f"# The paper recomputed\n\n{markdown(table)}", encoding="utf-8")
     (folder / "agreement.html").write_text(page(table), encoding="utf-8")
 

@@ -60,7 +60,7 @@ def write_points(points: Points, out: str | Path, *, with_pdf: bool = False) -> 
         save_figure(points.draw(), folder / "curves")
         write_csv(points.table, folder / "points.csv")
         write_xlsx([points.table], folder / "points.xlsx")
-        write_json(points.data, folder / "study.json", finite=True)
+        write_json(points.data, folder / "study.json")
         (folder / points.file).write_text(points.text, encoding="utf-8")
         names = [*(file.name for file in folder.iterdir()), *([PDF] if with_pdf else [])]
         pictures = kept(folder, ("curves",), points.about)

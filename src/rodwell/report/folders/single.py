@@ -45,6 +45,6 @@ def write_single(
         write_report(report, kept(folder, (picture[0],), case.about), folder, with_pdf=with_pdf)
         write_csv(table[1], folder / f"{table[0]}.csv")
         write_xlsx([table[1]], folder / f"{table[0]}.xlsx")
-        write_json(data[1], folder / f"{data[0]}.json", finite=True)
+        write_json(data[1], folder / f"{data[0]}.json")
         (folder / "case.toml").write_text(case.text, encoding="utf-8")
         return tuple(sorted(file.name for file in folder.iterdir()))

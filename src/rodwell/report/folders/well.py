@@ -29,7 +29,7 @@ def write_screening(screening: Screening, out: Path) -> tuple[str, ...]:
         table = screening_table(screening)
         write_csv(table, folder / "stations.csv")
         write_xlsx([table], folder / "stations.xlsx")
-        write_json(screening_dict(screening), folder / "screening.json", finite=True)
+        write_json(screening_dict(screening), folder / "screening.json")
         save_figure(plot_screening(screening), folder / "limits")
         pictures = kept(folder, ("limits",), screening.case.about)
         names = [file.name for file in folder.iterdir()]

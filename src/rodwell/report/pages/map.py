@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from rodwell.errors import InputError
 from rodwell.plots.maps.figure import LABELS, NO_VALUE, axis_label, shown_numbers, value_label
 from rodwell.plots.style import GREY, WARN
+from rodwell.quantities.as_json import as_json
 from rodwell.quantities.text import plain
 from rodwell.report.pages.templates import HERE, template
 from rodwell.studies.maps.axes import Axis
@@ -73,7 +73,7 @@ def write_map_page(found: Map, file: Path) -> None:
     page = template("map.html.j2").render(
         title=question.title or title(found), given=_given(found),
         sentences=[*([title(found)] if question.title else []), *sentences(found)],
-        data=json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
+        data=as_json(data, compact=True).replace("</", "<\\/"),
         script=(HERE / "assets" / "map.js").read_text(encoding="utf-8"),
     )  # fmt: skip
     file.write_text(page, encoding="utf-8")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +24,7 @@ from rodwell.numerics.stretches.carry import sampler
 from rodwell.plots.paths.axes import Units, units_of
 from rodwell.problem.words import ends_text
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.as_json import as_json
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
@@ -129,7 +129,7 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
     page = template("path3d.html.j2").render(
         title=title or "A rod in its hole as the load grows and comes back", viewer=first.markup, css=first.css,
         scripts=(*first.scripts, (HERE / "assets" / "path.js").read_text(encoding="utf-8")),
-        data=json.dumps(data, separators=(",", ":")).replace("</", "<\\/"),
+        data=as_json(data, compact=True).replace("</", "<\\/"),
         assumptions=path.assumptions, ends=ends_text(path.problem), reached=path.ended_because,
     )  # fmt: skip
     file.write_text(page, encoding="utf-8")

@@ -8,7 +8,6 @@ lacks come from the system's.
 from __future__ import annotations
 
 import importlib.util
-import json
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -17,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from rodwell.errors import InputError
+from rodwell.quantities.as_json import as_json
 from rodwell.report.pages.page import Pictures, render
 from rodwell.report.pages.templates import HERE
 from rodwell.report.pages.viewer import Viewer
@@ -89,7 +89,7 @@ def typeset(report: Report, pictures: Pictures, **options: Any) -> Any:
         template = shutil.copy(HERE / TEMPLATE, home)
         return typst.compile(
             template,
-            sys_inputs={"report": json.dumps(report.as_dict() | {"pictures": files})},
+            sys_inputs={"report": as_json(report.as_dict() | {"pictures": files})},
             font_paths=[str(Path(mpl.get_data_path(), "fonts", "ttf"))],
             **options,
         )

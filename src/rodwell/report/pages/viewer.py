@@ -7,7 +7,6 @@ the still picture is shown instead.
 from __future__ import annotations
 
 import base64
-import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -23,6 +22,7 @@ from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.plots.units import axis
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.as_json import as_json
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain
@@ -96,7 +96,7 @@ def viewer(seen: View, *, still: str = "", full: bool = False) -> Viewer:
     full
         The viewer fills a page of its own; else it is part of a page that scrolls.
     """
-    data = json.dumps(seen.data | {"embedded": not full}, separators=(",", ":"))
+    data = as_json(seen.data | {"embedded": not full}, compact=True)
     markup = template("viewer.html.j2").render(
         data=data, bar=seen.bar, still=still, full=full, says=seen.data["says"], enlarged=seen.data["enlarged"] != 1.0
     )
