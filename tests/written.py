@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import json
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -47,6 +48,11 @@ def violations(texts: Iterable[str]) -> list[tuple[str, str]]:
 
 def of_page(page: Path) -> list[str]:
     """Every text of a report that stands as a page, without what is written as the user wrote it."""
-    text = re.sub(r"(?s)<(script|style|svg|header)\b.*?</\1>", "", page.read_text(encoding="utf-8"))
+    whole = page.read_text(encoding="utf-8")
+    data = [
+        json.loads(found) for found in re.findall(r'(?s)<script type="application/json"[^>]*>(.*?)</script>', whole)
+    ]
+    text = re.sub(r"(?s)<(script|style|svg|header)\b.*?</\1>", "", whole)
     text = re.sub(r"(?s)<table\b(?:(?!</table>).)*?(?:Key of the case file|as given).*?</table>", "", text)
-    return [html.unescape(part).replace("\u00a0", " ").strip() for part in re.split(r"<[^>]*>", text)]
+    shown = [html.unescape(part).replace("\u00a0", " ").strip() for part in re.split(r"<[^>]*>", text)]
+    return shown + [one for one in said(data) if " " in one and "gradient(" not in one]  # what its scripts say

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from written import OF_SYSTEM, of_page, violations
 
 import rodwell
 from rodwell.analysis.off_wall.state import PARTIAL, SINUSOIDAL, ContactState
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.space.in_hole import geometry_in_hole
-from rodwell.report.pages.path import PAGE, frames
+from rodwell.quantities.units import SYSTEMS
+from rodwell.report.pages.path import PAGE, frames, write_path_page
 from rodwell.report.pages.viewer import view
 
 PROBLEM = rodwell.Problem(15.0, twist=2.0)
@@ -133,3 +135,15 @@ def test_the_page_holds_what_it_shows(path: LoadPath, tmp_path: Path) -> None:
     assert says[0] == "loading, F = 0 B/L²: straight, stable"
     assert "partial contact, 1 gap up to" in next(each for each in says if "partial" in each)
     assert all("stable" in each for each in says)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_its_numbers_are_written_well_in_the_units_of_a_case(path: LoadPath, system: str, tmp_path: Path) -> None:
+    rod = {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"}
+    hole = {"diameter": "70 cm", "angle_from_vertical": "90 deg"}
+    case = rodwell.Case.from_dict({"units": system, "rod": rod, "hole": hole})
+    write_path_page(tmp_path / PAGE, path, case)
+    texts = of_page(tmp_path / PAGE)
+    assert any("loading" in text for text in texts)
+    assert violations(texts) == []
+    assert [text for text in texts if OF_SYSTEM[system].search(text)] == []

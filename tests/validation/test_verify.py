@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from written import violations
 
 import rodwell
 from rodwell import InputError, NotConvergedError, Problem
@@ -86,3 +87,4 @@ def test_command(tmp_path: Path) -> None:
     shown = CliRunner().invoke(cli, ["verify", str(case), "--at", "-85", "--rtol", "1e-4"])
     assert "All agree." in shown.output
     assert "tension positive" in shown.output
+    assert violations(shown.output.splitlines()) == []
