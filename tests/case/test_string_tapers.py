@@ -21,6 +21,7 @@ from rodwell.errors import InputError
 from rodwell.plots.sections import plot_string
 from rodwell.report.reports.sections import string_section
 from rodwell.strength.section import RodSection, StringSections, rod_section
+from rodwell.strength.stress import section_of
 from rodwell.strength.validity import validity
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "tapered-guidewire.toml"
@@ -109,6 +110,10 @@ def test_a_core_bears_alone_and_the_clearance_is_that_of_what_is_around_it() -> 
     core = (0.2 + 0.4 * PART) * MM
     assert found.problem.rod.stiffness(PART) == pytest.approx((core / (0.2 * MM)) ** 4, rel=1e-12)
     assert found.problem.clearance * 0.3 == pytest.approx(2.55 * MM)
+    assert found.string is not None
+    section = section_of(found.string.members[0].rod)
+    assert section is not None
+    assert section.outer == pytest.approx(0.1 * MM)
     assert found.problem.weight * found.scales.factor("force_per_length") == pytest.approx(
         0.03 - 1060.0 * G * math.pi / 4.0 * (0.9 * MM) ** 2
     )
