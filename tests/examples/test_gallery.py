@@ -56,6 +56,13 @@ def heavy_weight() -> None:
     assert problem.sections
 
 
+def tapered_guidewire() -> None:
+    """Loads of ever more steps, each of one stiffness, tend to that of the taper like the square of their length."""
+    loads = run("tapered_guidewire")
+    assert loads[0] == pytest.approx(loads[16] + (loads[16] - loads[8]) / 3.0, rel=3e-5)
+    assert loads[1] / loads[0] > 1.2
+
+
 def surveyed_well() -> None:
     """At rest the pipe bends with the hole: by the angle between the directions of two stations, by hand."""
     found = run("surveyed_well")
@@ -266,7 +273,7 @@ CHECKS: dict[str, Callable[[], None]] = {
     for check in (
         drill_string, bifurcation_diagram, broken_symmetry, coil, snap_to_coil, load_path, helix, guidewire,
         lift_off, lift_off_map, envelope, formulas, twist, wall_moments, heavy_weight, well, column, endless, lock_up,
-        build_section, bent_vessel, surveyed_well, two_casings,
+        build_section, bent_vessel, surveyed_well, two_casings, tapered_guidewire,
     )
 }  # fmt: skip
 

@@ -9,6 +9,7 @@ from rodwell.case.hole.schema import Hole
 from rodwell.case.hole.sections import WHOLE, HolePart
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.string.sections import Member, PhysicalString
+from rodwell.case.string.tapers import AT_TOP
 from rodwell.errors import InputError
 from rodwell.problem.sections import PLAIN, Section
 
@@ -56,6 +57,8 @@ def pairs_of(
             low, high = max(start, part.start), min(end, part.end)
             if high - low > EQUAL:
                 one = rod if member is None else member.rod
+                if member is not None and hole.clearance is None:
+                    _refuse_tapering_clearance(member)
                 out.append(Pair(low, high, member, part, _clearance(one, hole, member, part)))
     return tuple(out)
 
@@ -82,6 +85,15 @@ def sections_of(pairs: Sequence[Pair], string: PhysicalString | None) -> tuple[S
         _, stiffness, weight, _, torsion = one
         out.append((pair.end - pair.start, stiffness, weight, pair.clearance / unit, torsion))
     return tuple(out)
+
+
+def _refuse_tapering_clearance(member: Member) -> None:
+    """Refuse a taper that the hole's diameter would give a clearance that tapers."""
+    first, last = member.rods[0].outer_diameter, member.rods[-1].outer_diameter
+    if first != last:
+        what = "lets the clearance taper, which is not computed: give hole.clearance, one for all of the string, or "
+        what += "leave outer_diameter as it is and let inner_diameter or core_diameter taper"
+        raise InputError(f"{member.key}.outer_diameter{AT_TOP}", f"{last:g} m", what)
 
 
 def _clearance(rod: PhysicalRod, hole: Hole, member: Member | None, part: HolePart) -> float:

@@ -38,6 +38,8 @@ class PhysicalRod:
         Where the numbers come from.
     bore_known
         False for a hollow rod whose bore is not known, which needs stiffness and weight as measured.
+    core_diameter
+        In m, of the solid core that bears load where it is within something that does not; None: all of it does.
     """
 
     length: float
@@ -51,6 +53,17 @@ class PhysicalRod:
     facts: tuple[Fact, ...]
     torsion: float | None = None
     bore_known: bool = True
+    core_diameter: float | None = None
+
+    @property
+    def bearing_diameter(self) -> float:
+        """Outer diameter in m of what bears load; 0 where it is not known."""
+        return (self.outer_diameter or 0.0) if self.core_diameter is None else self.core_diameter
+
+    @property
+    def torsional_stiffness(self) -> float:
+        """C in N m²."""
+        return self.stiffness * (1.0 / (1.0 + self.poisson) if self.torsion is None else self.torsion)
 
     @property
     def bore_area(self) -> float:
@@ -64,13 +77,13 @@ class PhysicalRod:
 
     @property
     def area(self) -> float:
-        """Area of the section A in m²."""
-        return self.outer_area - self.bore_area
+        """Area of the section that bears load, A in m²."""
+        return math.pi / 4.0 * (self.bearing_diameter**2 - self.inner_diameter**2)
 
     @property
     def inertia(self) -> float:
-        """Second moment of area in m⁴."""
-        return math.pi / 64.0 * ((self.outer_diameter or 0.0) ** 4 - self.inner_diameter**4)
+        """Second moment of that area in m⁴."""
+        return math.pi / 64.0 * (self.bearing_diameter**4 - self.inner_diameter**4)
 
 
 def physical_rod(given: schema.PipeInput, gravity: float, catalogue: Catalogue, length: float) -> PhysicalRod:
@@ -86,8 +99,9 @@ def physical_rod(given: schema.PipeInput, gravity: float, catalogue: Catalogue, 
     material = _material(given, pipe, catalogue)
     facts = [Fact("pipe", entry.name, note=_why(entry)) for entry in (pipe,) if entry]
     facts += [Fact("material", entry.name, note=_why(entry)) for entry in (material,) if entry]
-    stiffness = _stiffness(given, pipe, material, (outer, inner))
-    density = given.density if material is None else material.density
+    core = _core(given, outer, inner)
+    stiffness = _stiffness(given, pipe, material, (outer if core is None else core, inner))
+    density = None if core is not None else given.density if material is None else material.density
     weight = _weight(given, pipe, density, (outer, inner), gravity)
     strength, why = _strength(given, material, catalogue)
     if strength is not None:
@@ -100,7 +114,7 @@ def physical_rod(given: schema.PipeInput, gravity: float, catalogue: Catalogue, 
             Fact("torsional stiffness C", given.torsional_stiffness, "stiffness", f"as given, C/B = {torsion:.4g}")
         )
     return PhysicalRod(length, outer, inner, stiffness, weight, density, poisson, strength, tuple(facts), torsion,
-                       bore_known)  # fmt: skip
+                       bore_known, core)  # fmt: skip
 
 
 def _why(entry: Entry) -> str:
@@ -139,6 +153,26 @@ def _diameters(rod: schema.PipeInput, pipe: Pipe | None) -> tuple[float | None, 
     if outer is not None and inner is not None and inner >= outer:
         raise InputError("rod.inner_diameter", inner, f"must be below the outer diameter of {outer:g} m")
     return outer, inner or 0.0, bore_known
+
+
+def _core(rod: schema.PipeInput, outer: float | None, inner: float) -> float | None:
+    """Diameter of the core that alone bears load, if there is one."""
+    core = rod.core_diameter
+    if core is None:
+        return None
+    if outer is None:
+        raise InputError("rod.outer_diameter", None, "is missing: core_diameter is that of a core within it")
+    if core > outer:
+        raise InputError("rod.core_diameter", core, f"must be at most the outer diameter of {outer:g} m")
+    if inner > 0.0:
+        raise InputError("rod.core_diameter", core, "contradicts the bore: a core is solid; leave one of the two out")
+    if rod.density is not None:
+        what = "contradicts rod.core_diameter, beside which the weight of all is needed: give weight_per_length instead"
+        raise InputError("rod.density", rod.density, what)
+    if rod.weight_per_length is None:
+        what = "is missing: beside core_diameter give the weight of the core and what is around it (may be 0 N/m)"
+        raise InputError("rod.weight_per_length", None, what)
+    return core
 
 
 def _check_without_bore(rod: schema.PipeInput, pipe: Pipe) -> None:

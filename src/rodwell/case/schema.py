@@ -57,6 +57,10 @@ class PipeInput(SectionInput):
         None, "needed with `youngs_modulus`, `density`, `material`, `hole.diameter` and fluids", "5 in", "0.89 mm"
     )
     inner_diameter: InnerLength | None = _key(None, "bore; 0 (solid) if not given", "4.276 in", "0 mm")
+    core_diameter: Length | None = _key(
+        None, "of a solid core that alone bears load, within a coil or sleeve of `outer_diameter`; needs "
+        "`weight_per_length`, that of both", "0.6 mm",
+    )  # fmt: skip
     youngs_modulus: Stress | None = _key(None, "with the diameters gives the bending stiffness", "200 GPa", "30e6 psi")
     bending_stiffness: Stiffness | None = _key(None, "B = EI, instead of `youngs_modulus`", "9.8e5 N m^2", "1400 N·mm²")
     torsional_stiffness: TorsionalStiffness | None = _key(
@@ -106,6 +110,17 @@ class StringInput(PipeInput):
     )  # fmt: skip
     tool_joint_length: Length | None = _key(None, "of one made up, pin and box", "21 in")
     tool_joint_bore: InnerLength | None = _key(None, "of the tool joints; that of the body if not given", "3.25 in")
+    outer_diameter_at_top: Length | None = _key(
+        None, "a taper: the outer diameter goes in a straight line from `outer_diameter` at the section's lower end to "
+        "this one at its upper; with `hole.clearance`", "0.15 mm",
+    )  # fmt: skip
+    inner_diameter_at_top: InnerLength | None = _key(None, "the same of the bore", "82 mm")
+    core_diameter_at_top: Length | None = _key(None, "the same of the core", "0.15 mm")
+    bending_stiffness_at_top: Stiffness | None = _key(None, "the same of the stiffness as measured", "5 N·mm²")
+    torsional_stiffness_at_top: TorsionalStiffness | None = _key(
+        None, "the same of the torsional stiffness as measured", "6 N·mm²"
+    )
+    weight_per_length_at_top: ForcePerLength | None = _key(None, "the same of the weight as measured", "0.01 N/m")
 
 
 class Supports(SectionInput):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from matplotlib.patches import Rectangle
+import numpy as np
+from matplotlib.patches import Polygon, Rectangle
 
 from rodwell.case.case import Case
 from rodwell.plots.style import GREY, INK, MODES, new_axes
 from rodwell.problem.problem import Problem
+from rodwell.quantities.arrays import FloatArray
 
 HEIGHT = 2.4
 """Of the figure in inches."""
@@ -20,6 +22,9 @@ WALL = 0.08
 """Thickness of the hole's wall in the drawing, as a part of its diameter."""
 
 MOST_NAMES = 14
+
+HOLLOW: dict[str, Any] = {"facecolor": "white", "alpha": 0.75, "lw": 0}
+CORE: dict[str, Any] = {"facecolor": INK, "alpha": 0.35, "lw": 0}
 
 
 def mark_steps(ax: Any, problem: Problem, factor: float, *, down: bool = False) -> None:
@@ -51,6 +56,12 @@ def name_sections(ax: Any, case: Case, factor: float, *, down: bool = False) -> 
                     transform=ax.get_xaxis_transform())  # fmt: skip
 
 
+def _along(x: FloatArray, middle: FloatArray, wide: FloatArray, look: dict[str, Any]) -> Polygon:
+    """A part of the rod between two places x (2,), with its axis and its width at both."""
+    edges = np.concatenate([middle - 0.5 * wide, (middle + 0.5 * wide)[::-1]])
+    return Polygon(np.stack([np.concatenate([x, x[::-1]]), edges], axis=1), closed=True, **look)
+
+
 def plot_string(case: Case, ax: Any = None) -> Any:
     """Draw the sections of a string in their hole, from the bottom at the left; return the axes.
 
@@ -61,7 +72,7 @@ def plot_string(case: Case, ax: Any = None) -> Any:
     assert string is not None
     assert scales is not None
     length, unit = scales.system.unit("length", string.length)
-    widest = max((one.rod.outer_diameter or 0.0) for one in string.members)
+    widest = max((rod.outer_diameter or 0.0) for one in string.members for rod in one.rods)
     clearance = case.problem.clearance * scales.length
     hole = widest + 2.0 * clearance
     across, across_unit = scales.system.unit("length", 0.1 * hole)
@@ -70,18 +81,16 @@ def plot_string(case: Case, ax: Any = None) -> Any:
         patch = Rectangle((0.0, base / across), string.length / length, WALL * hole / across, color="#d9dee3", lw=0)
         ax.add_patch(patch)
     for number, (one, (start, end)) in enumerate(zip(string.members, string.ends, strict=True)):
-        outer = one.rod.outer_diameter or 0.0
-        low = 0.5 * hole - outer if case.problem.floats else -0.5 * hole  # the side of the hole that it lies on
-        x, width = start * string.length / length, (end - start) * string.length / length
-        inner = one.rod.inner_diameter
-        colour, bore = MODES[number % len(MODES)], low + 0.5 * (outer - inner)
-        body: dict[str, Any] = {"facecolor": colour, "alpha": 0.55, "edgecolor": INK, "lw": 1.0}
-        ax.add_patch(Rectangle((x, low / across), width, outer / across, **body))
-        if inner > 0.0:
-            hollow: dict[str, Any] = {"facecolor": "white", "alpha": 0.75, "lw": 0}
-            ax.add_patch(Rectangle((x, bore / across), width, inner / across, **hollow))
+        outer = np.array([one.rods[i].outer_diameter or 0.0 for i in (0, -1)]) / across
+        low = 0.5 * hole / across - outer if case.problem.floats else -0.5 * hole / across  # the side that it lies on
+        x, middle = np.array([start, end]) * string.length / length, low + 0.5 * outer
+        body: dict[str, Any] = {"facecolor": MODES[number % len(MODES)], "alpha": 0.55, "edgecolor": INK, "lw": 1.0}
+        ax.add_patch(_along(x, middle, outer, body))
+        for within, look in zip(one.within, (HOLLOW, CORE), strict=True):
+            if np.any(within):
+                ax.add_patch(_along(x, middle, within / across, look))
         if end - start >= SHORTEST and len(string.members) <= MOST_NAMES:
-            ax.text(x + 0.5 * width, (low + 0.5 * outer) / across, one.name, ha="center", va="center", fontsize=8.5)
+            ax.text(float(np.mean(x)), float(np.mean(middle)), one.name, ha="center", va="center", fontsize=8.5)
     ax.axhline(0.0, color=GREY, lw=0.8, ls=(0, (8, 3, 1, 3)))
     ax.set_xlim(0.0, string.length / length)
     ax.set_ylim(-(0.5 + WALL) * hole / across, (0.5 + WALL) * hole / across)

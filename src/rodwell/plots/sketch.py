@@ -132,9 +132,11 @@ def _sections(ax: Any, view: _View, string: PhysicalString) -> None:
     """Sections of a string: lengths and, against the outer diameter, bores to scale; names where there is room."""
     for member, (start, end) in zip(string.members, string.ends, strict=True):
         first, last = start * LONG, end * LONG
-        bore = view.rod * member.rod.inner_diameter / (member.rod.outer_diameter or math.inf)
-        for edge in (view.middle - bore, view.middle + bore) if bore > 0.0 else ():
-            ax.plot(*view.line(first, last, edge).T, color=INK, lw=0.7, ls=(0, (4, 2)))
+        outer = [member.rods[i].outer_diameter or math.inf for i in (0, -1)]
+        for within in member.within:
+            for across in view.rod * np.outer((-1.0, 1.0), within / outer) if np.any(within) else ():
+                edge = [view(first, view.middle + across[0]), view(last, view.middle + across[1])]
+                ax.plot(*np.array(edge).T, color=INK, lw=0.7, ls=(0, (4, 2)))
         if start > 0.0:
             joint = np.array([view(first, view.middle - view.rod), view(first, view.middle + view.rod)])
             ax.plot(*joint.T, color=INK, lw=1.0)

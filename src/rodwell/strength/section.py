@@ -12,6 +12,7 @@ import numpy as np
 from rodwell.analysis.discrete.curved import ends_of_lying_rod, height_of_rod
 from rodwell.case.case import Case
 from rodwell.case.pipe import PhysicalRod
+from rodwell.case.string.sections import Member
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.value import Peak, Value
@@ -51,6 +52,25 @@ class RodSection:
     number: int | None = None
 
     @property
+    def member(self) -> Member | None:
+        """The section of the string."""
+        return None if self.number is None or self.case.string is None else self.case.string.members[self.number]
+
+    def _line(self, s: FloatArray, of: Callable[[PhysicalRod], float]) -> float | FloatArray:
+        """A diameter in m: one, or where the section tapers those at places s/L (m,)."""
+        if self.member is None or self.member.taper is None:
+            return of(self.rod)
+        assert self.case.string is not None
+        return self.member.taper.line(of, self.case.string.part_of(self.member, s))
+
+    def ring(self, s: FloatArray) -> Section:
+        """What bears load: one section, or where it tapers those at places s/L (m,)."""
+        if self.member is None or self.member.taper is None:
+            return self.section
+        outer, inner = self._line(s, lambda rod: rod.bearing_diameter), self._line(s, lambda rod: rod.inner_diameter)
+        return Section(0.5 * outer, 0.5 * inner)
+
+    @property
     def strength(self) -> float | None:
         """Yield strength in Pa, None where it is not given."""
         return self.rod.yield_strength
@@ -74,7 +94,8 @@ class RodSection:
         """
         drop, fluids = self.drop(f), self.case.fluids
         inside, outside = fluids.pressures(self.case.gravity, drop)
-        less = outside * self.rod.outer_area - inside * self.rod.bore_area
+        outer, bore = self._line(f["s"], lambda rod: rod.outer_diameter or 0.0), 2.0 * self.ring(f["s"]).inner
+        less = math.pi / 4.0 * (outside * outer**2 - inside * bore**2)
         moment = self.scales.factor("moment")
         return Loading(
             force=f["rod_F1"] * self.scales.factor("force") - less,
@@ -86,7 +107,7 @@ class RodSection:
 
     def stresses(self, f: Fields) -> Stresses:
         """Stresses along the rod in Pa, from fields in units B = L = 1."""
-        return stresses(self.section, self.loading(f))
+        return stresses(self.ring(f["s"]), self.loading(f))
 
     def von_mises(self, f: Fields) -> FloatArray:
         """The largest von Mises stress of each section in Pa, (m,)."""
@@ -116,9 +137,10 @@ class RodSection:
     def largest(self, state: LoadedRod | RodOffWall) -> RodStress:
         """Largest von Mises stress along the rod, or along this section of a string, in a state."""
         peak = state.largest(lambda f: np.where(self.inside(f), self.von_mises(f), 0.0))
-        there = self.stresses(state.fields(np.array([peak.s])))
+        place = np.array([peak.s])
+        there, area = self.stresses(state.fields(place)), float(np.min(self.ring(place).area))
         # a force that is known to an error only changes the axial stress, if the rod is straight
-        error = peak.error + (state.error * self.scales.factor("force") / self.section.area if state.straight else 0.0)
+        error = peak.error + (state.error * self.scales.factor("force") / area if state.straight else 0.0)
         safety = None
         if self.strength is not None and peak.value > 0.0:
             factor = self.strength / peak.value

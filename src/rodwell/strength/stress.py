@@ -29,31 +29,33 @@ PLACES = ("outer surface, bending in tension", "outer surface, bending in compre
 
 @dataclass(frozen=True)
 class Section:
-    """A ring, or a disc with ``inner`` 0: outer and inner radius in m."""
+    """A ring, or a disc with ``inner`` 0: outer and inner radius in m; where a rod tapers, those at places, (m,)."""
 
-    outer: float
-    inner: float = 0.0
+    outer: float | FloatArray
+    inner: float | FloatArray = 0.0
 
     @property
-    def area(self) -> float:
+    def area(self) -> float | FloatArray:
         """Area A in m²."""
         return math.pi * (self.outer**2 - self.inner**2)
 
     @property
-    def inertia(self) -> float:
+    def inertia(self) -> float | FloatArray:
         """Second moment of area I in m⁴; that of torsion is J = 2 I."""
         return math.pi / 4.0 * (self.outer**4 - self.inner**4)
 
     @property
-    def surfaces(self) -> tuple[float, ...]:
+    def surfaces(self) -> tuple[float | FloatArray, ...]:
         """Radii of the surfaces in m, the outer one first."""
-        return (self.outer, self.inner) if self.inner > 0.0 else (self.outer,)
+        return (self.outer, self.inner) if np.all(self.inner) else (self.outer,)
 
-    def lame(self, inside: FloatArray, outside: FloatArray, radius: float) -> tuple[FloatArray, FloatArray]:
+    def lame(
+        self, inside: FloatArray, outside: FloatArray, radius: float | FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
         """Radial and hoop stress in Pa at a radius in m, from the pressures in Pa inside and outside (Lamé)."""
         o, i = self.outer**2, self.inner**2
         mean = (inside * i - outside * o) / (o - i)
-        swing = 0.0 if i == 0.0 else (inside - outside) * i * o / ((o - i) * radius**2)
+        swing = (inside - outside) * i * o / ((o - i) * radius**2) if np.all(i) else 0.0
         return mean - swing, mean + swing
 
 
@@ -61,7 +63,7 @@ def section_of(rod: PhysicalRod) -> Section | None:
     """The section of a rod; None where its outer diameter or its bore is not known."""
     if rod.outer_diameter is None or not rod.bore_known:
         return None
-    return Section(0.5 * rod.outer_diameter, 0.5 * rod.inner_diameter)
+    return Section(0.5 * rod.bearing_diameter, 0.5 * rod.inner_diameter)
 
 
 @dataclass(frozen=True)

@@ -178,11 +178,11 @@ def _slope(f: Fields) -> FloatArray:
 
 def _strains(case: Case, states: tuple[LoadedRod, ...], forces: tuple[tuple[str, float], ...]) -> list[Measure]:
     """Largest axial strain and strain in bending; both need the section."""
-    if case.rod is None or case.scales is None or not all(rod.area > 0.0 for rod, _ in _parts(case)):
+    if case.rod is None or case.scales is None or not all(rod.area > 0.0 for rod, _ in _ends_of_parts(case)):
         why = "the case has no dimensions" if case.scales is None else "rod.outer_diameter is not given"
         return [_measure(name, None, why) for name in ("axial_strain", "bending_strain")]
     acting = [(name, force, 0.0) for name, force in forces] + [(s.name, s.force, s.error) for s in states]
-    strains = [_largest_axial(case, rod, span, acting) for rod, span in _parts(case)]
+    strains = [_largest_axial(case, rod, span, acting) for rod, span in _ends_of_parts(case)]
     where, strain = max(strains, key=lambda one: one[1].value, default=("", Value(0.0)))
     bends = [state for state in states if not state.straight or state.problem.hole is not None]
     bent = [(state.largest(lambda f: _bending(case, f)), state.name) for state in bends]
@@ -191,18 +191,22 @@ def _strains(case: Case, states: tuple[LoadedRod, ...], forces: tuple[tuple[str,
     return [_measure("axial_strain", strain, where), _measure("bending_strain", bending, at)]
 
 
-def _parts(case: Case) -> list[tuple[PhysicalRod, tuple[float, float]]]:
-    """The rod, or the sections of its string, and where each begins and ends, s/L."""
+def _ends_of_parts(case: Case) -> list[tuple[PhysicalRod, tuple[float, float]]]:
+    """The rod, or the sections of its string, with where each begins and ends, s/L; a taper as both of its ends."""
     assert case.rod is not None
     if case.string is None:
         return [(case.rod, (0.0, 1.0))]
-    return [(one.rod, span) for one, span in zip(case.string.members, case.string.ends, strict=True)]
+    parts = zip(case.string.members, case.string.ends, strict=True)
+    return [(rod, span) for one, span in parts for rod in dict.fromkeys((one.rods[0], one.rods[-1]))]
 
 
 def _largest_axial(
     case: Case, rod: PhysicalRod, span: tuple[float, float], acting: list[tuple[str, float, float]]
 ) -> tuple[str, Value]:
-    """Largest strain F/EA in a part of the rod, and in which state: forces are largest at either of its ends."""
+    """Largest strain F/EA in a part of the rod, and in which state: forces are largest at either of its ends.
+
+    Of a taper, whose thinner end need not be that of the larger force, a bound.
+    """
     assert case.scales is not None
     problem, scales = case.problem, case.scales
     per_force = scales.factor("force") * rod.inertia / (rod.stiffness * rod.area)
@@ -217,10 +221,17 @@ def _bending(case: Case, f: Fields) -> FloatArray:
     """Strain of the outermost fibre in bending, κ r, along the rod (m,)."""
     assert case.scales is not None
     moment, out = np.hypot(f["rod_M2"], f["rod_M3"]) * case.scales.factor("moment"), np.zeros(f["s"].shape)
-    for rod, (start, end) in _parts(case):
+    string = case.string
+    if string is None:
+        assert case.rod is not None
+        return np.asarray(moment * 0.5 * case.rod.bearing_diameter / case.rod.stiffness)
+    for one, (start, end) in zip(string.members, string.ends, strict=True):
         inside = (f["s"] >= start) & (f["s"] <= end)
-        strain = moment[inside] * 0.5 * (rod.outer_diameter or 0.0) / rod.stiffness
-        out[inside] = np.maximum(out[inside], strain)
+        softness: float | FloatArray = 0.5 * one.rod.bearing_diameter / one.rod.stiffness
+        if one.taper is not None:
+            part = string.part_of(one, f["s"][inside])
+            softness = 0.5 * one.taper.line(lambda rod: rod.bearing_diameter, part) / one.taper.stiffness(part)
+        out[inside] = np.maximum(out[inside], moment[inside] * softness)
     return out
 
 
@@ -230,7 +241,7 @@ def _slenderness(case: Case, wavenumber: float) -> list[Measure]:
     if rod is None or not rod.area > 0.0:
         why = "the case has no dimensions" if rod is None else "rod.outer_diameter is not given"
         return [_measure(name, None, why) for name in names]
-    gyration = max(math.sqrt(one.inertia / one.area) for one, _ in _parts(case) if one.area > 0.0)
+    gyration = max(math.sqrt(one.inertia / one.area) for one, _ in _ends_of_parts(case) if one.area > 0.0)
     slender = rod.length / gyration
     parts = (1.0, math.pi / wavenumber if wavenumber > math.pi else 1.0)
     return [_measure(name, Value(slender * part)) for name, part in zip(names, parts, strict=True)]

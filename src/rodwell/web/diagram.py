@@ -11,6 +11,7 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.plots.ordinates import ORDINATES, telling
+from rodwell.problem.profile import Ratio
 from rodwell.quantities.text import plain as text
 from rodwell.report.reports.texts import KINDS
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
@@ -48,17 +49,21 @@ def plain(explored: Explored) -> dict[str, Any]:
 def _sections(explored: Explored) -> list[dict[str, str]]:
     """The sections of a string of a case with dimensions from the bottom: what they are in the problem, as ratios."""
     string, names = explored.case.string, dict[str, str]()
-    lengths, ratios = dict[str, float](), dict[str, tuple[float, float]]()
+    lengths, ratios = dict[str, float](), dict[str, tuple[Ratio, Ratio]]()
     members = [] if string is None else zip(string.members, string.sections, strict=True)
     for member, (length, stiffness, weight, *_) in members:
-        assert isinstance(stiffness, float)
-        assert isinstance(weight, float)
         lengths[member.key] = lengths.get(member.key, 0.0) + length
         ratios[member.key], names[member.key] = (stiffness, weight), member.name
     return [
-        {"name": names[key], "length": text(lengths[key], 4), "stiffness": text(b, 4), "weight": text(w, 4)}
+        {"name": names[key], "length": text(lengths[key], 4), "stiffness": _ratio(b), "weight": _ratio(w)}
         for key, (b, w) in ratios.items()
     ]
+
+
+def _ratio(ratio: Ratio) -> str:
+    """A ratio in a few digits, of a taper those at its ends."""
+    first, last = (ratio[0], ratio[-1]) if isinstance(ratio, tuple) else (ratio, ratio)
+    return text(first, 4) if first == last else f"{text(first, 4)} to {text(last, 4)}"
 
 
 def _beyond(explored: Explored) -> dict[str, Any]:

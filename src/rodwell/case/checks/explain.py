@@ -54,7 +54,10 @@ LIST_OF_WELLS, RANGE_OF_WELLS, STUDY_OF_WELLS = (
     _RANGE.format("drag"),
     _STUDY.format("drag"),
 )
-TAPER = "; a taper, or a string of several pipes, is written as one [[string]] for each section"
+TAPER = (
+    "; a taper, or a string of several pipes, is written as one [[string]] for each section, of which one may go from "
+    "outer_diameter to outer_diameter_at_top"
+)
 TAPERED = (
     "outer_diameter", "inner_diameter", "youngs_modulus", "bending_stiffness", "torsional_stiffness", "density",
     "weight_per_length", "poisson", "pipe", "material", "grade", "yield_strength",

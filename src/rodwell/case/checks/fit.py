@@ -78,6 +78,8 @@ def _weight(rod: schema.PipeInput, hole: Hole, found: Physical) -> Iterator[Misf
     if gravity == 0.0 and one.weight_in_air > 0.0:
         what = f"is 0, but {key} gives the rod its weight all the same: for a weightless rod give "
         yield "hole.gravity", what + 'rod.weight_per_length = "0 N/m"; else leave gravity out'
+    if one.core_diameter is not None:
+        return  # the weight is that of what is around the core too
     if not (gravity > 0.0 and one.area > 0.0) or (rod.weight_per_length is None and rod.pipe is None):
         return
     density = one.weight_in_air / (one.area * gravity)

@@ -15,6 +15,7 @@ from rodwell.case.checks.fit import misfits
 from rodwell.case.checks.said import in_written_units
 from rodwell.case.physical import Physical
 from rodwell.case.string.sections import called
+from rodwell.case.string.tapers import AT_TOP
 from rodwell.quantities.text import minus
 from rodwell.quantities.units import KINDS, in_unit_of, to_si
 from rodwell.quantities.written import direction, number_and_rest
@@ -78,6 +79,7 @@ RANGES: dict[str, Range] = {
     "rod.length": Range(1e-6, 2e4, "length", "rods are from 1 µm to 20 km (drill strings) long", (5e-3, 1e4)),
     "rod.outer_diameter": _DIAMETER,
     "rod.inner_diameter": _BORE,
+    "rod.core_diameter": _DIAMETER,
     "rod.youngs_modulus": Range(
         3e5, 1.5e12, "stress", "moduli are from 0.3 MPa (silicone rubber) to 1500 GPa (diamond, nanotubes)", (1e9, 5e11)
     ),
@@ -191,12 +193,13 @@ def _sections(parsed: schema.CaseFile, data: Mapping[str, Any]) -> list[Problem]
     out: list[Problem] = []
     for number, (one, written) in enumerate(zip(parsed.string or (), data.get("string", ()), strict=False), 1):
         for key, allowed in RANGES.items():
-            section, _, name = key.partition(".")
-            value = getattr(one, name, None) if section == "rod" and name in one.model_fields_set else None
-            if value is not None and not allowed.holds(value):
-                out.append(
-                    (f"{called(number, one.name or '')}.{name}", written[name], _outside(allowed, written[name]))
-                )
+            section, _, plain = key.partition(".")
+            for name in (plain, plain + AT_TOP) if section == "rod" else ():
+                value = getattr(one, name, None) if name in one.model_fields_set else None
+                if value is not None and not allowed.holds(value):
+                    out.append(
+                        (f"{called(number, one.name or '')}.{name}", written[name], _outside(allowed, written[name]))
+                    )
     return out
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-TAPER = "is not taken: write one [[string]] for each section, from the bottom up, with its own diameters and length"
+TAPER = (
+    "is not taken: write one [[string]] for each section, from the bottom up, with its own diameters and length; one "
+    "that tapers goes from outer_diameter (inner_diameter, core_diameter) to outer_diameter_at_top"
+)
 
 SECTIONS_ELSEWHERE = {
     "friction": "is out of scope in this version: the wall is frictionless; leave it out",

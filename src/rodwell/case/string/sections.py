@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
+
+import numpy as np
 
 from rodwell.case import schema
 from rodwell.case.catalogue import Catalogue
@@ -13,9 +15,13 @@ from rodwell.case.facts import Fact
 from rodwell.case.fluids import Fluids, fluids_of, weight_in
 from rodwell.case.hole.schema import Hole
 from rodwell.case.pipe import PhysicalRod, physical_rod
+from rodwell.case.string.tapers import AT_TOP, Taper, taper_of
+from rodwell.case.string.tapers import KEYS as TAPERS
 from rodwell.case.string.tool_joints import TOOL_JOINT, body_between_tool_joints, tool_joint_of
 from rodwell.errors import InputError
+from rodwell.problem.profile import Ratio
 from rodwell.problem.sections import Section
+from rodwell.quantities.arrays import FloatArray
 
 EQUAL = 1e-9
 """Relative difference of lengths that counts as none."""
@@ -28,6 +34,8 @@ BESIDE = ("ends", "length")
 class Member:
     """A section of a string: its name, the rod that it is in SI units, and its weight in the fluids in N/m.
 
+    Of a ``taper`` the rod is that at its lower end, the weight is the mean.
+
     ``number`` is that of its [[string]] from the bottom, from 1, ``place`` its own among all members, from 0: a section
     with tool joints has a member for each body and each tool joint, which ``tool_joint`` tells apart.
     """
@@ -38,6 +46,7 @@ class Member:
     rod: PhysicalRod
     weight: float
     tool_joint: bool = False
+    taper: Taper | None = None
 
     @property
     def key(self) -> str:
@@ -51,10 +60,20 @@ class Member:
         return f"{own}.{'tool_joint_diameter' if self.tool_joint else 'outer_diameter'}"
 
     @property
-    def torsional_stiffness(self) -> float:
-        """C in N m²."""
-        ratio = 1.0 / (1.0 + self.rod.poisson) if self.rod.torsion is None else self.rod.torsion
-        return ratio * self.rod.stiffness
+    def rods(self) -> tuple[PhysicalRod, ...]:
+        """What it is at evenly spaced places, from its lower end; one rod, if it does not taper."""
+        return (self.rod,) if self.taper is None else self.taper.rods
+
+    @property
+    def within(self) -> tuple[FloatArray, FloatArray]:
+        """Diameters in m of its bore and of its core, 0 where there is none, at its lower and its upper end, (2,)."""
+        ends = self.rods[0], self.rods[-1]
+        return np.array([rod.inner_diameter for rod in ends]), np.array([rod.core_diameter or 0.0 for rod in ends])
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Its weight in N/m at evenly spaced places, the same way."""
+        return (self.weight,) if self.taper is None else self.taper.weights
 
 
 @dataclass(frozen=True)
@@ -88,17 +107,22 @@ class PhysicalString:
             below += member.rod.length
         return tuple(out)
 
+    def part_of(self, member: Member, s: FloatArray) -> FloatArray:
+        """Places s/L (m,) as parts of the length of a section, from its lower end."""
+        start, end = self.ends[member.place]
+        return (s - start) / (end - start)
+
     @cached_property
     def sections(self) -> tuple[Section, ...]:
         """Lengths in L, and ratios to the longest section's stiffness and the mean weight."""
-        unit, mean = self.longest, self.weight
+        unit, mean = self.longest.rod, self.weight
         return tuple(
             (
                 one.rod.length / self.length,
-                one.rod.stiffness / unit.rod.stiffness,
-                one.weight / mean if mean != 0.0 else 1.0,
+                _ratio(rod.stiffness / unit.stiffness for rod in one.rods),
+                _ratio(weight / mean if mean != 0.0 else 1.0 for weight in one.weights),
                 1.0,
-                one.torsional_stiffness / unit.torsional_stiffness,
+                _ratio(rod.torsional_stiffness / unit.torsional_stiffness for rod in one.rods),
             )
             for one in self.members
         )
@@ -111,15 +135,22 @@ class PhysicalString:
 
     def at_end(self, bottom: bool) -> PhysicalRod:
         """The rod at the lower or the upper end."""
-        return self.members[0 if bottom else -1].rod
+        return self.members[0].rods[0] if bottom else self.members[-1].rods[-1]
 
     def facts(self) -> tuple[Fact, ...]:
         """Where the numbers of each section come from."""
         note = "the longest section; weights are set against their mean"
-        out = [Fact("unit of stiffness B", self.longest.key, note=note)]
+        tapers = "" if self.longest.taper is None else ", at its lower end"
+        out = [Fact("unit of stiffness B", f"{self.longest.key}{tapers}", note=note)]
         for one in {member.key: member for member in self.members}.values():
             out += [replace(fact, label=f"{one.key}: {fact.label}") for fact in one.rod.facts]
         return tuple(out)
+
+
+def _ratio(values: Iterable[float]) -> Ratio:
+    """A ratio of a section: a number, or its values at evenly spaced places."""
+    found = tuple(values)
+    return found[0] if len(found) == 1 else found
 
 
 def called(number: int, name: str = "") -> str:
@@ -140,6 +171,8 @@ def check_beside(rod: object, string: object) -> None:
         for key, value in section.items() if isinstance(section, Mapping) else ():
             if isinstance(value, list | tuple | Mapping):
                 what = "is a list: it is neither a taper nor a study here; write one [[string]] for each section"
+                if key in TAPERS:
+                    what += f", and a taper as {key} and {key}{AT_TOP}, its values at lower and upper end"
                 raise InputError(f"{called(number)}.{key}", value, what)
             if isinstance(value, str) and any(sign in value for sign in ("±", "+/-", "+-")):
                 what = "cannot have an uncertainty here: [rod], [hole], [mud] and [load] take them; give a value alone"
@@ -167,15 +200,17 @@ def string_of(
         with _as_section(number, name):
             made, fluids = _made_up(one, hole.gravity, mud, pressure, catalogue)
             members += [
-                Member(number, place, f"{name}{what}", rod, weight, what == TOOL_JOINT)
-                for place, (what, rod, weight) in enumerate(made, len(members))
+                Member(number, place, f"{name}{what}", rod, weight, what == TOOL_JOINT, taper)
+                for place, (what, rod, weight, taper) in enumerate(made, len(members))
             ]
     if fluids is None:
         raise InputError("string", None, "has no section: give one [[string]] for each, from the bottom up")
     string = PhysicalString(tuple(members))
     for member in string.members:
-        if member.weight * string.weight < 0.0:
-            what = "floats" if member.weight < 0.0 else "does not float"
+        wrong = [weight for weight in member.weights if weight * string.weight < 0.0]
+        if wrong:
+            what = "floats" if wrong[0] < 0.0 else "does not float"
+            what += "" if member.taper is None else ", at least in a part of it"
             reason = f"{what}, unlike the string as a whole: sections that lie on both sides of a hole are not computed"
             raise InputError(member.key, None, reason)
     return string, fluids
@@ -214,18 +249,23 @@ def _made_up(
     mud: schema.Mud | None,
     pressure: schema.PressureAtEnd | None,
     catalogue: Catalogue,
-) -> tuple[list[tuple[str, PhysicalRod, float]], Fluids]:
-    """What a section is made up of from the bottom up, each with a word for its name and its weight in N/m."""
+) -> tuple[list[tuple[str, PhysicalRod, float, Taper | None]], Fluids]:
+    """What a section is made up of from the bottom up, each with a word for its name, its weight in N/m, its taper."""
+    tapered = taper_of(one, lambda at: section_rod(at, _length(one), gravity, mud, pressure, catalogue))
+    if tapered is not None:
+        taper, fluids = tapered
+        return [("", taper.rods[0], taper.mean_weight, taper)], fluids
     length, joints, thick = _length(one), one.joints, one.tool_joint_length
     body = body_between_tool_joints(one, catalogue)
     if body is None or joints is None or thick is None:
         rod, fluids, weight = section_rod(one, length, gravity, mud, pressure, catalogue)
-        return [("", rod, weight)], fluids
+        return [("", rod, weight, None)], fluids
     rod, fluids, weight = section_rod(body, length / joints - thick, gravity, mud, pressure, catalogue)
     joint, _, heavy = section_rod(tool_joint_of(one, rod, catalogue), thick, gravity, mud, pressure, catalogue)
-    half = (TOOL_JOINT, replace(joint, length=0.5 * thick), heavy)
-    between = [("", rod, weight), (TOOL_JOINT, joint, heavy)]
-    return [half, *(joints - 1) * between, ("", rod, weight), half], fluids
+    half = (TOOL_JOINT, replace(joint, length=0.5 * thick), heavy, None)
+    pipe = ("", rod, weight, None)
+    between = [pipe, (TOOL_JOINT, joint, heavy, None)]
+    return [half, *(joints - 1) * between, pipe, half], fluids
 
 
 def _length(one: schema.StringInput) -> float:

@@ -11,6 +11,8 @@ from rodwell.case.fluids import Fluids
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.schema import Mud, PressureAtEnd, StringInput
 from rodwell.case.string.sections import name_of, section_rod
+from rodwell.case.string.tapers import AT_TOP
+from rodwell.case.string.tapers import KEYS as TAPERS
 from rodwell.case.string.tool_joints import KEYS
 from rodwell.errors import InputError
 
@@ -50,6 +52,10 @@ def string_sections(
         raise InputError("string", len(parts), f"has more than {MOST_SECTIONS} sections: join those that are alike")
     out = []
     for i, part in enumerate(parts):
+        for key in (one + AT_TOP for one in TAPERS):
+            if getattr(part, key) is not None:
+                what = "makes a taper, which torque and drag does not take: give one [[string]] for each section"
+                raise InputError(key_of_part(i, key), getattr(part, key), what)
         for key in KEYS:
             if getattr(part, key) is not None:
                 what = "is not taken by torque and drag: give weight_per_length with the tool joints in it instead"

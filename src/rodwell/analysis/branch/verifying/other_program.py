@@ -1,7 +1,8 @@
 """The other program of ``verify``: the paper's system solved by ``scipy.integrate.solve_bvp``.
 
-Of a string, each section has its own fifteen variables, with forces and moments in units of its stiffness, on the same
-interval from 0 to 1. At a step everything is continuous but λ, since b ω₃ is not: M₃ = λ + b ω₃ + … of (39) is.
+Of a string, each section has its own fifteen variables, with forces and moments in units of its stiffness (that in its
+middle, if it tapers), on the same interval from 0 to 1. At a step everything is continuous but λ, since b ω₃ is not:
+M₃ = λ + b ω₃ + … of (39) is.
 """
 
 from __future__ import annotations
@@ -36,13 +37,12 @@ LAMBDA, OMEGA2, OMEGA3 = (Fifteen._fields.index(name) for name in ("lam", "omega
 
 
 def takes(problem: Problem) -> bool:
-    """Whether the other program solves states of a problem: in straight holes, of few sections without tapers."""
-    return problem.hole is None and not problem.tapered and len(problem.sections) <= MOST_SECTIONS
+    """Whether the other program solves states of a problem: in straight holes, of few sections."""
+    return problem.hole is None and len(problem.sections) <= MOST_SECTIONS
 
 
 def most_sections(problem: Problem) -> None:
-    """Raise where a string has more sections than the other program is given, or sections that taper."""
-    problem.refuse_tapers("the equations of the other program")
+    """Raise where a string has more sections than the other program is given."""
     if len(problem.sections) > MOST_SECTIONS:
         raise InputError(
             "sections",
@@ -86,34 +86,47 @@ class _Stacked:
     """The sections of a string side by side: (15 n) variables on [0, 1], each section in its own units."""
 
     def __init__(self, problem: Problem, load: Load) -> None:
-        self.rod = problem.rod
+        self.problem, self.whole, self.rod = problem, load, problem.rod
+        self.tapers = [any(isinstance(ratio, tuple) for ratio in section) for section in problem.sections]
         self.breaks, self.lengths = problem.rod.breaks, np.diff(problem.rod.breaks)
         middles = 0.5 * (self.breaks[1:] + self.breaks[:-1])
         each = [own_units(problem, load, middles[[i]]) for i in range(middles.size)]
         self.b = [float(np.squeeze(b)) for b, _ in each]
         self.loads = [_at_one_place(own) for _, own in each]
         self.scale = np.array([[b if is_load else 1.0 for is_load in FORCES] for b in self.b])[:, :, None]
+        self.at_ends = [[self._own(i, np.array([t])) for i in range(len(self.b))] for t in (0.0, 1.0)]
 
-    def rates(self, _: FloatArray, x: FloatArray) -> FloatArray:
-        parts = x.reshape(len(self.b), COUNT, -1)
-        rates = [
-            length * equations.rates(part, load)
-            for part, load, length in zip(parts, self.loads, self.lengths, strict=True)
-        ]
-        return np.concatenate(rates)
+    def _own(self, i: int, t: FloatArray) -> tuple[float | FloatArray, Load]:
+        """Stiffness at places t (m,) of a section in units of the section's, and loads in units of that stiffness."""
+        if not self.tapers[i]:
+            return 1.0, self.loads[i]
+        s = np.minimum(self.breaks[i] + self.lengths[i] * t, np.nextafter(self.breaks[i + 1], 0.0))
+        b, load = own_units(self.problem, self.whole, s)
+        return b / self.b[i], load
+
+    def rates(self, t: FloatArray, x: FloatArray) -> FloatArray:
+        parts, out = x.reshape(len(self.b), COUNT, -1), []
+        for i, (part, length) in enumerate(zip(parts, self.lengths, strict=True)):
+            b, load = self._own(i, t)
+            unit = np.where(np.array(FORCES)[:, None], b, 1.0)
+            out.append(length * unit * equations.rates(part / unit, load))
+        return np.concatenate(out)
 
     def conditions(self, first: FloatArray, last: FloatArray) -> FloatArray:
         first, last = first.reshape(-1, COUNT), last.reshape(-1, COUNT)
-        ends = [equations.end_conditions(Fifteen(*first[0]), Fifteen(*last[-1]), self.loads[k]) for k in (0, -1)]
-        outer = [ends[0 if name in AT_FIRST_END else 1][name].residual for name in ends[0]]
-        above, below = self._continuous(first), self._continuous(last)
+        outer_ends = (first[0], *self.at_ends[0][0]), (last[-1], *self.at_ends[1][-1])
+        ends = [in_units(Fifteen(*x), float(np.squeeze(b))) for x, b, _ in outer_ends]
+        there = [equations.end_conditions(ends[0], ends[1], _at_one_place(load)) for _, _, load in outer_ends]
+        outer = [there[0 if name in AT_FIRST_END else 1][name].residual for name in there[0]]
+        above, below = self._continuous(first, 0), self._continuous(last, 1)
         return np.concatenate([outer, (above[1:] - below[:-1]).ravel()])
 
-    def _continuous(self, x: FloatArray) -> FloatArray:
-        """What is continuous at steps, (n, 15): forces and moments, b ω₂, λ + b ω₃, and the rest."""
+    def _continuous(self, x: FloatArray, end: int) -> FloatArray:
+        """What is continuous at steps, (n, 15), at an end of each section: forces, moments, b ω₂, λ + b ω₃, others."""
         out = x * self.scale[:, :, 0]
-        out[:, LAMBDA] += np.array(self.b) * x[:, OMEGA3]
-        out[:, OMEGA2] *= np.array(self.b)
+        b = np.array([own * float(np.squeeze(part)) for own, (part, _) in zip(self.b, self.at_ends[end], strict=True)])
+        out[:, LAMBDA] += b * x[:, OMEGA3]
+        out[:, OMEGA2] *= b
         return np.asarray(out)
 
     def solve(self, start: Guess, rtol: float) -> tuple[int, float, Dense, str]:
