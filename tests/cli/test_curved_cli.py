@@ -48,13 +48,13 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "7"), "makes the hole run into itself"),
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
         (("critical", "--build", "0.2", "--sections", "0.5:1,0.5:2"), "are computed in straight holes"),
-        (("certify", "--build", "0.2"), "in straight holes only"),
-        (("sensitivity", "--build", "0.2"), "in straight holes only"),
+        (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
+        (("sensitivity", "--build", "0.2", "--walk", "0.1"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
         (("path", "--build", "0.2", "--until", "-200"), "in straight holes only"),
         (
-            ("curve", "critical", "--over", "twist", "--from", "0", "--to", "1", "--build", "0.2"),
-            "in straight holes only",
+            ("curve", "critical", "--over", "twist", "--from", "0", "--to", "1", "--build", "0.2", "--walk", "0.1"),
+            "no critical load",
         ),
     ],
 )

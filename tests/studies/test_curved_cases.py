@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from rodwell import Case, InputError, Problem, lying_rod, packer
+from rodwell import Case, InputError, Problem, audit, equilibrium, lying_rod, packer
 from rodwell.answers.comparison.beside import load_rows
 from rodwell.answers.comparison.exact_loads import critical
 from rodwell.answers.result.assessment import LEFT, PULLED, STRAIGHT
@@ -167,3 +167,22 @@ def test_the_published_map_of_formulas_in_builds_has_exact_loads_and_the_rate_of
 def test_tubing_in_a_packer_is_refused() -> None:
     with pytest.raises(InputError, match="curved"):
         packer(Case.from_dict({"rod": ROD, "hole": HOLE, "packer": {"bore": "120 mm", "motion": "all"}}))
+
+
+def test_out_of_the_vertical_plane_the_load_up_to_which_the_rod_lies_is_audited() -> None:
+    """κ₁ = 0.2, w = 15, hardly any walk: −177.320540182, theory of curved holes by two programs, is where it buckles.
+
+    With more walk, and unlike ends, it leaves the wall: there the contact pressure of its state vanishes.
+    """
+    level = audit(Problem(15.0, build=0.2, walk=1e-6))
+    assert level.critical.force == pytest.approx(-177.320540182, abs=5e-9)
+    assert level.critical.label == "load at which the rod, as it lies, buckles"
+    assert [load.name for load in level.loads] == ["critical", "lift_off"]
+    assert "has none" in level.not_found[0]
+    bent = level.row("he_kyllingstad")
+    assert bent.comparisons[0].exact == pytest.approx(177.320540182, abs=5e-9)
+    tilted = audit(Problem(15.0, 80.0, build=0.2, walk=0.3))
+    assert tilted.critical.label.endswith("leaves the wall")
+    state = equilibrium(tilted.problem, tilted.critical.force + 1e-3)
+    assert -0.1 < state.number("largest_pressure").value < 0.0
+    assert [load.name for load in tilted.loads] == ["critical"]

@@ -235,9 +235,11 @@ def _item(console: Any, head: str, text: str) -> None:
 
 
 def _print_others(console: Any, audit: Audit) -> None:
-    """Formulas of other kinds that have a value, at the first critical load and at those that act."""
+    """Formulas of other kinds that have a value, at the first of the exact loads and at those that act."""
     bottom = _force(audit, audit.critical.at("bottom"))
-    console.print(f"\n[bold]Other formulas[/bold], at the first critical load ({bottom} of compression at the bottom)")
+    console.print(
+        f"\n[bold]Other formulas[/bold], at the {audit.critical.label} ({bottom} of compression at the bottom)"
+    )
     _print_values(console, audit, audit.others)
     for one in audit.applied:
         console.print(f"\n[bold]Other formulas[/bold], at the {_safe(one.exact.label)} ({_at_bottom(audit, one)})")
@@ -254,7 +256,8 @@ def _at_bottom(audit: Audit, one: AtApplied) -> str:
     """The compression at the bottom in a load that acts, and whether formulas of a buckled rod say anything of it."""
     force = one.exact.at("bottom")
     text = f"{_force(audit, abs(force))} of {'compression' if force > 0.0 else 'tension'} at the bottom"
-    return f"{text}; the exact rod is still straight there" if one.straight else text
+    still = "is still straight" if audit.problem.hole is None else "still lies along the hole"
+    return f"{text}; the exact rod {still} there" if one.straight else text
 
 
 def _print_values(console: Any, audit: Audit, others: Sequence[Other]) -> None:

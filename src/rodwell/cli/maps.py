@@ -157,7 +157,7 @@ def _print_diagram(result: Diagram) -> None:
 @problem_options(required=False)
 @click.option(
     "--over",
-    type=click.Choice(["weight", "alpha", "clearance", "twist"]),
+    type=click.Choice(["weight", "alpha", "clearance", "twist", "build", "walk"]),
     required=True,
     multiple=True,
     help="Parameter over which the curve runs; its own option is then not needed. Given again: over all, on a line.",

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @rtol_option
 @json_option
 def sensitivity(mode: int, rtol: float, as_json: bool, **given: Any) -> None:
-    """How critical and lift-off load change with weight, inclination, clearance, stiffness and length.
+    """How critical and lift-off load change with weight, inclination, clearance, stiffness, length and curvature.
 
     Exact derivatives, and elasticities: the change of the end force at s = 1 in percent for one percent more of an
     input, the others constant.
@@ -80,7 +80,8 @@ def _sensitivity_numbers(data: dict[str, Any], loads: tuple[Sensitivity, ...]) -
     return Numbers("sensitivity", data, table, lambda axes: plot_sensitivities(loads, axes))
 
 
-_PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁"}
+_PER = {"weight": "unit of γ", "alpha": "degree of α", "clearance": "unit of Δ/L", "twist": "B/L of T₁",
+        "build": "1/L of build"}  # fmt: skip
 _OF_SECTION = {
     "stiffness": "unit of the stiffness ratio, section {}",
     "weight": "unit of the weight ratio, section {}",
@@ -94,4 +95,5 @@ _MORE = {
     "stiffness": "1 % more stiffness B",
     "length": "1 % more length L",
     "alpha": "1° more from the vertical",
+    "build": "1 % more curvature, build",
 }

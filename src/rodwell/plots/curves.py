@@ -8,7 +8,7 @@ from typing import Any
 from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.in_parameter import parameter_label
 from rodwell.plots.style import INK, WARN, marked, new_axes
-from rodwell.problem.varying import ParameterPath
+from rodwell.problem.varying import CURVATURES, ParameterPath
 from rodwell.quantities.text import plain
 
 AXES = {
@@ -18,6 +18,8 @@ AXES = {
     "twist": "end twisting moment T₁  [B/L]",
     "poisson": "Poisson's ratio ν",
     "torsion": "torsional stiffness C/B",
+    "build": "curvature of the hole, build  [1/L]",
+    "walk": "curvature of the hole, walk  [1/L]",
 }
 
 MARKERS = {
@@ -62,6 +64,7 @@ def _title(curve: Curve) -> str:
         "weight": f"γ = {plain(problem.weight, 6)}",
         "alpha": f"α = {plain(problem.alpha)}°",
         "clearance": f"Δ/L = {plain(problem.clearance)}",
+        **{name: f"{name} {value:.6g}/L" for name in CURVATURES if (value := getattr(problem, name)) != 0.0},
     }
     over = curve.over
     varies = over.names if isinstance(over, ParameterPath) else (over,)

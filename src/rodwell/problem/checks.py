@@ -8,7 +8,7 @@ from typing import Any
 
 from rodwell.errors import InputError, InputWarning, checked_number
 from rodwell.problem.ends import HOLD_ANGLE, checked_ends, refuse_off_wall
-from rodwell.problem.hole import Hole, checked_axis
+from rodwell.problem.hole import CURVATURE_ALLOWED, MOST_CURVATURE, Hole, checked_axis
 from rodwell.problem.sections import checked_sections
 
 LARGEST_WEIGHT = 1e9
@@ -26,6 +26,7 @@ LIMITS = {
     "poisson": (-1.0, 0.5, "above -1 and at most 0.5"),
     "torsion": (SMALLEST_TORSION, LARGEST_TORSION, f"from {SMALLEST_TORSION:g} to {LARGEST_TORSION:g}, C/B"),
     "twist": (-LARGEST_TWIST, LARGEST_TWIST, f"from -{LARGEST_TWIST:g} to {LARGEST_TWIST:g}, in B/L"),
+    **dict.fromkeys(("build", "walk"), (-MOST_CURVATURE, MOST_CURVATURE, CURVATURE_ALLOWED)),
 }
 """Lowest and highest value of each number, and what is allowed in words."""
 

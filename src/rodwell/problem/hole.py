@@ -16,6 +16,7 @@ from rodwell.problem.stations import COLUMNS, along_stations, checked_stations
 from rodwell.quantities.arrays import FloatArray
 
 MOST_CURVATURE = 1e4
+CURVATURE_ALLOWED = f"from -{MOST_CURVATURE:g} to {MOST_CURVATURE:g}, a curvature in 1/L"
 
 LENGTHS = (0.98, 1.02)
 """Between which the length of an axis given by points may lie, in L."""
@@ -74,9 +75,8 @@ class Hole:
             For values out of range, and for a walk at mid-length in a vertical hole, which has no high side there.
         """
         alpha = checked_number("alpha", alpha, 0.0, 180.0, "from 0 to 180 degrees")
-        allowed = f"from -{MOST_CURVATURE:g} to {MOST_CURVATURE:g}, a curvature in 1/L"
-        build = checked_number("build", build, -MOST_CURVATURE, MOST_CURVATURE, allowed)
-        walk = checked_number("walk", walk, -MOST_CURVATURE, MOST_CURVATURE, allowed)
+        build = checked_number("build", build, -MOST_CURVATURE, MOST_CURVATURE, CURVATURE_ALLOWED)
+        walk = checked_number("walk", walk, -MOST_CURVATURE, MOST_CURVATURE, CURVATURE_ALLOWED)
         if walk != 0.0 and alpha in (0.0, 180.0):
             what = f"must be 0 at alpha = {alpha:g}: a vertical hole has no high side to walk from; give build"
             raise InputError("walk", walk, what)

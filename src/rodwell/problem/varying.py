@@ -14,8 +14,11 @@ from rodwell.problem.problem import Problem
 FORCE = "force"
 """The end force, which a problem does not hold."""
 
-NUMBERS = (FORCE, "weight", "alpha", "clearance", "twist", "poisson", "torsion")
-"""What may vary, by name: F, γ, α in degrees, Δ/L, T₁, ν, C/B."""
+NUMBERS = (FORCE, "weight", "alpha", "clearance", "twist", "poisson", "torsion", "build", "walk")
+"""What may vary, by name: F, γ, α in degrees, Δ/L, T₁, ν, C/B, curvatures of the hole in 1/L."""
+
+CURVATURES = ("build", "walk")
+"""Those of them in which loads can be followed, but no branch."""
 
 PLACES = tuple(0.5 * (1.0 - math.cos(math.pi * (k + 0.25) / 8.5)) for k in range(9))
 """Where on a path it is looked at what holds all along it, as parts of its range: at no round place."""
@@ -35,8 +38,9 @@ class ParameterPath:
     numbers
         The numbers that vary, as smooth functions of t: a mapping from their names to functions, each of which may be
         two numbers, from the one to the other in a straight line; or one function that returns all of them by name.
-        Names are "weight", "alpha" (degrees), "clearance", "twist", "poisson", "torsion", and of branches "force", the
-        end force at s = 1 in B/L², tension positive. What is not named stays constant.
+        Names are "weight", "alpha" (degrees), "clearance", "twist", "poisson", "torsion", of curves "build" and "walk"
+        (1/L), and of branches "force", the end force at s = 1 in B/L², tension positive. What is not named stays
+        constant.
     limits
         The first t, at which the state to start from lies, and the last.
     name
@@ -175,5 +179,5 @@ def throughout(problem: Problem, *parameters: Parameter) -> tuple[Problem, ...]:
     return found
 
 
-ELSEWHERE = {"weight": 1.0, "alpha": 40.0, "twist": 1.0}
+ELSEWHERE = {"weight": 1.0, "alpha": 40.0, "twist": 1.0, "build": 0.1, "walk": 0.1}
 """Values at which a problem has no more symmetry than at any other; on the other parameters none depends."""

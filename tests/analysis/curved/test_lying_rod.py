@@ -13,7 +13,7 @@ import pytest
 from rodwell import InputError, NotConvergedError, Problem, critical_loads
 from rodwell.analysis.discrete.curved import along_rod, linear_space
 from rodwell.analysis.straight.critical import tensile_loads
-from rodwell.analysis.straight.lying import least_contact, lies_between, lying_contact
+from rodwell.analysis.straight.lying import least_contact, lies_between, lying_contact, lying_fields
 from rodwell.analysis.straight.lying_loads import _Pencil
 
 D = 0.01
@@ -141,3 +141,16 @@ def test_a_load_in_tension_behind_many_others_or_far_from_the_first_is_found(
     for number, mode in enumerate(found):
         counts = [pencil.unstable(mode.force * factor) for factor in (1.0 - within, 1.0 + within)]
         assert counts == [number, number + 1]
+
+
+def test_a_torque_pushes_the_rod_sideways_where_the_curvature_changes() -> None:
+    """The shear T₁κᵣ around the hole, which the torque asks for in a bend, then has a rate; a plane arc has none."""
+    s = np.linspace(0.0, 1.0, 9)
+    bend = Problem(15.0, axis=np.stack([s, 0.0 * s, 0.1 * s**3], axis=1).tolist(), twist=3.0)
+    arc = Problem(15.0, build=0.2, twist=3.0)
+    for problem, steady in ((bend, False), (arc, True)):
+        shear = lying_fields(problem, -50.0, np.array([0.2, 0.8]))["rod_F3"]
+        assert (abs(shear[1] - shear[0]) < 1e-9) == steady
+    with pytest.raises(InputError, match="pushes the rod sideways"):
+        critical_loads(bend)
+    assert critical_loads(arc, 1)[0].force == critical_loads(arc.but(twist=0.0), 1)[0].force

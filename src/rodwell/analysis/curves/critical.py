@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from rodwell.analysis.curves.curve import DOUBLE_POINT, VEERING, Curve, CurvePoint, Mark, Progress, checked_range
 from rodwell.analysis.straight.critical import MOST_MODES, Mode, critical_loads
+from rodwell.analysis.straight.lying_slopes import STEP, lying_slope
+from rodwell.analysis.straight.lying_slopes import step_in as curved_step
 from rodwell.analysis.straight.scale import EULER
 from rodwell.analysis.straight.slopes import load_slope, rates_along, weight_rates
 from rodwell.errors import checked_whole
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import lower_half
-from rodwell.problem.varying import Along, Parameter, throughout, varied
+from rodwell.problem.varying import Along, Parameter, ParameterPath, limits_of, throughout, varied
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
 SMOOTH = 1e-5
@@ -38,7 +41,7 @@ def critical_curves(
     rtol: float = RTOL,
     progress: Progress | None = None,
 ) -> tuple[Curve, ...]:
-    """Critical loads of the first modes as functions of weight, alpha, clearance or twist.
+    """Critical loads of the first modes as functions of weight, alpha, clearance, twist or the hole's curvature.
 
     Each point is a solution of the eigenproblem to the tolerance; steps follow from the slopes, which come from the
     eigenvectors: dF/dx = −∫(N_x y'² + (wₗ/Δ)_x y²)/∫y'². On a problem that looks the same from both ends curves
@@ -49,8 +52,9 @@ def critical_curves(
     problem
         The rod; its value of ``over`` does not matter.
     over
-        "weight", "alpha", "clearance", a parameter on which the loads do not depend ("twist", "poisson", "torsion"), or
-        a path of one's own: a :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
+        "weight", "alpha", "clearance", "build" (the hole's curvature), a parameter on which the loads do not depend
+        ("twist", "poisson", "torsion"), or a path of one's own: a :class:`rodwell.ParameterPath`, or its ``numbers``
+        alone for a t from 0 to 1.
     limits
         Start and end of the range.
     modes
@@ -119,6 +123,7 @@ class _LoadsOverRange:
     def __init__(self, problem: Problem, over: Parameter, modes: int, rtol: float, split: bool) -> None:
         self.problem, self.over, self.modes, self.rtol = problem, over, modes, rtol
         self.split = split  # into even and odd modes
+        self._curved = any(one.hole is not None for one in throughout(problem, over))
         self.nodes: list[_Node] = []
 
     @property
@@ -151,16 +156,40 @@ class _LoadsOverRange:
 
     def node(self, x: float) -> _Node:
         """Solve the eigenproblem at ``x``."""
-        problem, over = varied(self.problem, self.over, x), self.over
-        rates = weight_rates(problem, over) if isinstance(over, str) else rates_along(self.problem, over, x)
+        problem = varied(self.problem, self.over, x)
         if not self.split:
             loads = critical_loads(problem, self.modes + 1, rtol=self.rtol)
-            return _Node(x, {(0, m.number): _load(m, rates) for m in loads})
+            slope = self._slopes(x, lambda whole: whole)
+            return _Node(x, {(0, m.number): _Load(m.force, m.error, slope(m)) for m in loads})
         out: dict[Key, _Load] = {}
         for parity in (1, -1):
-            for m in critical_loads(_half(problem, parity), (self.modes + 1) // 2 + 1, rtol=self.rtol):
-                out[parity, m.number] = _load(m, (0.0, rates[1] / 16.0), times=4.0)
+            half = partial(_half_in_arc if self._curved else _half, parity=parity)
+            slope = self._slopes(x, half, 1.0 / 16.0)
+            for m in critical_loads(half(problem), (self.modes + 1) // 2 + 1, rtol=self.rtol):
+                out[parity, m.number] = _Load(4.0 * m.force, 4.0 * m.error, 4.0 * slope(m))
         return _Node(x, out)
+
+    def _slopes(self, x: float, part: Callable[[Problem], Problem], foundation: float = 1.0) -> Callable[[Mode], float]:
+        """Derivatives by the parameter of loads at ``x``, of modes of a ``part`` of the rod.
+
+        Of a half in a straight hole, which is level, only the ``foundation`` counts, as many times as large.
+        """
+        problem, over = varied(self.problem, self.over, x), self.over
+        if not self._curved:
+            rates = weight_rates(problem, over) if isinstance(over, str) else rates_along(self.problem, over, x)
+            axial, lateral = rates if foundation == 1.0 else (0.0, foundation * rates[1])
+            return lambda mode: load_slope(mode.problem, mode.space, mode.coefficients, axial, lateral)
+        low, high = limits_of(over)
+        step = STEP * (high - low) if isinstance(over, ParameterPath) else curved_step(problem, over)
+        one_sided = not low <= x - 2.0 * step < x + 2.0 * step <= high
+        step = -step if one_sided and x + 4.0 * step > high else step
+
+        def along(more: float) -> Problem:
+            return part(varied(self.problem, over, x + more))
+
+        return lambda mode: lying_slope(
+            mode.problem, mode.space, mode.coefficients, mode.force, along, step, to_one_side=one_sided
+        )
 
     def marks(self) -> list[tuple[Mark, tuple[Key, Key]]]:
         """Double points and closest approaches of the labelled modes, in order."""
@@ -243,7 +272,15 @@ def _half(problem: Problem, parity: int) -> Problem:
     return problem.but(weight=problem.weight / 16.0, ends=(problem.ends[0], middle), sections=sections)
 
 
-def _load(mode: Mode, rates: tuple[float, float], times: float = 1.0) -> _Load:
-    """Load, error and slope of a mode, ``times`` as large; ``rates`` are those of wₐ and wₗ/Δ along the curve."""
-    slope = load_slope(mode.problem, mode.space, mode.coefficients, *rates)
-    return _Load(times * mode.force, times * mode.error, times * slope)
+def _half_in_arc(problem: Problem, parity: int) -> Problem:
+    """The same in a level arc, or a straight hole: the half with the end force.
+
+    It is inclined by what the hole turns over a quarter of the rod.
+    """
+    middle = "guided" if parity > 0 else "pinned"
+    reach = -problem.clearance if problem.on_top else problem.clearance
+    turn = math.degrees(0.25 * problem.build / (1.0 + reach * problem.build))
+    return problem.but(
+        weight=problem.weight / 8.0, clearance=2.0 * problem.clearance, build=0.5 * problem.build,
+        alpha=90.0 - turn, ends=(middle, problem.ends[1]),
+    )  # fmt: skip

@@ -16,6 +16,7 @@ from rodwell.faces import drawn
 from rodwell.problem.checks import LIMITS, SMALLEST_CLEARANCE
 from rodwell.problem.problem import Problem
 from rodwell.problem.varying import (
+    CURVATURES,
     FORCE,
     Along,
     Parameter,
@@ -35,8 +36,11 @@ if TYPE_CHECKING:
 
     from rodwell.faces import Axes
 
-OVER = ("weight", "alpha", "clearance", "twist", *TORSIONAL)
+OVER = ("weight", "alpha", "clearance", "twist", *TORSIONAL, *CURVATURES)
 """Parameters over which curves can be traced."""
+
+OF_THE_AXIS = ("alpha", *CURVATURES)
+"""Those of them that an axis through points has already."""
 
 DOUBLE_POINT, VEERING, SWITCH, TURN = "double_point", "veering", "switch", "turn"
 
@@ -266,11 +270,13 @@ def checked_range(
     problem: Problem, over: Parameter | Along, limits: Sequence[float], allowed: Sequence[str] = OVER
 ) -> tuple[Parameter, float, float]:
     """Return a parameter, and start and end of a range of it that the problem allows, or raise."""
-    problem.refuse_curved("curves of loads are computed")
     over = over if isinstance(over, str) else checked_parameter(over, allowed)
     for name in over.names if isinstance(over, ParameterPath) else (over,):
         if name not in allowed:
             raise InputError("over", name, f"must be one of {', '.join(allowed)}")
+        if problem.axis and name in OF_THE_AXIS:
+            others = ", ".join(one for one in allowed if one not in OF_THE_AXIS)
+            raise InputError("over", name, f"is that of the axis, which is given by points: must be one of {others}")
     if len(limits) != 2:
         raise InputError("range", list(limits), "must be two numbers, start and end")
     low, high = limits_of(over)

@@ -34,17 +34,20 @@ def lift_off_curve(
     rtol: float = RTOL,
     progress: Progress | None = None,
 ) -> Curve:
-    """Lift-off load of a mode's branch as a function of weight, alpha, clearance or twist.
+    """Lift-off load of a mode's branch as a function of weight, alpha, clearance, twist or curvature.
 
     Parameters
     ----------
     problem
-        The rod; its value of ``over`` does not matter.
+        The rod; its value of ``over`` does not matter. In a curved hole the loads are those of branches, which take the
+        hole where the undeformed rod is.
     over
-        "weight", "alpha", "clearance" or "twist", or a path of one's own, on which several vary: a
+        "weight", "alpha", "clearance", "twist", or the hole's curvature "build" or "walk" (of a branch that begins
+        in a hole in the vertical plane), or a path of one's own, on which several vary: a
         :class:`rodwell.ParameterPath`, or its ``numbers`` alone for a t from 0 to 1.
     limits
-        Start and end of the range. Where lateral weight vanishes at the start, lift-off coincides with buckling there.
+        Start and end of the range. Where nothing presses the rod to the wall at the start, lift-off coincides with
+        buckling there.
     mode, mirror
         Number of the mode, at the start of the range, and its arm. The curve stays on the branches of that mode, also
         where another one buckles first.
@@ -60,7 +63,7 @@ def lift_off_curve(
     over, start, end = checked_range(problem, over, limits)
     at_start = varied(problem, over, start)
     before: tuple[CurvePoint, ...] = ()
-    if at_start.lateral_weight == 0.0:
+    if at_start.untouched:
         first = critical_loads(at_start, mode, rtol=rtol)[-1]
         before = (CurvePoint(start, first.force, first.error),)
         start += NEARLY_WEIGHTLESS * (end - start)
@@ -71,7 +74,7 @@ def lift_off_curve(
         raise NotConvergedError(f"no lift-off at {over} = {start:g}, where the curve starts: {branch.ended_because}")
     zero = Touching(at_start, over)
     at_end = varied(problem, over, end)
-    vanishes = at_end.lateral_weight == 0.0
+    vanishes = at_end.untouched
     traced = end - NEARLY_WEIGHTLESS * (end - start) if vanishes else end
     points, marks, why = trace_curve(zero, CurveStart(start, lift.solution), traced, progress)
     if vanishes and why in ("end", BECOMES_STRAIGHT):

@@ -13,7 +13,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.symmetry import kept_parity
 from rodwell.analysis.curves.points import CurveStart, CurveTangent, NearbyStates, PlanePoint, Zero
 from rodwell.analysis.curves.secant import CurveLostError, zero_from
-from rodwell.analysis.discrete.family import path, spline_ends
+from rodwell.analysis.discrete.family import IN_CURVED_HOLE, in_other_hole, path, spline_ends
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
@@ -39,7 +39,9 @@ class AlongForce(Zero):
     def meshes(self, meshes: TwoMeshes, spot: PlanePoint) -> TwoMeshes:
         """The same meshes with the equilibria along the end force at ``spot``."""
         problem, parity = self.at(spot.x), self.kept[meshes.coarse.parity]
-        return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
+        if self.problem.hole is None and problem.hole is None:
+            return meshes.on_path(path(problem, "force", spot.value), spline_ends(problem), parity)
+        return meshes.changed(lambda family: replace(in_other_hole(family, problem, spot.value), parity=parity))
 
     def solution(self, meshes: TwoMeshes, point: MeshedState, spot: PlanePoint) -> Solution:
         """A point as a solution."""
@@ -127,6 +129,8 @@ class Folding(AlongForce):
         self, meshes: TwoMeshes, c: FloatArray, spot: PlanePoint, travel: CurveTangent, mesh: int
     ) -> tuple[float, State]:
         """The fold of the equilibria along the parameter, at the end force of ``spot``, on one of both meshes."""
+        if self.at(spot.x).hole is not None and self.over not in IN_CURVED_HOLE:
+            raise CurveLostError(f"it turns back in {self.over}, along which states in a curved hole are not followed")
         line = self.meshes(meshes, spot)
         along = path(self.at(spot.x), self.over, spot.value)
         family = replace((line.coarse, line.fine)[mesh], path=along, lam_scale=travel.unit)

@@ -257,8 +257,8 @@ def _missed(breaks: FloatArray, problem: Problem) -> float:
 
 
 def _hole(problem: Problem) -> Hole:
-    assert problem.hole is not None
-    return problem.hole
+    """The hole of a problem; a straight one as an arc without curvature."""
+    return Hole.arc(problem.alpha) if problem.hole is None else problem.hole
 
 
 def linear_space(problem: Problem, loads: tuple[float, float]) -> SplineSpace:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -19,8 +20,8 @@ from rodwell.physics.on_wall.tapered import TERMS, RodOfTapers
 from rodwell.problem.ends import OFF_WALL_ENDS, WITH_Y_HELD, refuse_off_wall
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
+from rodwell.problem.varying import CURVATURES, Parameter, ParameterPath, throughout
 from rodwell.problem.varying import FORCE as END_FORCE
-from rodwell.problem.varying import Parameter, ParameterPath, throughout
 from rodwell.quantities.arrays import FloatArray
 
 HELD = {
@@ -77,9 +78,10 @@ def pair_ends(problem: Problem) -> tuple[Ends, Ends]:
 def path(problem: Problem, parameter: Parameter, force: float = 0.0) -> FloatArray:
     """Parameters as one of :data:`PATHS` varies, or several: see :class:`rodwell.numerics.equilibria.family.Family`."""
     for name in parameter.names if isinstance(parameter, ParameterPath) else (parameter,):
-        if problem.hole is not None and name not in IN_CURVED_HOLE:
+        if (problem.hole is not None or name in CURVATURES) and name not in IN_CURVED_HOLE:
             known = ", ".join(IN_CURVED_HOLE)
-            raise InputError("parameter", name, f"must be one of {known} in a curved hole, which changes with it")
+            reason = f"must be one of {known} along a branch in a curved hole, which changes with it; loads as "
+            raise InputError("parameter", name, f"{reason}functions of it are curves: lift_off_curve, special_curve")
     if isinstance(parameter, ParameterPath):
         return _own_path(problem, parameter, force)
     out = np.zeros((4, COUNT))
@@ -162,6 +164,19 @@ def family(
         first_integral=all(_autonomous(one) and one.same_sides for one in along)
         and problem.ends == ("clamped", "clamped"),
         cells=tuple(sign for sign in _cells(problem) if all(sign in _cells(one) for one in along)),
+    )
+
+
+def in_other_hole(equilibria: Family, problem: Problem, force: float) -> Family:
+    """The same equilibria along the end force, from ``force``, of a problem in another hole, curved or straight."""
+    return replace(
+        equilibria,
+        model=_model(problem),
+        path=path(problem, END_FORCE, force),
+        ends=spline_ends(problem),
+        given=given_along(problem),
+        first_integral=False,
+        cells=(),
     )
 
 

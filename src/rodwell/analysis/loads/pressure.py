@@ -2,62 +2,102 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.starts import at_state
-from rodwell.analysis.discrete.family import given_in_kernels
-from rodwell.analysis.discrete.measures import shape
-from rodwell.analysis.state.fields import pressure_at
+from rodwell.analysis.discrete.family import IN_CURVED_HOLE, given_along, given_in_kernels, path
+from rodwell.analysis.straight.lying_slopes import beside as changed
+from rodwell.analysis.straight.lying_slopes import step_in
+from rodwell.numerics.differences import central_slope
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines import banded
-from rodwell.problem.problem import Problem
 from rodwell.problem.rod import Rod
 from rodwell.problem.sections import COLUMNS
+from rodwell.problem.varying import FORCE as END_FORCE
+from rodwell.quantities.arrays import FloatArray
 
 STEPS = {"force": 1e-3, "weight": 1e-4, "alpha": 1e-3, "clearance": 1e-4, "twist": 1e-4}
 """Half the step of the central differences of the pressure, which is a formula: the states themselves move along
 tangents. Of α in degrees, of T₁ in B/L, of the others relative."""
 
 
-def pressure_rates(
-    solution: Solution, places: tuple[float, ...], parameter: str
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
+Rates = tuple[tuple[float, ...], tuple[float, ...]]
+"""Rates of the pressure at places, and the estimates of their errors: from the two meshes and from twice the step."""
+
+
+def pressure_rates(solution: Solution, places: tuple[float, ...], parameter: str) -> Rates:
     """dp/dλ along equilibria at given places, for a parameter λ of ``families.PATHS``, the others constant.
 
-    p carries the sign that makes contact negative. Returns the rates and the estimates of their errors: from the two
-    meshes and from twice the step.
+    p carries the sign that makes contact negative. In a curved hole λ may also be its curvature, "build".
     """
-    solution.problem.refuse_curved("rates of the contact pressure are computed")
+    if solution.problem.hole is not None and parameter not in IN_CURVED_HOLE:
+        return _hole_rates(solution, places, parameter)
     here = solution.value_of(parameter)
     size = 1.0 if parameter in ("alpha", "twist") else abs(here) or 1.0
     step = STEPS[parameter] * size
     meshes, point = at_state(solution.problem, solution, parameter, here, here + size, solution.meshes.rtol)
     at = np.array(places)
 
-    def rate(family: Family, state: State, h: float) -> np.ndarray:
+    def rate(family: Family, state: State, h: float) -> FloatArray:
         direction = state.tangent / state.tangent_lam
-        p = {
-            k: _pressure(solution.problem, family, state, state.c + k * h * direction, state.lam + k * h, at)
-            for k in (-2, -1, 1, 2)
-        }
-        return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
+        return central_slope(lambda x: _pressure(family, state, at, x * direction, x), h)
 
-    fine = rate(meshes.fine, point.fine, step)
-    errors = estimated_error(fine, rate(meshes.coarse, point.coarse, step))
-    errors = errors + np.abs(rate(meshes.fine, point.fine, 2.0 * step) - fine)
+    return _with_errors(rate, ((meshes.coarse, point.coarse), (meshes.fine, point.fine)), step)
+
+
+def _with_errors(
+    rate: Callable[[Family, State, float], FloatArray], levels: tuple[tuple[Family, State], ...], step: float
+) -> Rates:
+    """Rates on the finer of two meshes, and what is left of their errors."""
+    coarse, fine = (rate(*level, step) for level in levels)
+    errors = estimated_error(fine, coarse) + np.abs(rate(*levels[1], 2.0 * step) - fine)
     return tuple(map(float, fine)), tuple(map(float, errors))
 
 
-def _pressure(
-    problem: Problem, family: Family, state: State, c: np.ndarray, lam: float, places: np.ndarray
-) -> np.ndarray:
-    sense = -1.0 if problem.outside else 1.0
-    return sense * pressure_at(problem.rod, family.parameters(lam), places, shape(family, state, places, 4, c))
+def _pressure(family: Family, state: State, places: FloatArray, more: FloatArray, further: float) -> FloatArray:
+    """Contact pressure (m,), negative in contact, at the coefficients and the parameter of a state and more of both."""
+    u = state.space.evaluate(state.c + more, places, 4)
+    given = None if family.given is None else family.given(places).T
+    return np.asarray(family.model.observed(places, u, given, family.parameters(state.lam + further)))
+
+
+def _moved_rates(
+    solution: Solution, places: tuple[float, ...], beside: Callable[[Family, float], Family], step: float, span: float
+) -> Rates:
+    """dp/dq along equilibria at a constant load: states move along δc = −H⁻¹ ∂g/∂q.
+
+    ``beside`` gives the equations with q changed by a step; ``span`` is that of the differences of the gradient g.
+    """
+    at = np.array(places)
+
+    def rate(family: Family, state: State, h: float) -> FloatArray:
+        factors = family.held.free_part(family.assemble(state.c, state.lam)[2])
+        banded.factorise(factors)
+        slope = central_slope(lambda x: beside(family, x).assemble(state.c, state.lam)[1], span)
+        moved = -family.held.gather(slope)
+        banded.solve(factors, moved)
+        direction = family.held.spread(moved)
+        return central_slope(lambda x: _pressure(beside(family, x), state, at, x * direction, 0.0), h)
+
+    return _with_errors(rate, solution.levels, step)
+
+
+def _hole_rates(solution: Solution, places: tuple[float, ...], parameter: str) -> Rates:
+    """The same for an input that changes the curved hole beside the rod."""
+    problem = solution.problem
+
+    def beside(family: Family, step: float) -> Family:
+        other = changed(problem, parameter, step)
+        return replace(family, path=path(other, END_FORCE), given=given_along(other))
+
+    step = 0.2 * step_in(problem, parameter)
+    return _moved_rates(solution, places, beside, step, step)
 
 
 SECTION_RATIOS = ("stiffness", "weight")
@@ -66,44 +106,25 @@ SECTION_RATIOS = ("stiffness", "weight")
 SECTION_STEP = 1e-4
 """Half the step in a ratio, relative, of the differences of the pressure."""
 
+GRADIENT_STEP = 0.25
+"""The same of the gradient, which is linear in both ratios."""
 
-def section_pressure_rates(
-    solution: Solution, places: tuple[float, ...], number: int, ratio: str
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
+
+def section_pressure_rates(solution: Solution, places: tuple[float, ...], number: int, ratio: str) -> Rates:
     """dp/dq along equilibria at a constant load, for a ratio q of section ``number`` (from 0), or a factor on a taper.
 
-    Returned as by :func:`pressure_rates`. States move along δc = −H⁻¹ ∂g/∂q.
+    Returned as by :func:`pressure_rates`.
     """
-    problem, at = solution.problem, np.array(places)
+    problem = solution.problem
     given = problem.sections[number][COLUMNS.index(ratio)]
     size = 1.0 if isinstance(given, tuple) else given or 1.0
 
-    def changed(step: float) -> Rod:
+    def beside(family: Family, step: float) -> Family:
         sections = list(problem.sections)
         length, stiffness, weight, clearance, twisting = sections[number]
         moved = tuple(one * (1.0 + step) for one in given) if isinstance(given, tuple) else given + step
         pair = (moved, weight) if ratio == "stiffness" else (stiffness, moved)
         sections[number] = (length, *pair, clearance, twisting)
-        return Rod(tuple(sections))  # not checked: a weight may be below zero by the step
+        return replace(family, given=given_in_kernels(Rod(tuple(sections))))  # not checked: a weight may be below zero
 
-    def rate(family: Family, state: State, h: float) -> np.ndarray:
-        factors = family.held.free_part(family.assemble(state.c, state.lam)[2])
-        banded.factorise(factors)
-        half = 0.5 * size
-        low, high = (  # the gradient is linear in both ratios
-            replace(family, given=given_in_kernels(changed(step))).assemble(state.c, state.lam)[1]
-            for step in (-half, half)
-        )
-        moved = family.held.gather(low - high) / size
-        banded.solve(factors, moved)
-        direction, parameters = family.held.spread(moved), family.parameters(state.lam)
-        p = {
-            k: pressure_at(changed(k * h), parameters, at, shape(family, state, at, 4, state.c + k * h * direction))
-            for k in (-2, -1, 1, 2)
-        }
-        return np.asarray((8.0 * (p[1] - p[-1]) - (p[2] - p[-2])) / (12.0 * h))
-
-    sense, h = -1.0 if problem.outside else 1.0, SECTION_STEP * size
-    (coarse, fine) = (rate(*level, h) for level in solution.levels)
-    errors = estimated_error(fine, coarse) + np.abs(rate(*solution.levels[1], 2.0 * h) - fine)
-    return tuple(map(float, sense * fine)), tuple(map(float, errors))
+    return _moved_rates(solution, places, beside, SECTION_STEP * size, GRADIENT_STEP * size)

@@ -7,12 +7,16 @@ A critical load is an eigenvalue, so its derivative is the second variation's de
 
 A lift-off load is where the contact pressure p at the touching place vanishes along equilibria:
 dF/dq = −(dp/dq)/(dp/dF), both from the tangents of the bordered system.
+
+In a curved hole the curvature is an input, too (:mod:`rodwell.analysis.straight.lying_slopes`), and the lift-off load
+is that of the branch, which takes the hole where the undeformed rod is.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,6 +25,8 @@ from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.loads.pressure import SECTION_RATIOS, pressure_rates, section_pressure_rates
 from rodwell.analysis.straight.critical import Mode, critical_loads
+from rodwell.analysis.straight.lying import least_contact
+from rodwell.analysis.straight.lying_slopes import beside, inputs_of, lying_slope, step_in
 from rodwell.analysis.straight.scale import load_scale, twisted_load_scale
 from rodwell.analysis.straight.slopes import load_slope, section_slopes, weight_rates
 from rodwell.analysis.straight.without_wall import SpatialMode
@@ -33,7 +39,10 @@ from rodwell.quantities.tolerance import RTOL, checked_rtol
 from rodwell.quantities.value import Value
 
 PARAMETERS = ("weight", "alpha", "clearance")
-"""The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L."""
+"""The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L; in a curved hole those of
+:func:`rodwell.analysis.straight.lying_slopes.inputs_of`."""
+
+OF_THE_BRANCH = "of the load along the branch, which takes the hole where the undeformed rod is"
 
 Derivatives = dict[str, Value]
 
@@ -53,7 +62,8 @@ class Sensitivity:
     derivatives
         By name of the parameter (:data:`PARAMETERS`): ∂f/∂γ, ∂f/∂α per degree, ∂f/∂(Δ/L), each with its error estimate;
         for the lift-off load of a twisted rod, and the load at which one buckles that nothing presses to the wall, also
-        ∂f/∂T₁. Critical loads of a rod kept on the wall do not depend on T₁.
+        ∂f/∂T₁. Critical loads of a rod kept on the wall do not depend on T₁. In a hole of constant curvature also
+        "build", ∂f/∂(k₁L); in one along points those by γ and Δ/L alone, the points in L staying where they are.
     note
         What to know about them, or nothing.
     sections
@@ -78,20 +88,29 @@ class Sensitivity:
 
         ``weight_per_length`` mg, ``clearance`` Δ, ``stiffness`` B, ``length`` L, each with the others constant; and
         ``alpha``, in percent for one degree more. From F = (B/L²) f(mg L³/B, α, Δ/L): e_B = 1 − e_mg,
-        e_L = 3 e_mg − e_Δ − 2; under an end torque T, T₁ = T L/B, 1 − e_mg − e_T and 3 e_mg − e_Δ + e_T − 2.
+        e_L = 3 e_mg − e_Δ − 2; under an end torque T, T₁ = T L/B, 1 − e_mg − e_T and 3 e_mg − e_Δ + e_T − 2. In a hole
+        of constant curvature also ``build``, that of its curvature, and e_L has e_build more, with the inclination at
+        mid-length constant; in one along points ``length`` and ``alpha``, with which these move, are left out.
         """
         weight = self._relative("weight", self.problem.weight)
         clearance = self._relative("clearance", self.problem.clearance)
         # T₁ = T L/B grows with the length and falls with the stiffness
-        twist = self._relative("twist", self.problem.twist) if "twist" in self.derivatives else Value(0.0)
-        length = 3.0 * weight.value - clearance.value - 2.0 + twist.value
-        return {
+        twist, build = (
+            self._relative(name, getattr(self.problem, name)) if name in self.derivatives else Value(0.0)
+            for name in ("twist", "build")
+        )
+        length = 3.0 * weight.value - clearance.value - 2.0 + twist.value + build.value
+        changes = {
             "weight_per_length": weight,
             "clearance": clearance,
             "stiffness": Value(1.0 - weight.value - twist.value, weight.error + twist.error),
-            "length": Value(length, 3.0 * weight.error + clearance.error + twist.error),
-            "alpha": self._relative("alpha", 100.0),
+            "length": Value(length, 3.0 * weight.error + clearance.error + twist.error + build.error),
         }
+        if "alpha" in self.derivatives:
+            changes["alpha"] = self._relative("alpha", 100.0)
+        else:
+            del changes["length"]
+        return changes | ({"build": build} if "build" in self.derivatives else {})
 
     def _relative(self, name: str, scale: float) -> Value:
         value, error = self.derivatives[name]
@@ -120,7 +139,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     Parameters
     ----------
     problem
-        The rod; straight (``turns`` 0).
+        The rod, straight (``turns`` 0) or along a curved hole in a vertical plane.
     mode
         Number of the mode, 1 for the first met.
     rtol
@@ -129,11 +148,10 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
     Raises
     ------
     InputError
-        If an argument is out of range.
+        If an argument is out of range, or the hole leaves the vertical plane: there is no critical load.
     NotConvergedError
         If a load cannot be computed.
     """
-    problem.refuse_curved("derivatives of loads are computed")
     rtol = checked_rtol(rtol)
     buckling = critical_loads(problem, checked_whole("mode", mode, 1, 200), rtol=rtol)[-1]
     out = [of_critical_load(buckling)]
@@ -142,7 +160,7 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         assert isinstance(met, SpatialMode)
         known = met.error <= rtol * (abs(met.force) + twisted_load_scale(problem))
         out.append(replace(of_first_met(met), converged=known))
-    if problem.pressed:
+    if problem.pressed if problem.hole is None else least_contact(problem, buckling.force).value > 0.0:
         branch = follow(problem, buckling, rtol=rtol)
         if (lift := branch.lift_off) is not None:
             out.append(replace(of_lift_off(lift), converged=branch.meets_tolerance(lift)))
@@ -151,14 +169,17 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
 
 def of_critical_load(mode: Mode) -> Sensitivity:
     """Derivatives of a critical load, from its mode on both meshes."""
-    fine, coarse = (_by_mode(mode.problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
-    scales = {"weight": mode.problem.weight or 1.0, "alpha": 90.0, "clearance": mode.problem.clearance}
+    problem = mode.problem
+    names, by_mode = (PARAMETERS, _by_mode) if problem.hole is None else (inputs_of(problem), _in_curved_hole)
+    fine, coarse = (by_mode(mode, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
+    scales = {"weight": problem.weight or 1.0, "alpha": 90.0, "clearance": problem.clearance, "build": 1.0}
     derivatives = {}
-    for name, scale in scales.items():
-        round_off = NUMBER_NOISE * (abs(fine[name]) + abs(mode.force) / scale)
-        derivatives[name] = Value(fine[name], abs(fine[name] - coarse[name]) + round_off)
+    for name in names:
+        (value, step), (other, _) = fine[name], coarse[name]
+        round_off = NUMBER_NOISE * (abs(value) + abs(mode.force) / scales[name])
+        derivatives[name] = Value(value, abs(value - other) + step + round_off)
     name = f"critical load of mode {mode.number}"
-    return Sensitivity(name, mode.problem, mode.force, derivatives, sections=_by_sections(mode))
+    return Sensitivity(name, problem, mode.force, derivatives, sections=_by_sections(mode))
 
 
 def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
@@ -201,8 +222,28 @@ def of_first_met(mode: SpatialMode) -> Sensitivity:
     return Sensitivity("load at which it buckles", problem, mode.force, derivatives, note)
 
 
-def _by_mode(problem: Problem, space: SplineSpace, coefficients: FloatArray) -> dict[str, float]:
-    return {name: load_slope(problem, space, coefficients, *weight_rates(problem, name)) for name in PARAMETERS}
+Slopes = dict[str, tuple[float, float]]
+"""Derivatives by name, each with the error of the differences in them."""
+
+
+def _by_mode(mode: Mode, space: SplineSpace, coefficients: FloatArray) -> Slopes:
+    problem = mode.problem
+    return {name: (load_slope(problem, space, coefficients, *weight_rates(problem, name)), 0.0) for name in PARAMETERS}
+
+
+def _in_curved_hole(mode: Mode, space: SplineSpace, coefficients: FloatArray) -> Slopes:
+    problem, out = mode.problem, {}
+    for name in inputs_of(problem):
+        step, at_limit = step_in(problem, name), getattr(problem, name) == 0.0 and name == "weight"
+        slope, wide = (
+            lying_slope(
+                problem, space, coefficients, mode.force, partial(beside, problem, name), part * step,
+                to_one_side=at_limit,
+            )
+            for part in (1.0, 2.0)
+        )  # fmt: skip
+        out[name] = slope, abs(wide - slope)
+    return out
 
 
 def of_lift_off(lift: SpecialPoint) -> Sensitivity:
@@ -211,8 +252,9 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         raise InputError("point", lift.kind, "must be a lift-off")
     solution = lift.solution
     by_force, force_error = (np.array(part) for part in pressure_rates(solution, lift.s, "force"))
-    out, note = {}, ""
-    for name in PARAMETERS if solution.problem.twist == 0.0 else (*PARAMETERS, "twist"):
+    out, note = {}, "" if solution.problem.hole is None else OF_THE_BRANCH
+    names = PARAMETERS if solution.problem.hole is None else inputs_of(solution.problem)
+    for name in names if solution.problem.twist == 0.0 else (*names, "twist"):
         rates, errors = (np.array(part) for part in pressure_rates(solution, lift.s, name))
         each = -rates / by_force
         spread = np.abs(errors / by_force) + np.abs(each * force_error / by_force)
@@ -220,7 +262,8 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
         which = int(np.argmin(each)) if name == "alpha" else int(np.argmax(spread))
         out[name] = Value(float(each[which]), float(spread[which]))
         if np.ptp(each) > 10.0 * np.max(spread):
-            note = "lifts off at several places at once: the derivative by α is that towards smaller α"
+            several = "lifts off at several places at once: the derivative by α is that towards smaller α"
+            note = f"{several}; {OF_THE_BRANCH}" if solution.problem.hole is not None else several
     by_section = []
     for i in range(len(solution.problem.sections)):
         each = {}

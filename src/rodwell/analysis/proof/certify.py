@@ -15,9 +15,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from rodwell.analysis.discrete.curved import linear_space
 from rodwell.analysis.proof.enclosures import Enclosure, bits, checked_digits, exact
 from rodwell.analysis.proof.inertia import EnclosedRod
 from rodwell.analysis.proof.roots import Counter, Critical, critical_values
+from rodwell.analysis.straight.lying import refuse_spatial
+from rodwell.analysis.straight.lying_loads import UNSTABLE, stable_force
+from rodwell.analysis.straight.scale import EULER, load_scale
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
@@ -86,6 +90,7 @@ class CertifiedLoads(tuple[CertifiedLoad, ...]):
             "problem": {
                 "weight": problem.weight, "alpha": problem.alpha, "clearance": problem.clearance,
                 "ends": "-".join(problem.ends), "on_top": problem.on_top, "floats": problem.floats,
+                **({"build": problem.build} if problem.hole is not None else {}),
             },
             "loads": [
                 {
@@ -107,7 +112,9 @@ class CertifiedLoads(tuple[CertifiedLoad, ...]):
 def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> CertifiedLoads:
     """Critical end forces of the straight rod, proved: the first ``modes`` of them, none skipped.
 
-    Numbers of ``problem`` are taken as the decimals they are written as: clearance 0.01 is 1/100.
+    Of a rod without weight that lies along a hole of constant curvature in a vertical plane, too, as compression grows
+    from an end force at which it is proved to be stable. Numbers of ``problem`` are taken as the decimals they are
+    written as: clearance 0.01 is 1/100.
 
     Parameters
     ----------
@@ -126,11 +133,12 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
     Raises
     ------
     InputError
-        If ``modes`` or ``digits`` is out of range, or ``problem.turns`` is not 0.
+        If ``modes`` or ``digits`` is out of range, ``problem.turns`` is not 0, or the hole is curved otherwise: proofs
+        use solutions of (64), whose coefficients vary there.
     NotConvergedError
         If a proof fails: the rod takes more than 3000 elements (300 with axial weight), or a sign cannot be decided.
     """
-    problem.refuse_curved("loads are proved")
+    _check_hole(problem)
     modes, digits = checked_whole("modes", modes, 1, MOST_MODES), checked_digits(digits)
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "critical loads are those of the straight rod: turns must be 0")
@@ -140,13 +148,47 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
         "loads with proof are those of a uniform rod, whose solutions the counts use: ask for critical loads",
     )
     counter = Counter(lambda x: _rod(problem, x))
-    # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
-    against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
-    start = Fraction(-2.0 - problem.heaviest - 1.001 * against)
     step = Fraction(40 + math.sqrt(problem.lateral_weight / problem.clearance) + 0.1 * abs(problem.axial_weight))
-    found = critical_values(counter, start, step, modes, digits + SPARE)
+    found = critical_values(counter, _before_all(problem), step, modes, digits + SPARE)
     equation = closed_form(problem)
     return CertifiedLoads(_load(problem, item, equation, digits) for item in found)
+
+
+def _check_hole(problem: Problem) -> None:
+    """Refuse a curved hole in which the second variation of the rod has coefficients that vary."""
+    refuse_spatial(problem)
+    if problem.hole is None:
+        return
+    if "free" in problem.ends:  # which leaves κᵣ v v′ at that end
+        raise InputError(
+            "ends",
+            "-".join(problem.ends),
+            "must be clamped, pinned or guided in a curved hole, whose curvature couples place and slope of a free "
+            "end, which the proofs do not know; critical_loads has these loads with estimates of their errors",
+        )
+    if problem.weight == 0.0 and not problem.axis:
+        return
+    name, value = ("axis", f"{len(problem.axis)} points") if problem.axis else ("weight", problem.weight)
+    raise InputError(
+        name,
+        value,
+        "must be left out: in a curved hole loads are proved of a rod without weight in constant curvature, where "
+        "equation (64) has constant coefficients; critical_loads (`rodwell critical`) has those of this one with "
+        "estimates of their errors",
+    )
+
+
+def _before_all(problem: Problem) -> Fraction:
+    """−F before the first load: the count there is the proof. In a curved hole that grows with the distance from it."""
+    if problem.hole is not None:
+        space = linear_space(problem, (-EULER, EULER))
+        stable = stable_force(problem, space, load_scale(problem))
+        if stable is None:
+            raise NotConvergedError(UNSTABLE)
+        return Fraction(-stable)
+    # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
+    against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
+    return Fraction(-2.0 - problem.heaviest - 1.001 * against)
 
 
 def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits: int) -> CertifiedLoad:
@@ -162,8 +204,12 @@ def _load(problem: Problem, item: Critical, equation: ClosedForm | None, digits:
 def _rod(problem: Problem, x: Ball) -> EnclosedRod:
     """The rod at the end force −x, at the present precision."""
     weight, clearance, ends = weights(problem), ball(exact(problem.clearance)), problem.ends
-    if problem.lateral_weight == 0.0 and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
+    if problem.untouched and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
         ends = WITH_Y_HELD[ends[0]], ends[1]
+    if problem.hole is not None:  # N − 2κᵣ² and P/Δ with P = −κᵣ(N − κᵣ²)
+        build = -exact(problem.build) if problem.on_top else exact(problem.build)
+        bent = ball(build / (1 + exact(problem.clearance) * build))
+        return EnclosedRod(-x - 2 * bent**2, weight[0], bent * (x + bent**2) / clearance, ends)
     foundation = weight[1] / clearance
     return EnclosedRod(-x, weight[0], -foundation if problem.on_top else foundation, ends)
 
@@ -215,7 +261,7 @@ def closed_form(problem: Problem) -> ClosedForm | None:
     or even modes of a clamped rod of twice the length. Vertical: (86), and (88) with the upper end guided.
     """
     ends, upright, flat = problem.ends, problem.lateral_weight == 0.0, problem.axial_weight == 0.0
-    if problem.weight == 0.0 or problem.axial_weight < 0.0:
+    if problem.weight == 0.0 or problem.axial_weight < 0.0 or problem.hole is not None:
         return None
     if flat and "clamped" in ends and "free" not in ends:
         name = "on top, section 4.3" if problem.on_top else "(77)"

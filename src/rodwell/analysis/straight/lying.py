@@ -28,7 +28,10 @@ PLACES = 2001
 
 
 def refuse_spatial(problem: Problem) -> None:
-    """Raise where θ = 0 is no equilibrium: the hole leaves the vertical plane, or a torque turns a free end."""
+    """Raise where θ = 0 is no equilibrium: out of the vertical plane, or under a torque T₁ that turns a free end.
+
+    Or where the curvature changes, too: the shear T₁κᵣ that balances a torque in a bend changes with it.
+    """
     hole = problem.hole
     if hole is not None and not hole.planar:
         name = "axis" if problem.axis else "walk"
@@ -37,6 +40,14 @@ def refuse_spatial(problem: Problem) -> None:
             f"{len(problem.axis)} points" if problem.axis else problem.walk,
             "bends the hole sideways, where the rod lies on no straight generator and has no critical load: it moves "
             "with every change of the end force; ask how it lies, and where that ends (rodwell.lying_rod)",
+        )
+    if hole is not None and problem.twist != 0.0 and problem.axis:
+        raise InputError(
+            "twist",
+            problem.twist,
+            "pushes the rod sideways where the curvature of the hole changes along it, as along points or stations it "
+            "does: it lies on no straight generator there and has no critical load. Give no twist, or ask for states "
+            "at single end forces (rodwell.equilibrium) and follow them",
         )
     if hole is not None and problem.twist != 0.0 and problem.ends != ("clamped", "clamped"):
         raise InputError(

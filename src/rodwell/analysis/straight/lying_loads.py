@@ -39,6 +39,11 @@ APART = 100.0
 SETTLED = 1e-7
 """Relative change of a load from which on the next one, which squares it, is below round-off."""
 
+UNSTABLE = (
+    "the rod that lies along this hole is unstable on the wall at every end force: there is no load at which it begins "
+    "to buckle. Of a string that hangs through a build in tension, take the part below the build"
+)
+
 LARGEST_LOAD = 1e9
 """In units of the scale of loads: how far a stable force is looked for."""
 
@@ -55,7 +60,7 @@ class Found:
     coarse_vectors: FloatArray
 
 
-def _factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray, FloatArray]:
+def variation_factors(problem: Problem, space: SplineSpace) -> tuple[FloatArray, FloatArray]:
     """Hessian of the density at y = 0, (3, 3, m), without an end force, and by it."""
     rows, still = along_rod(problem)(space.points).T, np.zeros((3, space.points.size))
     out = []
@@ -85,7 +90,7 @@ class _Pencil:
     def __init__(self, problem: Problem, space: SplineSpace) -> None:
         self.space = space
         self.held = spline_ends(problem).among(space.size)
-        self.factors = _factors(problem, space)
+        self.factors = variation_factors(problem, space)
         self.k, self.g = (self.held.free_part(_band(space, f)) for f in self.factors)
         self.slopes = self.held.free_part(space.slope_gram)
 
@@ -197,10 +202,7 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
     if rest is None:
         if tension:
             return None
-        raise NotConvergedError(
-            "the rod that lies along this hole is unstable on the wall at every end force: there is no load at which "
-            "it begins to buckle. Of a string that hangs through a build in tension, take the part below the build"
-        )
+        raise NotConvergedError(UNSTABLE)
     if tension:
         count = min(count, _Pencil(problem, space).unstable(rest + ENDLESS * scale))
         if count == 0:

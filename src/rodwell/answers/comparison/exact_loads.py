@@ -9,9 +9,10 @@ from functools import partial
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
-from rodwell.analysis.branch.special import SpecialPoint
+from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.loads.arms import to_lift_off
+from rodwell.analysis.loads.lying_rod import lying_rod
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.analysis.straight.scale import EULER
 from rodwell.errors import InputError, NotConvergedError
@@ -69,19 +70,60 @@ def critical(problem: Problem, rtol: float = RTOL) -> ExactLoad:
     return ExactLoad("critical", "first critical load", mode.force, mode.error, problem.hung_weight)
 
 
+AS_IT_LIES = (
+    "critical load: a rod in a hole that leaves the vertical plane has none, since it moves with every change of the "
+    "load; in its place stands the load up to which it lies on the wall, stable",
+    "loads with every cross-section at its own place in the hole: these take it where the rod would be on the low "
+    "side, undeformed; `rodwell liftoff` has both",
+)
+"""What must be known of the loads of a rod in such a hole."""
+
+
+def _as_it_lies(problem: Problem, rtol: float) -> list[ExactLoad]:
+    """The load at which a rod in a hole that leaves the vertical plane ceases to lie on the wall, stable.
+
+    Where that is a bifurcation, also lift-off of the branch that leaves there, if it is met.
+
+    Raises
+    ------
+    NotConvergedError
+        If that does not happen as far as the rod is followed.
+    """
+    rod = lying_rod(problem, rtol=rtol)
+    end, weight = rod.end, problem.hung_weight
+    if end is None:
+        raise NotConvergedError(
+            f"the rod lies on the wall of this hole, stable, down to F = {rod.lowest.value:.6g} B/L², as far as it was "
+            "followed: there is no load that formulas could be held against"
+        )
+    happens = "buckles" if rod.buckled is not None else HAPPENS.get(end.kind, "loses its stability")
+    loads = [ExactLoad("critical", f"load at which the rod, as it lies, {happens}", end.force, end.error, weight)]
+    lift = None if rod.buckled is None else rod.buckled.lift_off
+    if lift is not None:
+        loads.append(ExactLoad("lift_off", "lift-off of the branch that leaves there", lift.force, lift.error, weight))
+    return loads
+
+
+HAPPENS = {LIFT_OFF: "leaves the wall"}
+"""How it ceases, by kind of the special point."""
+
+
 def exact_loads(problem: Problem, rtol: float = RTOL) -> tuple[tuple[ExactLoad, ...], tuple[str, ...]]:
     """Return the exact loads of a problem, and what could not be had with the reason.
 
     The first critical load, which the end twist does not change; lift-off of mode 1 under the end twist, of its two
     arms the one that leaves the wall at less compression: the rod may take either. For a horizontal rod whose ends hold
     the angle, the least load at which a coil of whole turns has the energy of the straight rod, and that at which this
-    coil leaves the wall when it is unloaded; both without the end twist, as their labels say.
+    coil leaves the wall when it is unloaded; both without the end twist, as their labels say. In a hole that leaves the
+    vertical plane, where there is no critical load, that up to which the rod lies on the wall, stable, in its place.
 
     Raises
     ------
     NotConvergedError
-        If the first critical load cannot be computed.
+        If the first of these loads cannot be computed.
     """
+    if problem.hole is not None and not problem.hole.planar:
+        return tuple(_as_it_lies(problem, rtol)), AS_IT_LIES
     loads, notes = [critical(problem, rtol)], []
     if problem.hole is None and (problem.alpha == 0.0 or problem.weight == 0.0 or not problem.pressed):
         notes.append("lift-off: no lateral weight presses the rod to the wall")

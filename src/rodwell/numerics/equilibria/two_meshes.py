@@ -150,8 +150,12 @@ class TwoMeshes:
 
     def on_path(self, path: FloatArray, ends: Ends, parity: int) -> TwoMeshes:
         """Return the same meshes for another path in the parameters and a parity to keep."""
+        return self.changed(lambda family: _along(family, path, ends, parity))
+
+    def changed(self, change: Callable[[Family], Family]) -> TwoMeshes:
+        """Return the same meshes with the equations on each changed."""
         other = copy(self)
-        other.coarse, other.fine = (_along(f, path, ends, parity) for f in (self.coarse, self.fine))
+        other.coarse, other.fine = change(self.coarse), change(self.fine)
         return other
 
     def lift(self, coarse: State, *, exact: bool = False) -> tuple[Outcome, State | None]:

@@ -17,8 +17,9 @@ INPUTS = {
     "stiffness": "1 % more\nstiffness B",
     "length": "1 % more\nlength L",
     "alpha": "1° more from\nthe vertical",
+    "build": "1 % more curvature\nof the hole",
 }
-"""What is changed, the other inputs constant."""
+"""What is changed, the other inputs constant, where a load has a change by it."""
 
 BAR = 0.38
 """Height of a bar, the inputs being 1 apart."""
@@ -31,11 +32,12 @@ def plot_sensitivities(loads: Sequence[Sensitivity], ax: Any = None) -> Any:
     """
     ax = new_axes() if ax is None else ax
     shown = [load for load in loads if load.force != 0.0]
-    places = np.arange(len(INPUTS), dtype=float)
+    told = [name for name in INPUTS if all(name in load.elasticities() for load in shown)]
+    places = np.arange(len(told), dtype=float)
     bars = []
     for number, load in enumerate(shown):
         changes = load.elasticities()
-        values = [changes[name].value for name in INPUTS]
+        values = [changes[name].value for name in told]
         colour = LIFTS_OFF if load.name.startswith("lift-off") else BUCKLES
         at = places + (number - 0.5 * (len(shown) - 1)) * BAR
         hatch = "" if number == 0 else "///"  # a second cue beside the colour
@@ -46,7 +48,7 @@ def plot_sensitivities(loads: Sequence[Sensitivity], ax: Any = None) -> Any:
     ax.axvline(0.0, color=INK, lw=0.8)
     ax.margins(x=0.16)
     ax.set_axisbelow(True)
-    ax.set_yticks(places, list(INPUTS.values()))
+    ax.set_yticks(places, [INPUTS[name] for name in told])
     ax.invert_yaxis()
     ax.grid(visible=False, axis="y")
     ax.set_xlabel("change of the end force at s = 1 in percent; above 0 it grows in size")

@@ -146,7 +146,7 @@ def _exact(audit: Audit) -> tuple[ReportSection, ...]:
 
 
 def _others(audit: Audit) -> tuple[ReportSection, ...]:
-    groups = [("the first critical load", audit.others)]
+    groups = [(f"the {audit.critical.label}", audit.others)]
     groups += [
         (one.exact.label, tuple(o for o in one.others if {"F", "p"} & set(o.formula.takes))) for one in audit.applied
     ]

@@ -72,7 +72,7 @@ class Audit:
 
     @property
     def critical(self) -> ExactLoad:
-        """First critical load."""
+        """First of the exact loads: the critical one, or what takes its place out of the vertical plane."""
         return self.loads[0]
 
     def row(self, key: str) -> FormulaRow:
