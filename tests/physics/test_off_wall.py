@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from rodwell.physics.off_wall import _density, parameters
 from rodwell.physics.off_wall._density import hole_density
+from rodwell.physics.off_wall.forces import radially_at_wall
 from rodwell.physics.on_wall import parameters as wall
 from rodwell.physics.on_wall._density import rod_density
 
@@ -62,3 +63,27 @@ def test_derivatives_are_those_of_the_energy(slopes: list[float], bends: list[fl
     up, down = all_at(u, values + h * along), all_at(u, values - h * along)
     assert (up[0] - down[0]) / (2 * h) == pytest.approx(rate, rel=1e-7, abs=1e-7)
     assert (np.array(up[2]) - np.array(down[2])) / (2 * h) == pytest.approx(np.array(mixed), rel=1e-6, abs=1e-6)
+
+
+def test_radial_moment_and_force_at_the_wall_are_derivatives_of_the_energy_off_it() -> None:
+    """Differences along φ = 0.3 + 4s − 7s² + 5s³ about s = 0, where the hole is turned so that φ = 0."""
+    d, b, twist, h = 0.2, 0.6, 3.0, 1e-5
+    values = np.array([-123.0, 7.0, 0.0, d, twist]) / b
+    values[3] = d
+
+    def derivatives(s: float) -> tuple[np.ndarray, np.ndarray]:
+        """∂e/∂u′ and ∂e/∂u″."""
+        phi, phi1, phi2 = 4.0 * s - 7.0 * s**2 + 5.0 * s**3, 4.0 - 14.0 * s + 15.0 * s**2, -14.0 + 30.0 * s
+        sin, cos = np.sin(phi), np.cos(phi)
+        x, x1, x2 = -d * cos, d * sin * phi1, d * (cos * phi1**2 + sin * phi2)
+        y1, y2 = d * cos * phi1, d * (-sin * phi1**2 + cos * phi2)
+        g = hole_density(s, x, x1, x2, y1, y2, values, np.zeros(5))[2]
+        return b * np.array([g[1], g[3]]), b * np.array([g[2], g[4]])
+
+    first, second = derivatives(0.0)
+    shear = first - (derivatives(h)[1] - derivatives(-h)[1]) / (2.0 * h)
+    out, around = np.array([-1.0, 0.0]), np.array([0.0, 1.0])
+    at = radially_at_wall(np.array([4.0, 4.0 + h, 4.0 - h]), np.full(3, -14.0), np.full(3, d), twist, np.full(3, b))
+    assert at[0][0] == pytest.approx(second @ out, rel=1e-12)
+    assert at[1][0] == pytest.approx((at[0][1] - at[0][2]) / (2.0 * h), rel=1e-8)
+    assert -at[2][0] == pytest.approx(shear @ out + 4.0 * second @ around, rel=1e-7)

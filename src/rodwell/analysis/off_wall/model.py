@@ -18,6 +18,7 @@ import numpy as np
 
 from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
+from rodwell.physics.off_wall.forces import radially_at_wall
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
 from rodwell.physics.on_wall.strand import contact_pressure
@@ -106,24 +107,14 @@ class RodInHole:
             energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
         return energy, rate / d**2, gradient, mixed / d, hessian
 
-    def rim_reaction(self, u: FloatArray, given: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.
+    def rim_reaction(self, rate: FloatArray, bend: FloatArray, given: FloatArray) -> tuple[FloatArray, ...]:
+        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and its outward force, (k,) each.
 
-        They are ∂e/∂u″ · r̂, and Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′: what a variation of r and r′ at
-        the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4, k). Weight and end
-        force do not enter; seen from the place itself, φ = 0 there, r̂ = (−1, 0) and θ̂ = (0, 1).
+        From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`.
         """
-        d, b, radius = self.problem.clearance, given[0], self.problem.clearance * given[3]
-        phi1, phi2, phi3 = u[1:4]
-        nil = np.zeros_like(phi1)
-        x2, y2 = radius * phi1**2, radius * phi2
-        x3, y3 = 3.0 * radius * phi1 * phi2, radius * (phi3 - phi1**3)
-        own = of_section((b, 0.0, 0.0), self.parameters(0.0), 1.0 / b)
-        _, _, g, _, h = hole_density(1.0, -radius, nil, x2, radius * phi1, y2, own, _BY_FORCE)
-        by_slopes, by_bends = (h[1][0], h[1][2]), (h[1][1], h[1][3])  # second derivatives by x″ and x′, y′ or x″, y″
-        shear = g[1] - by_slopes[0] * x2 - by_slopes[1] * y2 - by_bends[0] * x3 - by_bends[1] * y3
-        by_rate = -by_slopes[1] - 2.0 * phi1 * by_bends[0]
-        return -b * g[2] / d, b * given[3] * by_rate, b * (phi1 * g[4] - shear) / d
+        d, radius = self.problem.clearance, self.problem.clearance * given[3]
+        moment, by_rate, outward = radially_at_wall(rate, bend, radius, self.problem.twist, given[0])
+        return moment / d, by_rate / d, outward / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""

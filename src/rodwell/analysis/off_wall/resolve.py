@@ -10,7 +10,7 @@ from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.happening import BRANCH_POINT, PathEvent
 from rodwell.analysis.off_wall.pattern import FINER
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.numerics.stretches.walk import locate, search, tangent
+from rodwell.numerics.stretches.walk import AS_GOOD_AS_ZERO, locate, search, tangent
 from rodwell.quantities.value import Value
 
 MOST_DEGREES = 8
@@ -52,6 +52,9 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
         best, load = finer, finer.state.load
         if error <= PART * rtol * abs(load) and contact_certificate(best.state).passed:
             break
+    if best.kind == BRANCH_POINT and best.between is not None:  # the equations are all but singular there
+        first, second = best.between
+        error = max(error, AS_GOOD_AS_ZERO * abs(second.load - first.load))
     return ResolvedEvent(best, Value(load, error), error <= rtol * abs(load))
 
 

@@ -6,46 +6,46 @@ A model offers, in units where the disc has radius 1,
   (f, 3), mixed derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields
   and two derivatives, and from what is ``given`` in each element, (g, e, 1);
 * ``load_per_length(given)``: in an element the density depends on s only through load + load_per_length · s;
-* ``rim_reaction(u, given)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
+* ``rim_reaction(rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from φ′ and φ″
+  there, see :func:`_react`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rodwell.numerics.stretches.basis import ENDS, bent, reference_element
-from rodwell.numerics.stretches.chain import RADIAL_SLOPE, Shape, cartesian_curvature
+from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Shape, cartesian_curvature
 from rodwell.quantities.arrays import FloatArray, IntArray
 
 RIM_SLOTS = np.array([1, 3, 5, 7])
 """Where angle and rate at the two ends of an element stand among the eight coordinates of its nodes."""
 
-FREE_SLOTS = np.array([0, 2, 4, 6, 1, 3, 5, 7])
-"""Where X, X′ at the two ends, then Y, Y′, stand among them."""
+_ORDERS = np.arange(3.0)
 
 
 @dataclass(repr=False)
 class Condensed:
     """Elements of one kind: what remains for their ends, and what gives the bubbles back.
 
-    ``block`` (k, 8, 8), ``residual``, ``by_length``, ``by_start``, ``by_load`` (k, 8) in the coordinates of the two
-    nodes; ``back`` (k, f·b, f·4 + 4): columns of ends, residual, length, start, load. ``work`` (k, 4): what the
-    derivative of the energy by the load changes by with those four.
+    Their ends have c coordinates: of those of both nodes angle and rate on the rim, all if free. ``block`` (k, c, c);
+    ``vectors`` (k, c, 5): residual, derivatives by length, start and load, and the gradient before bubbles are
+    condensed. ``back`` (k, f·b, c + 4): columns of ends, residual, length, start, load; ``bubbles`` (k, f·b, f·b): the
+    Hessian of what was condensed. ``work`` (k, 4): what the derivative of the energy by the load changes by with those
+    four.
     """
 
     group: IntArray
     fields: int
-    slots: IntArray
     back: FloatArray
-    raw: FloatArray
+    bubbles: FloatArray
     block: FloatArray
     vectors: FloatArray
     work: FloatArray
-    negative: int
 
 
 @dataclass(repr=False)
@@ -69,116 +69,129 @@ class Assembled:
     by_break: FloatArray
     plain: FloatArray
     work_by_break: FloatArray
+    work_by_load: float
+    work_residual: float
     groups: tuple[Condensed, ...]
     largest_bubble_residual: float
     moments: FloatArray
     moment_rates: FloatArray
     forces: FloatArray
 
-    @property
-    def work_by_load(self) -> float:
-        """Derivative of ``energy_by_load`` by the load at fixed nodes and breaks."""
-        return float(sum(np.sum(one.work[:, 3]) for one in self.groups))
-
-    @property
-    def work_residual(self) -> float:
-        """By how much ``energy_by_load`` changes as the bubbles come into equilibrium."""
-        return float(sum(np.sum(one.work[:, 0]) for one in self.groups))
-
-    @property
+    @cached_property
     def negative_bubbles(self) -> int:
         """Negative eigenvalues of the bubbles' blocks."""
-        return sum(g.negative for g in self.groups)
+        return sum(_negative(one.bubbles) for one in self.groups)
 
 
 def assemble(model: Any, shape: Shape) -> Assembled:
     """Energy, gradient and Hessian of a chain."""
     chain = shape.chain
-    n, m = chain.elements + 1, chain.moving.size
     groups, energy, by_load, bubble = [], 0.0, 0.0, 0.0
+    entered, columns, work = np.zeros((chain.elements, 8, 8)), np.zeros((chain.elements, 8, 5)), np.zeros(4)
+    work_by_break = np.zeros(chain.moving.size)
     for group, density in ((chain.on_rim, model.rim), (chain.free, model.interior)):
         if group.size:
             one, e, e_load, worst = _condensed(model, density, shape, group)
             groups.append(one)
             energy, by_load, bubble = energy + e, by_load + e_load, max(bubble, worst)
+            work += np.sum(one.work, axis=0)
+            work_by_break += one.work[:, 1] @ chain.longer[group] + one.work[:, 2] @ chain.shares[group]
+            _enter(shape, one, entered, columns)
+    blocks, vectors = entered.reshape(-1, 2, 4, 2, 4), columns.reshape(-1, 2, 4, 5)
+    nodal = _at_nodes(vectors)
+    shift = vectors[..., 1, None] * chain.longer[:, None, None] + vectors[..., 2, None] * chain.shares[:-1, None, None]
     out = Assembled(
-        shape, energy, by_load, np.zeros((n, 4, 4)), np.zeros((n - 1, 4, 4)), np.zeros((n, 4)), np.zeros((n, 4)),
-        np.zeros((n, 4, m)), np.zeros((n, 4)), np.zeros(m), tuple(groups), bubble, *np.zeros((3, m)),
+        shape, energy, by_load, _at_nodes(blocks[:, [0, 1], :, [0, 1]].transpose(1, 0, 2, 3)), blocks[:, 1, :, 0],
+        nodal[..., 0], nodal[..., 3], _at_nodes(shift), nodal[..., 4], work_by_break, float(work[3]), float(work[0]),
+        tuple(groups), bubble, *np.zeros((3, chain.moving.size)),
     )  # fmt: skip
-    covector = np.zeros((n, 4))
-    for one in groups:
-        _add(out, one, covector)
     if chain.free.size:
-        out.diagonal += cartesian_curvature(shape.nodes, chain.polar, covector)
-    if m:
+        out.diagonal += _curvature(shape, groups[-1])
+    if chain.moving.size:
         _react(model, out)
     return out
 
 
 def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple[Condensed, float, float, float]:
-    element = reference_element(shape.chain.degree)
-    table, places = element.table, shape.places
-    h, start = np.diff(places)[group], places[group]
-    a, rate = shape.local(group)
+    element, h, a = reference_element(shape.chain.degree), shape.lengths[group], shape.local(group)
     k, fields, size = a.shape
-    q, order = element.points.size, np.arange(3.0)
-    flat = table.reshape(3 * q, size)
-    inverse = h[:, None] ** -order  # (k, 3): h^-d
-    u = (bent(a) @ element.bending.reshape(3 * q, size).T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3) * inverse.T[
-        None, :, :, None
-    ]
-    s = start[:, None] + h[:, None] * element.points
+    q, parts = element.points.size, _parts(fields, size)
+    inverse = h ** -_ORDERS[:, None]  # h^-d: (3, k)
+    u = (bent(a) @ element.bending.reshape(3 * q, size).T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3)
+    u = u * inverse[:, :, None]
+    s = shape.places[group, None] + h[:, None] * element.points
     given = shape.chain.given[group].T[:, :, None]
     per_length = model.load_per_length(given)
     e, e_load, g, mixed, hessian = density(s, u, shape.load, given)
     weight = h[:, None] * element.weights  # (k, q)
-    scaled = inverse[:, None, :, None] * weight[:, None, None, :]  # w h h^-d: (k, 1, 3, q)
+    scaled = inverse.T[:, :, None] * weight[:, None]  # w h h^-d: (k, 3, q)
     # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
-    fall = -order[None, :, None, None] * u / h[:, None]
-    lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + (1.0 - order)[None, :, None, None] * g / h[:, None]
-    lengthen = lengthen + per_length * mixed * element.points
-    rows = np.stack([g, lengthen, mixed]).transpose(0, 3, 1, 2, 4) * scaled  # (3, k, f, d, q)
-    columns = (rows.reshape(3, k, fields, 3 * q) @ flat).reshape(3, k, fields * size)
-    gradient, by_length, by_load = columns
-    # the Hessian: one table contracted place by place, then the other over all places
-    inner = hessian * scaled[:, 0].transpose(1, 0, 2)[None, :, None, None] * inverse.T[None, None, None, :, :, None]
-    inner = inner.transpose(4, 5, 0, 1, 2, 3).reshape(k, q, fields * 3 * fields, 3)
-    half = (inner @ table.transpose(1, 0, 2)).reshape(k, q, fields, 3, fields * size)
-    half = half.transpose(0, 2, 3, 1, 4).reshape(k, fields, 3 * q, fields * size)
-    matrix = (flat.T @ half).reshape(k, fields * size, fields * size)
-    by_length = by_length + (matrix @ rate.reshape(k, -1, 1))[..., 0]
-    by_start = per_length * by_load
+    fall = u * (-_ORDERS[:, None] / h)[:, :, None]
+    lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + g * ((1.0 - _ORDERS[:, None]) / h)[:, :, None]
+    lengthen += per_length * mixed * element.points
+    rows = np.empty((3, k, fields, 3, q))
+    for row, part in zip(rows, (g, lengthen, mixed), strict=True):
+        np.multiply(part.transpose(2, 0, 1, 3), scaled[:, None], out=row)
+    columns = (rows.reshape(-1, 3 * q) @ element.table.reshape(3 * q, size)).reshape(3, k, fields * size)
+    # the Hessian: all products of derivatives of two functions at all places
+    inner = np.empty((k, fields, fields, 3, 3, q))
+    both = scaled[:, :, None] * inverse.T[:, None, :, None]
+    np.multiply(hessian.transpose(4, 0, 2, 1, 3, 5), both[:, None, None], out=inner)
+    whole = np.empty((k, fields * size, fields * size + 4))
+    whole[:, :, :-4] = (inner.reshape(-1, 9 * q) @ element.products).reshape(k, -1)[:, parts.pairs]
+    whole[:, :, -4], whole[:, :, -3], whole[:, :, -1] = columns[:, :, parts.order]
+    # the slopes' coefficients are slopes times h
+    rate = (a[..., 1:ENDS:2] / h[:, None, None]).transpose(0, 2, 1).reshape(k, -1)
+    whole[:, :, -3] += (whole[:, :, parts.slopes] @ rate[..., None])[..., 0]
+    whole[:, :, -2] = per_length * whole[:, :, -1]
     work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
-    work = work + np.sum(by_load * rate.reshape(k, -1), axis=1)
+    work += np.sum(whole[:, parts.slopes, -1] * rate, axis=1)
+    energies = float(np.sum(weight * e)), float(np.sum(weight * e_load))
+    worst = float(np.max(np.abs(whole[:, : parts.bubbles, -4]), initial=0.0))
+    return _without_bubbles(group, fields, whole, h, work), *energies, worst
 
-    ends, bubbles = _parts(fields, size)
-    kbb = matrix[:, bubbles[:, None], bubbles]
-    columns = np.stack([gradient, by_length, by_start, by_load], axis=2)
-    right = np.concatenate([matrix[:, bubbles[:, None], ends], columns[:, bubbles]], axis=2)
-    back = np.linalg.solve(kbb, right)
-    works = -np.einsum("kb,kbv->kv", columns[:, bubbles, 3], back[:, :, ends.size :])
+
+def _without_bubbles(group: IntArray, fields: int, whole: FloatArray, h: FloatArray, work: FloatArray) -> Condensed:
+    """Condense the bubbles, which stand first in the matrices with four columns (k, n, n + 4) of elements."""
+    ends = ENDS * fields
+    bubbles = whole.shape[1] - ends
+    slopes = [1, 3] if fields == 1 else [2, 3, 6, 7]
+    back = np.asarray(np.linalg.solve(whole[:, :bubbles, :bubbles], whole[:, :bubbles, bubbles:]), dtype=np.float64)
+    works = -(whole[:, None, :bubbles, -1] @ back[:, :, ends:])[:, 0]
     works[:, 1] += work
-    whole = np.concatenate([matrix[:, ends[:, None], ends], columns[:, ends]], axis=2)
-    whole = whole - matrix[:, ends[:, None], bubbles] @ back
-    slope = np.ones((k, ends.size))
-    slope[:, 1::2] = h[:, None]
-    whole[:, :, : ends.size] *= slope[:, None, :]
-    whole *= slope[:, :, None]
-    back[:, :, : ends.size] *= slope[:, None, :]
-    whole[:, 1::2, ends.size + 1] += gradient[:, ends[1::2]]  # the slopes' own factor h
-    condensed = Condensed(
-        group, fields, RIM_SLOTS if fields == 1 else FREE_SLOTS, back, gradient[:, ends] * slope,
-        whole[:, :, : ends.size], whole[:, :, ends.size :], works, _negative(kbb),
-    )  # fmt: skip
-    worst = float(np.max(np.abs(gradient[:, bubbles]), initial=0.0))
-    return condensed, float(np.sum(weight * e)), float(np.sum(weight * e_load)), worst
+    gradient = whole[:, bubbles:, -4]
+    left = whole[:, bubbles:, bubbles:] - whole[:, bubbles:, :bubbles] @ back
+    scale = np.ones((h.size, ends + 4))
+    scale[:, slopes] = h[:, None]
+    left *= scale[:, None]
+    left *= scale[:, :ends, None]
+    back *= scale[:, None]
+    left[:, slopes, ends + 1] += gradient[:, slopes]
+    vectors = np.concatenate([left[:, :, ends:], (gradient * scale[:, :ends])[..., None]], axis=2)
+    return Condensed(group, fields, back, whole[:, :bubbles, :bubbles], left[:, :, :ends], vectors, works)
+
+
+class _Parts(NamedTuple):
+    """Of the functions of all fields, bubbles first, then those of the ends as nodes have them.
+
+    ``order``: where each is among them field by field; ``pairs``: where each pair is among those of functions, by pairs
+    of fields; ``slopes``: the numbers of the slopes; ``bubbles``: how many there are.
+    """
+
+    order: IntArray
+    pairs: IntArray
+    slopes: IntArray
+    bubbles: int
 
 
 @lru_cache(maxsize=32)
-def _parts(fields: int, size: int) -> tuple[IntArray, IntArray]:
-    """Where the functions of the ends, and the bubbles, stand among those of all fields."""
-    ends = (np.arange(ENDS)[None, :] + size * np.arange(fields)[:, None]).ravel()
-    return ends, np.setdiff1d(np.arange(fields * size), ends)
+def _parts(fields: int, size: int) -> _Parts:
+    numbers = np.arange(fields * size).reshape(fields, size)
+    order = np.concatenate([numbers[:, ENDS:].ravel(), numbers[:, :ENDS].T.ravel()])
+    field, function = np.divmod(order, size)
+    pair = field[:, None] * fields + field
+    pairs = (pair * size + function[:, None]) * size + function
+    return _Parts(order, pairs, np.flatnonzero((function == 1) | (function == 3)), fields * (size - ENDS))
 
 
 def _negative(blocks: FloatArray) -> int:
@@ -190,35 +203,33 @@ def _negative(blocks: FloatArray) -> int:
     return 0
 
 
-def _add(out: Assembled, one: Condensed, covector: FloatArray) -> None:
-    """Add elements of a kind to the chain's blocks, in the coordinates of its nodes."""
-    group, chain = one.group, out.shape.chain
-    k = group.size
-    block: FloatArray = np.zeros((k, 8, 8))
-    block[:, one.slots[:, None], one.slots] = one.block
-    vectors: FloatArray = np.zeros((k, 8, 5))
-    vectors[:, one.slots, :4] = one.vectors
-    vectors[:, one.slots, 4] = one.raw
-    block, vectors = np.asarray(block.reshape(k, 2, 4, 2, 4)), np.asarray(vectors.reshape(k, 2, 4, 5))
-    if one.fields == 2:
-        for end in range(2):
-            np.add.at(covector, group + end, vectors[:, end, :, 4])
-        to_polar = out.shape.to_cartesian
-        turn = np.stack([to_polar[group], to_polar[group + 1]], axis=1)  # (k, end, cartesian, coordinate)
-        block = np.einsum("kaic,kaibj->kacbj", turn, block)
-        block = np.einsum("kacbj,kbjd->kacbd", block, turn)
-        vectors = np.einsum("kaic,kaiv->kacv", turn, vectors)
-    for end in range(2):
-        np.add.at(out.diagonal, group + end, block[:, end, :, end])
-        np.add.at(out.residual, group + end, vectors[:, end, :, 0])
-        np.add.at(out.by_load, group + end, vectors[:, end, :, 3])
-        np.add.at(out.plain, group + end, vectors[:, end, :, 4])
-        longer = (chain.shares[group + 1] - chain.shares[group])[:, None, :]
-        change = vectors[:, end, :, 1, None] * longer + vectors[:, end, :, 2, None] * chain.shares[group][:, None, :]
-        np.add.at(out.by_break, group + end, change)
-    longer = chain.shares[group + 1] - chain.shares[group]
-    out.work_by_break += one.work[:, 1] @ longer + one.work[:, 2] @ chain.shares[group]
-    out.below[group] = block[:, 1, :, 0]
+def _enter(shape: Shape, one: Condensed, blocks: FloatArray, vectors: FloatArray) -> None:
+    """Enter elements of a kind in the coordinates of their nodes: (e, 8, 8) and (e, 8, 5)."""
+    group = one.group
+    if one.fields == 1:
+        blocks[group[:, None, None], RIM_SLOTS[:, None], RIM_SLOTS] = one.block
+        vectors[group[:, None], RIM_SLOTS] = one.vectors
+        return
+    turn = np.zeros((group.size, 8, 8))
+    turn[:, :4, :4], turn[:, 4:, 4:] = shape.to_cartesian[group], shape.to_cartesian[group + 1]
+    back = turn.transpose(0, 2, 1)
+    blocks[group], vectors[group] = back @ one.block @ turn, back @ one.vectors
+
+
+def _at_nodes(ends: FloatArray) -> FloatArray:
+    """The sums at the nodes (e+1, …) of what elements give to their ends, (e, 2, …)."""
+    out = np.zeros((ends.shape[0] + 1, *ends.shape[2:]))
+    out[:-1] = ends[:, 0]
+    out[1:] += ends[:, 1]
+    return out
+
+
+def _curvature(shape: Shape, free: Condensed) -> FloatArray:
+    """What the curvature of polar coordinates adds to the Hessian of free elements, (n, 4, 4)."""
+    covector = np.zeros_like(shape.nodes)
+    covector[free.group] = free.vectors[:, :4, 4]
+    covector[free.group + 1] += free.vectors[:, 4:, 4]
+    return cartesian_curvature(shape.nodes, shape.chain.polar, covector)
 
 
 def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: float, residual: float) -> FloatArray:
@@ -227,19 +238,16 @@ def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: floa
     ``residual`` is 1 in Newton's method, 0 for a tangent.
     """
     chain = out.shape.chain
-    cart = (out.shape.to_cartesian @ nodes[..., None])[..., 0]
     result = np.zeros((chain.elements, 2, chain.bubbles))
-    shift = chain.shares @ breaks
+    columns = np.empty((chain.elements, 4))
+    columns[:, 0], columns[:, 3] = residual, load
+    columns[:, 1], columns[:, 2] = chain.longer @ breaks, chain.shares[:-1] @ breaks
     for one in out.groups:
         group = one.group
-        values = cart if one.fields == 2 else nodes
-        ends = np.concatenate([values[group], values[group + 1]], axis=1)[:, one.slots]
-        extra = np.stack(
-            [np.full(group.size, residual), shift[group + 1] - shift[group], shift[group], np.full(group.size, load)],
-            axis=1,
-        )
-        step = -np.einsum("kij,kj->ki", one.back, np.concatenate([ends, extra], axis=1))
-        result[group, : one.fields] = step.reshape(group.size, one.fields, -1)
+        values = nodes if one.fields == 1 else (out.shape.to_cartesian @ nodes[..., None])[..., 0]
+        ends = [values[group], values[group + 1]] if one.fields == 2 else [values[group, 1::2], values[group + 1, 1::2]]
+        known = np.concatenate([*ends, columns[group]], axis=1)
+        result[group, : one.fields] = -(one.back @ known[..., None]).reshape(group.size, one.fields, -1)
     return result
 
 
@@ -250,14 +258,15 @@ def _react(model: Any, out: Assembled) -> None:
     from stretches on the rim; and the outward forces with which the rod presses on the rim. The energy of a stretch on
     the rim does not know r and r′: its part comes from the cut, ``rim_reaction``.
     """
-    chain, moving = out.shape.chain, out.shape.chain.moving
-    out.moments += out.residual[moving, RADIAL_SLOPE]
-    out.forces -= out.plain[moving, 0]
-    before, after = np.flatnonzero(chain.touching[moving - 1]), np.flatnonzero(chain.touching[moving])
-    cut, ahead = np.concatenate([before, after]), np.repeat([1, 0], [before.size, after.size])
-    if cut.size:  # at the end of the element before the node, or at the start of that after it
-        u = out.shape.along(moving[cut] - ahead, ahead[:, None].astype(float))[0, ..., 0]
-        turn, by_rate, shear = model.rim_reaction(u, chain.given[moving[cut] - ahead].T)
-        sign = 2.0 * ahead - 1.0
-        for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, -shear)):
-            np.add.at(total, cut, sign * part)
+    shape, chain = out.shape, out.shape.chain
+    out.moments += out.residual[chain.moving, RADIAL_SLOPE]
+    out.forces -= out.plain[chain.moving, 0]
+    cuts = chain.cuts
+    if cuts.number.size:
+        node, at = chain.moving[cuts.number], cuts.element
+        bend = np.sum(bent(shape.local(at)[:, 0]) * reference_element(chain.degree).end_bends[cuts.ahead], axis=1)
+        bend = bend / shape.lengths[at] ** 2
+        turn, by_rate, push = model.rim_reaction(shape.nodes[node, ANGLE_RATE], bend, chain.given[at].T)
+        sign = 2.0 * cuts.ahead - 1.0
+        for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, push)):
+            np.add.at(total, cuts.number, sign * part)

@@ -24,12 +24,16 @@ ENDS = 4
 class ReferenceElement(NamedTuple):
     """An element's functions at its Gauss points: ``table`` (3, q, p+1), ``points``, ``weights`` (q,) on [0, 1].
 
-    ``bending`` (3, q, p+1) is the table for coefficients as :func:`bent` has them.
+    ``bending`` (3, q, p+1) is the table for coefficients as :func:`bent` has them, and ``end_bends`` (2, p+1) that of
+    second derivatives at the two ends. ``products`` (9q, (p+1)²): derivatives of two functions, each of three orders,
+    place by place, multiplied.
     """
 
     degree: int
     table: FloatArray
     bending: FloatArray
+    end_bends: FloatArray
+    products: FloatArray
     points: FloatArray
     weights: FloatArray
 
@@ -40,7 +44,9 @@ def reference_element(degree: int) -> ReferenceElement:
     points, weights = legendre.leggauss(degree + 2)
     places = 0.5 * (points + 1.0)
     table, bending = (tabulate(degree, places, 3, rigid=rigid) for rigid in (False, True))
-    return ReferenceElement(degree, table, bending, places, 0.5 * weights)
+    ends = tabulate(degree, np.array([0.0, 1.0]), 3, rigid=True)[2]
+    products = (table[:, None, :, :, None] * table[:, :, None, :]).reshape(9 * places.size, (degree + 1) ** 2)
+    return ReferenceElement(degree, table, bending, ends, products, places, 0.5 * weights)
 
 
 @lru_cache(maxsize=32)
@@ -89,13 +95,30 @@ def tabulate(degree: int, places: FloatArray, orders: int, *, rigid: bool = Fals
 
     With ``rigid`` those that belong to the coefficients of :func:`bent`.
     """
+    return np.asarray(_legendre(degree, places) @ _derivatives(degree, orders, rigid))
+
+
+def _legendre(degree: int, places: FloatArray) -> FloatArray:
+    """Legendre polynomials of 2ξ − 1 at ``places`` (k,): (k, p+1)."""
     t = 2.0 * np.asarray(places, dtype=float) - 1.0
-    values = np.ones((t.size, degree + 1))
+    values = np.ones((degree + 1, t.size))
     if degree:
-        values[:, 1] = t
-    for n in range(2, degree + 1):  # Legendre polynomials by their recurrence
-        values[:, n] = ((2 * n - 1) * t * values[:, n - 1] - (n - 1) * values[:, n - 2]) / n
-    return np.asarray(values @ _derivatives(degree, orders, rigid))
+        values[1] = t
+    for n in range(2, degree + 1):  # by their recurrence
+        values[n] = (2 - 1 / n) * t * values[n - 1] - (1 - 1 / n) * values[n - 2]
+    return values.T
+
+
+def sampled(a: FloatArray, places: FloatArray, orders: int) -> FloatArray:
+    """What functions with coefficients ``a`` (k, fields, p+1), as :func:`bent` has them, are at ``places`` (k, n).
+
+    With their first ``orders`` − 1 derivatives by ξ: (fields, orders, k, n).
+    """
+    k, fields, size = a.shape
+    table = _legendre(size - 1, places.ravel()).reshape(*places.shape, size)
+    series = a @ _derivatives(size - 1, orders, True).transpose(2, 0, 1).reshape(size, orders * size)
+    values = series.reshape(k, fields * orders, size) @ table.transpose(0, 2, 1)
+    return values.reshape(k, fields, orders, -1).transpose(1, 2, 0, 3)
 
 
 @lru_cache(maxsize=32)

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from typing import Any
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rodwell.numerics.stretches.assembly import Assembled
 from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIAL_SLOPE, Chain
-from rodwell.quantities.arrays import BoolArray, FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 
 WIDTH = 8
 """Coordinates of two neighbouring nodes: the Hessian's band."""
 
+REACH = WIDTH - 1
+ROWS = 3 * REACH + 1
+"""Diagonals on either side, and rows of LAPACK's storage of such a band, with room for pivoting."""
 
 Factors = tuple[FloatArray, Any]
 """Of a band: the two triangles, and the pivots (4n,)."""
@@ -56,30 +59,55 @@ def fixed_work(chain: Chain, work: float, load: float = 0.0) -> Row:
     return Row(np.zeros((chain.elements + 1, 4)), np.zeros(chain.moving.size), load, work, 1.0)
 
 
+class _Entries(NamedTuple):
+    """Where entries of blocks, and of a lower band (4n, 8), stand in flat storage.
+
+    ``diagonal`` picks entries of blocks (n, 4, 4), ``at_diagonal`` are their places in the band, and ``at_below`` those
+    of blocks (n−1, 4, 4) below; ``band`` picks those of the band that stand within the matrix, ``lower`` and ``upper``
+    are their places, and those of their mirror images, in LAPACK's storage of a general band, column by column.
+    """
+
+    diagonal: IntArray
+    at_diagonal: IntArray
+    at_below: IntArray
+    band: IntArray
+    lower: IntArray
+    upper: IntArray
+
+
+@lru_cache(maxsize=64)
+def _entries(nodes: int) -> _Entries:
+    node, i, j = np.unravel_index(np.arange(16 * nodes), (nodes, 4, 4))
+    low = np.flatnonzero(i >= j)
+    at_diagonal = ((4 * node + j) * WIDTH + i - j)[low]
+    at_below = ((4 * node + j) * WIDTH + 4 + i - j)[:-16]
+    column, offset = np.divmod(np.arange(4 * nodes * WIDTH), WIDTH)
+    within = np.flatnonzero(column + offset < 4 * nodes)
+    column, row = column[within], (column + offset)[within]
+    lower = column * ROWS + 2 * REACH + row - column
+    upper = row * ROWS + 2 * REACH + column - row
+    return _Entries(low, at_diagonal, at_below, within, lower, upper)
+
+
 def lower_band(diagonal: FloatArray, below: FloatArray, held: BoolArray) -> FloatArray:
     """Blocks as the lower triangle of a band, rows and columns that are held replaced by those of the identity."""
-    n = diagonal.shape[0]
-    free = ~held
-    diagonal = diagonal * (free[:, :, None] & free[:, None, :])
-    diagonal[:, np.arange(4), np.arange(4)] += held
-    below = below * (free[1:, :, None] & free[:-1, None, :])
-    band = np.zeros((n, 4, WIDTH))
-    for j in range(4):
-        for i in range(j, 4):
-            band[:, j, i - j] = diagonal[:, i, j]
-        for i in range(4):
-            band[:-1, j, 4 + i - j] = below[:, i, j]
+    n, free = diagonal.shape[0], (~held).astype(float)
+    at = _entries(n)
+    diagonal = diagonal * free[:, :, None] * free[:, None, :]
+    diagonal.reshape(n, 16)[:, ::5] += held
+    band = np.zeros(4 * n * WIDTH)
+    band[at.at_diagonal] = diagonal.ravel()[at.diagonal]
+    band[at.at_below] = (below * free[1:, :, None] * free[:-1, None, :]).ravel()
     return band.reshape(4 * n, WIDTH)
 
 
 def factorised(band: FloatArray) -> Factors:
     """Factors with pivoting of a symmetric band (4n, 8)."""
-    size, reach = band.shape[0], WIDTH - 1
-    general = np.zeros((3 * reach + 1, size))
-    for k in range(WIDTH):
-        general[2 * reach + k, : size - k] = band[: size - k, k]
-        general[2 * reach - k, k:] = band[: size - k, k]
-    lu, pivots, _ = _lapack().dgbtrf(general, reach, reach, overwrite_ab=True)
+    at, size = _entries(band.shape[0] // 4), band.shape[0]
+    general, entries = np.zeros(size * ROWS), band.ravel()[at.band]
+    general[at.upper] = entries
+    general[at.lower] = entries
+    lu, pivots, _ = _lapack().dgbtrf(general.reshape(size, ROWS).T, REACH, REACH, overwrite_ab=True)
     return lu, pivots
 
 
@@ -105,7 +133,9 @@ class Bordered:
         """Increments of nodes, breaks and load that cancel residuals (n, 4) and (m,), and for which the row is met."""
         m, free = moments.size, ~self.chain.unmoved
         first = solved_with(self.factors, residual * free)
-        known = np.append(np.tensordot(self.lines, first, 2) - moments, target + np.sum(self.row.nodes * free * first))
+        known = np.empty(m + 1)
+        known[:m] = self.lines.reshape(m, first.size) @ first.ravel() - moments
+        known[m] = target + np.sum(self.row.nodes * free * first)
         extra = np.linalg.solve(self.small, known)
         nodes = -(first + self.answers @ extra)
         return np.asarray(nodes * free), np.asarray(extra[:m], dtype=float), float(extra[m])
@@ -114,7 +144,7 @@ class Bordered:
 def solved_with(factors: Factors, columns: FloatArray) -> FloatArray:
     """Solve with the factors of a band: columns (4n, …) at once, or (n, 4, …)."""
     flat = columns.reshape(factors[1].size, -1)
-    return np.asarray(_lapack().dgbtrs(factors[0], WIDTH - 1, WIDTH - 1, flat, factors[1])[0].reshape(columns.shape))
+    return np.asarray(_lapack().dgbtrs(factors[0], REACH, REACH, flat, factors[1])[0].reshape(columns.shape))
 
 
 def bordered(out: Assembled, row: Row) -> Bordered:
@@ -136,9 +166,11 @@ def bordered(out: Assembled, row: Row) -> Bordered:
     lines[breaks, moving + 1] = out.below[moving, :, RADIAL_SLOPE]
     lines[breaks, moving, ANGLE_RATE] += out.moment_rates
     lines *= free
-    small = np.vstack([columns[moving, RADIAL_SLOPE], np.append(row.breaks, row.load)])
-    small[:m] -= np.tensordot(lines, answers, 2)
-    small[m] -= np.tensordot(row.nodes * free, answers, 2)
+    small = np.empty((m + 1, m + 1))
+    small[:m], small[m, :m], small[m, m] = columns[moving, RADIAL_SLOPE], row.breaks, row.load
+    flat = answers.reshape(4 * n, m + 1)
+    small[:m] -= lines.reshape(m, 4 * n) @ flat
+    small[m] -= (row.nodes * free).ravel() @ flat
     return Bordered(chain, row, factors, lines, answers, small)
 
 

@@ -100,7 +100,7 @@ def fit(chain: Chain, breaks: FloatArray, load: float, sample: Sampler, held: Fl
     bubbles = np.zeros((chain.elements, 2, chain.bubbles))
     for group, source in ((chain.on_rim, angle[None]), (chain.free, fields)):
         if group.size:
-            a = shape.local(group)[0]
+            a = shape.local(group)
             bend = source[:, 2].reshape(source.shape[0], *s.shape)[:, group] * h[group, None] ** 2
             rest = bend.transpose(1, 0, 2) - np.einsum("qi,kfi->kfq", table[:, :4], a[..., :4])
             bubbles[group, : source.shape[0]] = rest @ project.T

@@ -17,14 +17,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.numerics.stretches.basis import ENDS, bent, tabulate
+from rodwell.numerics.stretches.basis import ENDS, bent, sampled
 from rodwell.quantities.arrays import BoolArray, FloatArray, IntArray
 
 RADIUS, ANGLE, RADIAL_SLOPE, ANGLE_RATE = range(4)
 """Coordinates of a polar node."""
+
+
+class Cuts(NamedTuple):
+    """Ends of stretches on the rim that may move, (k,).
+
+    Their ``number`` among the moving nodes, the ``element`` on the rim, and which of its ends it is: ``ahead`` is 0 at
+    its start, 1 at its end.
+    """
+
+    number: IntArray
+    element: IntArray
+    ahead: IntArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,6 +110,18 @@ class Chain:
         """Which of the moving nodes are points of contact: free on both sides."""
         return ~(self.touching[self.moving - 1] | self.touching[self.moving])
 
+    @cached_property
+    def cuts(self) -> Cuts:
+        """Ends of stretches on the rim at moving nodes: first those where one ends, then those where one begins."""
+        before, after = (np.flatnonzero(self.touching[self.moving - ahead]) for ahead in (1, 0))
+        number, ahead = np.concatenate([before, after]), np.repeat([1, 0], [before.size, after.size])
+        return Cuts(number, self.moving[number] - ahead, ahead)
+
+    @cached_property
+    def longer(self) -> FloatArray:
+        """How much longer each element becomes as a break moves, (e, m)."""
+        return np.diff(self.shares, axis=0)
+
     def places(self, breaks: FloatArray) -> FloatArray:
         """Where the nodes are, (e+1,)."""
         return np.asarray(self.base + self.shares @ breaks)
@@ -121,6 +146,11 @@ class Shape:
         return self.chain.places(self.breaks)
 
     @cached_property
+    def lengths(self) -> FloatArray:
+        """How long the elements are, (e,)."""
+        return np.diff(self.places)
+
+    @cached_property
     def cartesian(self) -> FloatArray:
         """(X, Y, X′, Y′) at the nodes, (e+1, 4)."""
         return cartesian(self.nodes, self.chain.polar)
@@ -134,32 +164,25 @@ class Shape:
         """The shape after an increment."""
         return Shape(self.chain, self.nodes + nodes, self.bubbles + bubbles, self.breaks + breaks, self.load + load)
 
-    def local(self, group: IntArray) -> tuple[FloatArray, FloatArray]:
-        """Coefficients of elements of one kind, (k, fields, p+1), and their derivatives by the length."""
-        h = np.diff(self.places)[group]
-        if self.chain.touching[group].all() and group.size:
-            ends = np.stack([self.nodes[group][:, [1, 3]], self.nodes[group + 1][:, [1, 3]]], axis=1)[:, None]
-            fields = 1
-        else:
-            ends = np.stack(
-                [self.cartesian[group].reshape(-1, 2, 2), self.cartesian[group + 1].reshape(-1, 2, 2)], axis=1
-            )  # element, end, order, field
-            ends = ends.transpose(0, 3, 1, 2)
-            fields = 2
-        values = ends.reshape(group.size, fields, 4)
-        a = np.concatenate([values, self.bubbles[group][:, :fields]], axis=2)
-        rate = np.zeros_like(a)
-        rate[..., 1:4:2] = a[..., 1:4:2]
-        a[..., 1:4:2] *= h[:, None, None]
-        return a, rate
+    def local(self, group: IntArray) -> FloatArray:
+        """Coefficients of elements of one kind, (k, fields, p+1): slopes are multiplied by the length."""
+        if self.chain.touching[group[:1]].any():
+            fields, ends = 1, [self.nodes[group, 1::2], self.nodes[group + 1, 1::2]]
+        else:  # order, field to field, order
+            fields, ends = 2, [self._lateral[group], self._lateral[group + 1]]
+        a = np.concatenate([*(end.reshape(-1, fields, 2) for end in ends), self.bubbles[group, :fields]], axis=2)
+        a[..., 1:ENDS:2] *= self.lengths[group, None, None]
+        return a
+
+    @cached_property
+    def _lateral(self) -> FloatArray:
+        """(X, X′), (Y, Y′) at the nodes, (e+1, 2, 2)."""
+        return self.cartesian.reshape(-1, 2, 2).transpose(0, 2, 1)
 
     def along(self, elements: IntArray, xi: FloatArray, orders: int = 4) -> FloatArray:
         """Fields and derivatives by s at parts ``xi`` (k, n) of elements of one kind (k,): (fields, orders, k, n)."""
-        a = bent(self.local(elements)[0])
-        h = self.places[elements + 1] - self.places[elements]
-        table = tabulate(self.chain.degree, xi.ravel(), orders, rigid=True).reshape(orders, *xi.shape, -1)
-        values = np.moveaxis(table @ a.transpose(0, 2, 1), -1, 0)
-        return np.asarray(values * (h ** -np.arange(orders)[:, None])[..., None])
+        a, h = bent(self.local(elements)), self.lengths[elements]
+        return np.asarray(sampled(a, xi, orders) * (h ** -np.arange(orders)[:, None])[..., None])
 
     def at(self, element: int, xi: FloatArray, orders: int = 4) -> FloatArray:
         """Fields of one element and derivatives by s at parts ``xi`` (k,) of it: (fields, orders, k)."""

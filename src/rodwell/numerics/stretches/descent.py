@@ -7,6 +7,7 @@ contact.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -31,8 +32,14 @@ that is accepted."""
 AT_REST = 1e-7
 """Steps below this, in coordinates of nodes, are round-off: what corrects them tells nothing."""
 
-SLOWER, FASTER = 2.5, 0.4
-"""Most by which the rate grows, and falls, from a step to the next."""
+SLOWER, LEAST_SLOWER, FASTER = 2.5, 1.5, 0.4
+"""Most by which the rate grows, least by which it does after a step that was too wrong, and most by which it falls."""
+
+STEEPEST, FORGOTTEN = 8.0, 0.85
+"""With which power of the rate a step becomes less wrong: two steps from one shape tell, the first of them refused.
+
+No more than the first; and where nothing was refused what they told is forgotten by this factor from step to step.
+"""
 
 POSITION_MASS, SLOPE_MASS = 0.5, 1.0 / 105.0
 """Mass at a node from an element beside it: of values, times its length, and of slopes, times its cube."""
@@ -141,23 +148,29 @@ def descended(
     rim, rate = SoftRim(model, stiffness), FIRST_RATE
     out, mass = assemble(rim, shape), _mass(shape)
     walked, rates = [shape.cartesian[:, :2].ravel()], []
+    refused, steepness = None, 1.0
     for _ in range(MOST_EULER_STEPS):
         pulled = replace(out, diagonal=out.diagonal + rate * mass)
         ahead, wrong = None, np.inf
         if index(Solved(rim, pulled)) == 0:
             ahead, wrong = _euler_step(rim, pulled, row, rate * mass)
         if ahead is None or wrong > MOST * wanted:
-            rate *= SLOWER
+            refused = rate, wrong
+            rate *= min(max((wrong / wanted) ** (1.0 / steepness), LEAST_SLOWER), SLOWER)
             if rate > HIGHEST_RATE:
                 return None
             continue
+        steepness = max(FORGOTTEN * steepness, 1.0)
+        if refused is not None and np.isfinite(refused[1]):
+            steepness = min(max(math.log(refused[1] / wrong) / math.log(rate / refused[0]), 1.0), STEEPEST)
+        refused = None
         out = ahead
         walked.append(out.shape.cartesian[:, :2].ravel())
         rates.append(rate)
         met = next((way for way in ways or () if way.passes(walked[-1])), None)
         if met is not None:
             return met.end
-        rate *= min(max(wrong / wanted, FASTER), SLOWER)
+        rate *= min(max((wrong / wanted) ** (1.0 / steepness), FASTER), SLOWER)
         if rate < LOWEST_RATE:
             rest = solve(rim, out.shape, row)[1]
             if rest is not None and index(rest) == 0:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rodwell.quantities.arrays import FloatArray
 
-CLOSER, ZOOMS = 9, 4
+CLOSER, ZOOMS = 17, 3
 """Places of each closer look at a minimum, and how many looks: the last are some thousandths of an element apart."""
 
 

@@ -38,3 +38,26 @@ def in_space(x: FloatArray, y: FloatArray, axial_resultant: FloatArray, twist: f
     across = -stiffness * (t2 + square * t) - twist * np.cross(t, t1, axis=0)
     tension = (axial_resultant - across[2]) / z1
     return InSpace(t, across + tension * t, np.sqrt(square), tension)
+
+
+def radially_at_wall(
+    rate: FloatArray, bend: FloatArray, radius: FloatArray, twist: float, stiffness: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the outward force there, (k,) each.
+
+    From φ′ and φ″, with Δ, T₁ and b there. Seen from the place itself, φ = 0, r̂ = (−1, 0) and θ̂ = (0, 1), the rod has
+    x′ = 0, y′ = Δφ′, x″ = Δφ′², y″ = Δφ″, x‴ = 3Δφ′φ″. What a variation of r and r′ does at the cut is M = ∂e/∂u″ · r̂
+    and −R = Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′ and the energy e off the wall (``energy``): with
+    z′² = 1 − y′²
+
+        M = −bΔφ′² + T₁Δφ′/(1 + z′),    R = T₁Δφ″/z′ − bΔφ′φ″ (3 + 1/z′²).
+
+    Weight and end force do not enter.
+    """
+    y1 = radius * rate
+    square = 1.0 - y1**2
+    z1 = np.sqrt(square)
+    moment = y1 * (twist / (1.0 + z1) - stiffness * rate)
+    by_rate = radius * (twist / (z1 * (1.0 + z1)) - 2.0 * stiffness * rate)
+    outward = radius * bend * (twist / z1 - stiffness * rate * (3.0 + 1.0 / square))
+    return moment, by_rate, outward
