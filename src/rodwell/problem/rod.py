@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.problem.profile import Profile, Ratio, ReciprocalIntegral, along, extremes, integral_from_1, powers
+from rodwell.problem.profile import Profile, Ratio, ReciprocalIntegral, along, extremes, integral_from_1, powers, reach
 from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 from rodwell.quantities.arrays import BoolArray, FloatArray
 
@@ -59,11 +59,24 @@ class Rod:
         """B(s)/B."""
         return self._profile(1)
 
+    def ranges(self, ratio: str) -> FloatArray:
+        """The least and the largest value in each section of a ratio, (2, n)."""
+        which = COLUMNS.index(ratio)
+        return np.asarray(np.transpose([extremes(section[which])[::2] for section in self.sections]))
+
+    @cached_property
+    def stiffness_reach(self) -> FloatArray:
+        """How far each section is from where its polynomial of the stiffness vanishes in the complex plane, (n,), in L.
+
+        A polynomial of the shape converges the faster, the shorter its element is against that.
+        """
+        return np.diff(self.breaks) * np.array([reach(section[1]) for section in self.sections])
+
     @cached_property
     def stiffness_range(self) -> tuple[float, float]:
         """The least and the largest B(s)/B."""
-        ranges = [extremes(section[1]) for section in self.sections]
-        return min(least for least, _, _ in ranges), max(most for _, _, most in ranges)
+        least, most = self.ranges("stiffness")
+        return float(np.min(least)), float(np.max(most))
 
     @cached_property
     def weight(self) -> Profile:

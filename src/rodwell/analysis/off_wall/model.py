@@ -4,7 +4,8 @@ Lateral position and y are measured in Δ, the energy in BΔ²/L³, so that numb
 On the wall the density of :mod:`rodwell.physics.on_wall` serves, off it that of :mod:`rodwell.physics.off_wall`; they
 are equal where both hold. A section of a string is a uniform rod of its own constants, on the wall and off it
 (:mod:`rodwell.physics.on_wall.sections`), in a hole of its own clearance; what is ``given`` in an element are these: b,
-q, d and the clearance ρ in Δ, in that order.
+q, d and the clearance ρ in Δ, in that order; where sections taper, the polynomials of
+:mod:`rodwell.physics.on_wall.tapered` in place of b, q and d.
 """
 
 from __future__ import annotations
@@ -16,11 +17,13 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.family import polynomials
 from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
 from rodwell.physics.on_wall.strand import contact_pressure
+from rodwell.physics.on_wall.tapered import here, more_pressure, stiffness_rates, weight_rate
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -52,14 +55,39 @@ class RodInHole:
 
     @cached_property
     def given(self) -> FloatArray:
-        """b, q, d and ρ of each section, (n, 4)."""
+        """b, q, d and ρ of each section, (n, 4); where sections taper their polynomials and ρ, (n, 18)."""
         rod = self.problem.rod
+        if self.problem.tapered:
+            return np.concatenate([polynomials(rod), rod.clearance.coefficients[:, :1]], axis=1)
         offset, weight = rod.lever.coefficients.T
         return np.stack([rod.stiffness.coefficients[:, 0], weight, offset, rod.clearance.coefficients[:, 0]], axis=1)
 
-    def load_per_length(self, given: FloatArray) -> FloatArray:
-        """Axial weight q wₐ: a section's density depends on s only through N(s) = F + wₐ(d + q(s − 1))."""
-        return np.asarray(given[1] * self.problem.axial_weight)
+    def _at(self, s: FloatArray, given: FloatArray) -> Any:
+        """b, q, d and ρ at places."""
+        return (*here(s, given), given[-1]) if self.problem.tapered else given
+
+    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
+        """The derivative of the gradient of a density by s at the same fields (f, 3, e, q) and load.
+
+        The density is linear in b, N and q wₗ, and N′ = q wₐ: in a section of constants nothing else depends on s.
+        """
+        out = self._at(s, given)[1] * self.problem.axial_weight * mixed
+        if not self.problem.tapered:
+            return np.asarray(out)
+        own, lateral, d, radius = self._beside(0.0, given), np.zeros(COUNT), self.problem.clearance, given[-1]
+        lateral[LATERAL_WEIGHT] = self.problem.foundation
+        for load in (AXIAL_WEIGHT, LATERAL_WEIGHT, TWIST):
+            own[load] = 0.0
+        rate, heavier = stiffness_rates(s, given)[0], weight_rate(s, given)
+        if u.shape[0] == 1:
+            y = (d * radius) * u[0]
+            _, _, g, m, _ = section_density(s, y[0], y[1], y[2], (1.0, 1.0, 0.0), own, lateral)
+            return np.asarray(out + radius / d * (rate * _stacked(g, s.shape) + heavier * _stacked(m, s.shape)))
+        (x, x1, x2), (_, y1, y2) = d * u
+        _, _, g, m, _ = hole_density(s, x, x1, x2, y1, y2, own, lateral)
+        for i, (f, k) in enumerate(((0, 0), *_FREE)):
+            out[f, k] += (rate * g[i] + heavier * m[i]) / d
+        return np.asarray(out)
 
     def parameters(self, load: float) -> FloatArray:
         """Parameters at an end force: those of the rod kept on the wall, the first of which serve off it."""
@@ -70,12 +98,12 @@ class RodInHole:
     def _beside(self, load: float, given: FloatArray) -> list[Any]:
         """Parameters at an end force, with the clearance beside each element."""
         out = list(self.parameters(load))
-        out[CLEARANCE] = self.problem.clearance * given[3]
+        out[CLEARANCE] = self.problem.clearance * given[-1]
         return out
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
-        d, radius = self.problem.clearance, given[3]
+        d, radius, given = self.problem.clearance, given[-1], self._at(s, given)
         y = (d * radius) * u[0]
         e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given[:3], self._beside(load, given), _BY_FORCE)
         shape = s.shape
@@ -90,6 +118,7 @@ class RodInHole:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
         d = self.problem.clearance
         (x, x1, x2), (_, y1, y2) = d * u
+        given = self._at(s, given)
         b = given[0]  # of the softness 1/b under every load, as in the sections of a rod on the wall
         own = of_section(given[:3], self._beside(load, given), 1.0 / b)
         e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, own, _BY_FORCE)
@@ -106,14 +135,18 @@ class RodInHole:
             energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
         return energy, rate / d**2, gradient, mixed / d, hessian
 
-    def rim_reaction(self, u: FloatArray, given: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def rim_reaction(
+        self, s: FloatArray, u: FloatArray, given: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radial moment at a cut of a rod on the wall, its derivative by φ′, and the radial force there, (k,) each.
 
         They are ∂e/∂u″ · r̂, and Q · r̂ + φ′ ∂e/∂u″ · θ̂ with Q = ∂e/∂u′ − (∂e/∂u″)′: what a variation of r and r′ at
         the cut does, for the energy off the wall at a shape on it, from φ with three derivatives (4, k). Weight and end
         force do not enter; seen from the place itself, φ = 0 there, r̂ = (−1, 0) and θ̂ = (0, 1).
         """
-        d, b, radius = self.problem.clearance, given[0], self.problem.clearance * given[3]
+        d, rate = self.problem.clearance, stiffness_rates(s, given)[0] if self.problem.tapered else 0.0
+        given = self._at(s, given)
+        b, radius = given[0], d * given[3]
         phi1, phi2, phi3 = u[1:4]
         nil = np.zeros_like(phi1)
         x2, y2 = radius * phi1**2, radius * phi2
@@ -123,13 +156,17 @@ class RodInHole:
         by_slopes, by_bends = (h[1][0], h[1][2]), (h[1][1], h[1][3])  # second derivatives by x″ and x′, y′ or x″, y″
         shear = g[1] - by_slopes[0] * x2 - by_slopes[1] * y2 - by_bends[0] * x3 - by_bends[1] * y3
         by_rate = -by_slopes[1] - 2.0 * phi1 * by_bends[0]
-        return -b * g[2] / d, b * given[3] * by_rate, b * (phi1 * g[4] - shear) / d
+        # b′ is that of bending alone: twist is refused beside tapers
+        return -b * g[2] / d, b * given[3] * by_rate, (b * (phi1 * g[4] - shear) + rate * g[2]) / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""
-        y = self.problem.clearance * given[3] * angle
-        own = of_section(given[:3], self._beside(load, given))
-        return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], own, given[0]))
+        y, at = self.problem.clearance * given[-1] * angle, self._at(s, given)
+        own = of_section(at[:3], self._beside(load, given))
+        pressure = contact_pressure(s, y[0], y[1], y[2], y[3], own, at[0])
+        if self.problem.tapered:
+            pressure = pressure + more_pressure(y[1], y[2], y[3], own[CLEARANCE], *stiffness_rates(s, given))
+        return np.asarray(pressure)
 
 
 def _stacked(rows: Any, shape: tuple[int, ...]) -> FloatArray:

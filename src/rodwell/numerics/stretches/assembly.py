@@ -5,8 +5,9 @@ A model offers, in units where the disc has radius 1,
 * ``rim(s, u, load, given)`` and ``interior(s, u, load, given)``: energy density, its derivative by the load, gradient
   (f, 3), mixed derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields
   and two derivatives, and from what is ``given`` in each element, (g, e, 1);
-* ``load_per_length(given)``: in an element the density depends on s only through load + load_per_length · s;
-* ``rim_reaction(u, given)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
+* ``drift(s, u, mixed, given)``: the derivative of that gradient by s at the same u and load, (f, 3, e, q); that of the
+  density's derivative by the load vanishes;
+* ``rim_reaction(s, u, given)``: what a free rod of the rim's shape would exert radially at a cut, see :func:`_react`.
 """
 
 from __future__ import annotations
@@ -129,17 +130,17 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     ]
     s = start[:, None] + h[:, None] * element.points
     given = shape.chain.given[group].T[:, :, None]
-    per_length = model.load_per_length(given)
     e, e_load, g, mixed, hessian = density(s, u, shape.load, given)
+    drift = model.drift(s, u, mixed, given)
     weight = h[:, None] * element.weights  # (k, q)
     scaled = inverse[:, None, :, None] * weight[:, None, None, :]  # w h h^-d: (k, 1, 3, q)
     # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
     fall = -order[None, :, None, None] * u / h[:, None]
     lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + (1.0 - order)[None, :, None, None] * g / h[:, None]
-    lengthen = lengthen + per_length * mixed * element.points
-    rows = np.stack([g, lengthen, mixed]).transpose(0, 3, 1, 2, 4) * scaled  # (3, k, f, d, q)
-    columns = (rows.reshape(3, k, fields, 3 * q) @ flat).reshape(3, k, fields * size)
-    gradient, by_length, by_load = columns
+    lengthen = lengthen + drift * element.points
+    rows = np.stack([g, lengthen, drift, mixed]).transpose(0, 3, 1, 2, 4) * scaled  # (4, k, f, d, q)
+    columns = (rows.reshape(4, k, fields, 3 * q) @ flat).reshape(4, k, fields * size)
+    gradient, by_length, by_start, by_load = columns
     # the Hessian: one table contracted place by place, then the other over all places
     inner = hessian * scaled[:, 0].transpose(1, 0, 2)[None, :, None, None] * inverse.T[None, None, None, :, :, None]
     inner = inner.transpose(4, 5, 0, 1, 2, 3).reshape(k, q, fields * 3 * fields, 3)
@@ -147,7 +148,6 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     half = half.transpose(0, 2, 3, 1, 4).reshape(k, fields, 3 * q, fields * size)
     matrix = (flat.T @ half).reshape(k, fields * size, fields * size)
     by_length = by_length + (matrix @ rate.reshape(k, -1, 1))[..., 0]
-    by_start = per_length * by_load
     work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
     work = work + np.sum(by_load * rate.reshape(k, -1), axis=1)
 
@@ -257,7 +257,7 @@ def _react(model: Any, out: Assembled) -> None:
     cut, ahead = np.concatenate([before, after]), np.repeat([1, 0], [before.size, after.size])
     if cut.size:  # at the end of the element before the node, or at the start of that after it
         u = out.shape.along(moving[cut] - ahead, ahead[:, None].astype(float))[0, ..., 0]
-        turn, by_rate, shear = model.rim_reaction(u, chain.given[moving[cut] - ahead].T)
+        turn, by_rate, shear = model.rim_reaction(out.shape.places[moving[cut]], u, chain.given[moving[cut] - ahead].T)
         sign = 2.0 * ahead - 1.0
         for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, -shear)):
             np.add.at(total, cut, sign * part)
