@@ -59,10 +59,11 @@ class Rod:
         """B(s)/B."""
         return self._profile(1)
 
-    def ranges(self, ratio: str) -> FloatArray:
-        """The least and the largest value in each section of a ratio, (2, n)."""
-        which = COLUMNS.index(ratio)
-        return np.asarray(np.transpose([extremes(section[which])[::2] for section in self.sections]))
+    @cached_property
+    def ranges(self) -> dict[str, FloatArray]:
+        """The least and the largest value in each section of each ratio, (2, n)."""
+        each = {name: [extremes(section[k])[::2] for section in self.sections] for k, name in enumerate(COLUMNS)}
+        return {name: np.transpose(pairs).astype(np.float64) for name, pairs in each.items()}
 
     @cached_property
     def stiffness_reach(self) -> FloatArray:
@@ -70,12 +71,12 @@ class Rod:
 
         A polynomial of the shape converges the faster, the shorter its element is against that.
         """
-        return np.diff(self.breaks) * np.array([reach(section[1]) for section in self.sections])
+        return np.asarray(np.diff(self.breaks) * np.array([reach(section[1]) for section in self.sections]))
 
     @cached_property
     def stiffness_range(self) -> tuple[float, float]:
         """The least and the largest B(s)/B."""
-        least, most = self.ranges("stiffness")
+        least, most = self.ranges["stiffness"]
         return float(np.min(least)), float(np.max(most))
 
     @cached_property

@@ -120,8 +120,8 @@ def _own_lengths(problem: Problem) -> FloatArray:
     rod, steps = problem.rod, _steps(problem)
     lowest = np.fmin(np.append(steps, np.inf), np.append(np.inf, steps))
     lowest = np.where(lowest > 0.0, lowest, np.max(steps))  # its neighbours lie in the same hole
-    weight = problem.lateral_weight * np.maximum(rod.ranges("weight")[1], LIGHTEST)
-    stiffness = rod.ranges("stiffness")[0]
+    weight = problem.lateral_weight * np.maximum(rod.ranges["weight"][1], LIGHTEST)
+    stiffness = rod.ranges["stiffness"][0]
     return np.asarray((FREE_LENGTH * stiffness * problem.clearance * lowest / weight) ** 0.25)
 
 
@@ -161,7 +161,7 @@ def _held(problem: Problem, nodes: int) -> BoolArray:
 def _sag(problem: Problem) -> float:
     """Stiffness of a spring at a node that the heaviest section's weight over L presses in by less than a step."""
     steps = _steps(problem)
-    weight = problem.lateral_weight * float(np.max(problem.rod.ranges("weight"))) / problem.clearance
+    weight = problem.lateral_weight * float(np.max(problem.rod.ranges["weight"])) / problem.clearance
     return weight / max(SAG * float(np.min(steps[steps > 0.0])), LEAST_SAG)
 
 
