@@ -230,6 +230,17 @@ def test_a_taper_of_the_outer_diameter_has_one_clearance_only_if_it_is_given() -
     assert not found.problem.bridges
 
 
+def test_a_taper_that_lies_in_two_parts_of_a_hole_is_two_of_one_taper() -> None:
+    narrowing = taper(outer_diameter_at_top=None)
+    parts = [{"from": "0 m", "to": "0.1 m", "diameter": "4 mm"}, {"from": "0.1 m", "to": "0.3 m", "diameter": "5 mm"}]
+    found = case(narrowing, hole={"angle_from_vertical": "90 deg", "section": parts})
+    one = case(narrowing).problem.rod
+    assert found.problem.bridges
+    assert found.problem.rod.stiffness(PART) == pytest.approx(one.stiffness(PART), rel=1e-12)
+    assert found.problem.rod.weight(PART) == pytest.approx(one.weight(PART), rel=1e-12)
+    assert list(found.problem.rod.breaks) == pytest.approx([0.0, 2.0 / 3.0, 1.0])
+
+
 def test_torque_and_drag_takes_no_tapers() -> None:
     with pytest.raises(InputError, match=r"outer_diameter_at_top = .*makes a taper, which torque and drag does not"):
         string_sections([StringInput.model_validate(taper())], G, None, None, Catalogue())

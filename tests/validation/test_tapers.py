@@ -269,10 +269,8 @@ def test_what_is_no_taper_is_named(section: Any, words: str) -> None:
 
 
 def test_what_is_not_computed_of_tapers_is_refused() -> None:
-    with pytest.raises(InputError, match="load paths off the wall are not computed of sections that taper"):
+    with pytest.raises(InputError, match=r"load paths off the wall, .* are not computed of sections that taper"):
         load_path(Problem(15.0, sections=TIP), until=-100.0)
-    with pytest.raises(InputError, match="steps of the clearance are not computed of sections that taper"):
-        Problem(15.0, sections=((0.5, (1.0, 0.5)), (0.5, 1.0, 1.0, 2.0)))
 
 
 @pytest.mark.parametrize(

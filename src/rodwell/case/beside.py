@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from rodwell.case.hole.schema import Hole
 from rodwell.case.hole.sections import WHOLE, HolePart
 from rodwell.case.pipe import PhysicalRod
 from rodwell.case.string.sections import Member, PhysicalString
 from rodwell.case.string.tapers import AT_TOP
 from rodwell.errors import InputError
+from rodwell.problem.profile import within
 from rodwell.problem.sections import PLAIN, Section
 
 EQUAL = 1e-9
@@ -81,8 +84,11 @@ def sections_of(pairs: Sequence[Pair], string: PhysicalString | None) -> tuple[S
         return () if string is None else string.sections
     unit, out = reference(pairs), []
     for pair in pairs:
-        one = PLAIN[0] if string is None or pair.member is None else string.sections[pair.member.place]
-        _, stiffness, weight, _, torsion = one
+        _, stiffness, weight, _, torsion = PLAIN[0]
+        if string is not None and pair.member is not None:
+            part = string.part_of(pair.member, np.array([pair.start, pair.end]))
+            _, *ratios, _, torsion = string.sections[pair.member.place]
+            stiffness, weight, torsion = (within(one, *map(float, part)) for one in (*ratios, torsion))
         out.append((pair.end - pair.start, stiffness, weight, pair.clearance / unit, torsion))
     return tuple(out)
 

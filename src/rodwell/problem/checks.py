@@ -57,8 +57,6 @@ def check(problem: Any) -> None:
         object.__setattr__(problem, "sections", checked_sections(problem.sections))
         if problem.sections:
             _take_clearance(problem)
-        if problem.bridges:
-            problem.refuse_tapers("states over steps of the clearance")
     if not SMALLEST_CLEARANCE <= problem.clearance < 1.0:
         allowed = f"must be above 0 and below 1: Δ/L, a part of the length (at least {SMALLEST_CLEARANCE:g})"
         raise InputError("clearance", problem.clearance, allowed)

@@ -97,6 +97,20 @@ def extremes(ratio: Ratio) -> tuple[float, float, float]:
     return float(values[k]), float(places[k]), float(np.max(values))
 
 
+def reach(ratio: Ratio) -> float:
+    """Distance of the nearest zero of a ratio in the complex plane from its section, in lengths of the section."""
+    zeros = np.polynomial.Polynomial(powers(ratio)).roots()
+    return float(np.min(np.abs(zeros - np.clip(zeros.real, 0.0, 1.0)), initial=np.inf))
+
+
+def within(ratio: Ratio, first: float, last: float) -> Ratio:
+    """A ratio in a part of its section, from ``first`` to ``last`` of its length."""
+    if isinstance(ratio, float):
+        return ratio
+    places = np.linspace(first, last, len(ratio))
+    return tuple(map(float, np.polynomial.polynomial.polyval(places, powers(ratio))))
+
+
 def along(breaks: FloatArray, ratios: Sequence[Ratio]) -> Profile:
     """The profile of ratios, one for each section."""
     rows = [powers(ratio) for ratio in ratios]

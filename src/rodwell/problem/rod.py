@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rodwell.problem.profile import Profile, Ratio, ReciprocalIntegral, along, extremes, integral_from_1, powers
+from rodwell.problem.profile import Profile, Ratio, ReciprocalIntegral, along, extremes, integral_from_1, powers, reach
 from rodwell.problem.sections import COLUMNS, PLAIN, Section, seen_from_s_1
 from rodwell.quantities.arrays import BoolArray, FloatArray
 
@@ -60,10 +60,24 @@ class Rod:
         return self._profile(1)
 
     @cached_property
+    def ranges(self) -> dict[str, FloatArray]:
+        """The least and the largest value in each section of each ratio, (2, n)."""
+        each = {name: [extremes(section[k])[::2] for section in self.sections] for k, name in enumerate(COLUMNS)}
+        return {name: np.transpose(pairs).astype(np.float64) for name, pairs in each.items()}
+
+    @cached_property
+    def stiffness_reach(self) -> FloatArray:
+        """How far each section is from where its polynomial of the stiffness vanishes in the complex plane, (n,), in L.
+
+        A polynomial of the shape converges the faster, the shorter its element is against that.
+        """
+        return np.asarray(np.diff(self.breaks) * np.array([reach(section[1]) for section in self.sections]))
+
+    @cached_property
     def stiffness_range(self) -> tuple[float, float]:
         """The least and the largest B(s)/B."""
-        ranges = [extremes(section[1]) for section in self.sections]
-        return min(least for least, _, _ in ranges), max(most for _, _, most in ranges)
+        least, most = self.ranges["stiffness"]
+        return float(np.min(least)), float(np.max(most))
 
     @cached_property
     def weight(self) -> Profile:

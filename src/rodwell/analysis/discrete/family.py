@@ -218,10 +218,10 @@ def given_along(problem: Problem) -> Given | None:
 
 def given_in_kernels(rod: Rod) -> Given:
     """The same of a rod of sections."""
-    return partial(_columns_at, _polynomials(rod), rod) if rod.tapered else given_of(rod)
+    return partial(_columns_at, polynomials(rod), rod) if rod.tapered else given_of(rod)
 
 
-def _polynomials(rod: Rod) -> FloatArray:
+def polynomials(rod: Rod) -> FloatArray:
     """Origin and coefficients of each section that may taper, (n, 17)."""
     columns = [rod.breaks[:-1, None]]
     for profile, terms in ((rod.stiffness, TERMS), (rod.weight, TERMS), (rod.lever, TERMS + 1)):

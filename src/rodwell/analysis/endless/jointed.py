@@ -134,6 +134,7 @@ def _check(problem: Problem) -> None:
     if len(sections) < 3 or min(clearance[1:-1]) <= max(clearance[0], clearance[-1]):
         shown = f"{len(sections)} of them"
         raise InputError("sections", shown, what + "half a tool joint, wider sections, half a tool joint")
+    problem.refuse_tapers("endless strings of joints")
     if not problem.rod.symmetric:
         raise InputError("sections", f"{len(sections)} of them", what + "the same seen from either end")
     if problem.lateral_weight == 0.0:

@@ -27,13 +27,16 @@ SOFT_WALL = 2.0
 
 
 def wavenumbers(model: RodInHole, load: float) -> FloatArray:
-    """√(|N|/b) at its largest in each section (n,), of a beam column, at least that of a beam bedded on the wall."""
-    problem = model.problem
-    (b, q, d, radius), breaks = model.given.T, problem.rod.breaks
+    """√(|N|/b) at its largest in each section (n,), of a beam column, at least that of a beam bedded on the wall.
+
+    Where a section tapers, those of its least stiffness and largest weight.
+    """
+    problem, rod = model.problem, model.problem.rod
+    b, q, radius, breaks = rod.ranges["stiffness"][0], rod.ranges["weight"][1], model.given[:, -1], rod.breaks
     wa, bed = problem.axial_weight, np.sqrt(problem.lateral_weight * q / (b * problem.clearance * radius))
     if model.soft:
         bed = np.maximum(bed, SOFT_WALL**2 * np.sqrt(model.stiffness / b))
-    ends = np.stack([load + wa * (d + q * (s - 1.0)) for s in (breaks[:-1], breaks[1:])])
+    ends = np.stack([load + wa * rod.lever(s) for s in (breaks[:-1], breaks[1:])])
     return np.asarray(np.sqrt(np.max([*(np.abs(ends) / b), bed, np.full(b.size, math.pi**2)], axis=0)))
 
 
@@ -50,9 +53,12 @@ def element_counts(
     fewest: int = 1,
     fixed: tuple[float, ...] = (),
 ) -> Elements:
-    """Elements of each piece of each stretch, as its waves ask for; ``fixed`` as in :class:`Pattern`."""
+    """Elements of each piece of each stretch, as waves and tapers ask for; ``fixed`` as in :class:`Pattern`."""
     corners, section = pieces_of(model.problem, fixed)
-    return counts(breaks, corners, wavenumbers(model, load)[section], waves, fewest)
+    numbers = wavenumbers(model, load)
+    if model.problem.tapered:
+        numbers = np.maximum(numbers, WAVES * math.pi / model.problem.rod.stiffness_reach)
+    return counts(breaks, corners, numbers[section], waves, fewest)
 
 
 def arranged(

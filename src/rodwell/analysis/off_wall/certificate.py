@@ -131,7 +131,8 @@ def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray
     x, y, pressure = position(state, s)
     problem = state.model.problem
     n = state.load + problem.axial_weight * problem.rod.lever(s)
-    return in_space(x, y, n, problem.twist, problem.rod.stiffness(s)).n, pressure
+    stiffness = problem.rod.stiffness
+    return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s)).n, pressure
 
 
 def _loads(state: PatternedState, places: FloatArray) -> FloatArray:

@@ -158,12 +158,12 @@ def conditions(state: PatternedState) -> list[Condition]:
 def at_steps(state: PatternedState) -> list[Condition]:
     """What steps of a string ask for: no slope in contact where the stiffness jumps, and no end of a stretch there."""
     shape, rod, found = state.solved.shape, state.model.problem.rod, []
-    stiffness, section = rod.stiffness.coefficients[:, 0], 0
+    (below, above), section = rod.stiffness_sides, 0
     for i, pieces in enumerate(state.elements):
         inner = range(section, section + len(pieces) - 1)
         for k in inner:
             s = float(rod.breaks[1 + k])
-            if state.pattern.touching[i] and stiffness[k] != stiffness[k + 1]:
+            if state.pattern.touching[i] and below[k] != above[k]:
                 slope = float(shape.nodes[int(np.searchsorted(shape.places, s)), ANGLE_RATE])
                 found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope), s))
         if inner:  # the ends of the stretch, upwards to its first step and downwards to its last

@@ -4,7 +4,8 @@ Lateral position and y are measured in Δ, the energy in BΔ²/L³, so that numb
 On the wall the density of :mod:`rodwell.physics.on_wall` serves, off it that of :mod:`rodwell.physics.off_wall`; they
 are equal where both hold. A section of a string is a uniform rod of its own constants, on the wall and off it
 (:mod:`rodwell.physics.on_wall.sections`), in a hole of its own clearance; what is ``given`` in an element are these: b,
-q, d and the clearance ρ in Δ, in that order.
+q, d and the clearance ρ in Δ, in that order; where sections taper, the polynomials of
+:mod:`rodwell.physics.on_wall.tapered` in place of b, q and d.
 """
 
 from __future__ import annotations
@@ -16,12 +17,14 @@ from typing import Any
 
 import numpy as np
 
+from rodwell.analysis.discrete.family import polynomials
 from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.off_wall.forces import radially_at_wall
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
 from rodwell.physics.on_wall.strand import contact_pressure
+from rodwell.physics.on_wall.tapered import here, more_pressure, stiffness_rates, weight_rate
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 
@@ -53,14 +56,39 @@ class RodInHole:
 
     @cached_property
     def given(self) -> FloatArray:
-        """b, q, d and ρ of each section, (n, 4)."""
+        """b, q, d and ρ of each section, (n, 4); where sections taper their polynomials and ρ, (n, 18)."""
         rod = self.problem.rod
+        if self.problem.tapered:
+            return np.concatenate([polynomials(rod), rod.clearance.coefficients[:, :1]], axis=1)
         offset, weight = rod.lever.coefficients.T
         return np.stack([rod.stiffness.coefficients[:, 0], weight, offset, rod.clearance.coefficients[:, 0]], axis=1)
 
-    def load_per_length(self, given: FloatArray) -> FloatArray:
-        """Axial weight q wₐ: a section's density depends on s only through N(s) = F + wₐ(d + q(s − 1))."""
-        return np.asarray(given[1] * self.problem.axial_weight)
+    def _at(self, s: FloatArray, given: FloatArray) -> Any:
+        """b, q, d and ρ at places."""
+        return (*here(s, given), given[-1]) if self.problem.tapered else given
+
+    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
+        """The derivative of the gradient of a density by s at the same fields (f, 3, e, q) and load.
+
+        The density is linear in b, N and q wₗ, and N′ = q wₐ: in a section of constants nothing else depends on s.
+        """
+        out = self._at(s, given)[1] * self.problem.axial_weight * mixed
+        if not self.problem.tapered:
+            return np.asarray(out)
+        own, lateral, d, radius = self._beside(0.0, given), np.zeros(COUNT), self.problem.clearance, given[-1]
+        lateral[LATERAL_WEIGHT] = self.problem.foundation
+        for load in (AXIAL_WEIGHT, LATERAL_WEIGHT, TWIST):
+            own[load] = 0.0
+        rate, heavier = stiffness_rates(s, given)[0], weight_rate(s, given)
+        if u.shape[0] == 1:
+            y = (d * radius) * u[0]
+            _, _, g, m, _ = section_density(s, y[0], y[1], y[2], (1.0, 1.0, 0.0), own, lateral)
+            return np.asarray(out + radius / d * (rate * _stacked(g, s.shape) + heavier * _stacked(m, s.shape)))
+        (x, x1, x2), (_, y1, y2) = d * u
+        _, _, g, m, _ = hole_density(s, x, x1, x2, y1, y2, own, lateral)
+        for i, (f, k) in enumerate(((0, 0), *_FREE)):
+            out[f, k] += (rate * g[i] + heavier * m[i]) / d
+        return np.asarray(out)
 
     def parameters(self, load: float) -> FloatArray:
         """Parameters at an end force: those of the rod kept on the wall, the first of which serve off it."""
@@ -71,12 +99,12 @@ class RodInHole:
     def _beside(self, load: float, given: FloatArray) -> list[Any]:
         """Parameters at an end force, with the clearance beside each element."""
         out = list(self.parameters(load))
-        out[CLEARANCE] = self.problem.clearance * given[3]
+        out[CLEARANCE] = self.problem.clearance * given[-1]
         return out
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
-        d, radius = self.problem.clearance, given[3]
+        d, radius, given = self.problem.clearance, given[-1], self._at(s, given)
         y = (d * radius) * u[0]
         e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given[:3], self._beside(load, given), _BY_FORCE)
         shape = s.shape
@@ -91,6 +119,7 @@ class RodInHole:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
         d = self.problem.clearance
         (x, x1, x2), (_, y1, y2) = d * u
+        given = self._at(s, given)
         b = given[0]  # of the softness 1/b under every load, as in the sections of a rod on the wall
         own = of_section(given[:3], self._beside(load, given), 1.0 / b)
         e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, own, _BY_FORCE)
@@ -107,20 +136,28 @@ class RodInHole:
             energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
         return energy, rate / d**2, gradient, mixed / d, hessian
 
-    def rim_reaction(self, rate: FloatArray, bend: FloatArray, given: FloatArray) -> tuple[FloatArray, ...]:
+    def rim_reaction(
+        self, s: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
+    ) -> tuple[FloatArray, ...]:
         """Radial moment at a cut of a rod on the wall, its derivative by φ′, and its outward force, (k,) each.
 
-        From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`.
+        From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`. Where the stiffness tapers, the
+        moment changes with it too: b′ is that of bending alone, twist is refused beside tapers.
         """
+        stiffer = stiffness_rates(s, given)[0] if self.problem.tapered else 0.0
+        given = self._at(s, given)
         d, radius = self.problem.clearance, self.problem.clearance * given[3]
         moment, by_rate, outward = radially_at_wall(rate, bend, radius, self.problem.twist, given[0])
-        return moment / d, by_rate / d, outward / d
+        return moment / d, by_rate / d, (outward + stiffer / given[0] * moment) / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""
-        y = self.problem.clearance * given[3] * angle
-        own = of_section(given[:3], self._beside(load, given))
-        return np.asarray(contact_pressure(s, y[0], y[1], y[2], y[3], own, given[0]))
+        y, at = self.problem.clearance * given[-1] * angle, self._at(s, given)
+        own = of_section(at[:3], self._beside(load, given))
+        pressure = contact_pressure(s, y[0], y[1], y[2], y[3], own, at[0])
+        if self.problem.tapered:
+            pressure = pressure + more_pressure(y[1], y[2], y[3], own[CLEARANCE], *stiffness_rates(s, given))
+        return np.asarray(pressure)
 
 
 def _stacked(rows: Any, shape: tuple[int, ...]) -> FloatArray:

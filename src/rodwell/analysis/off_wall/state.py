@@ -229,7 +229,7 @@ def _fields(state: PatternedState, places: FloatArray) -> dict[str, FloatArray]:
     x, y, pressure = position(state, places)
     problem = state.problem
     n, stiffness = state.load + problem.axial_weight * problem.rod.lever(places), problem.rod.stiffness(places)
-    rod = in_space(x, y, n, problem.twist, stiffness)
+    rod = in_space(x, y, n, problem.twist, stiffness, problem.rod.stiffness.derivative(places))
     gap = problem.rod.clearance(places) - np.hypot(x[0], y[0]) / problem.clearance
     return {
         "x": x[0], "y": y[0], "z": along_axis(state, places), "gap": gap, "angle": np.arctan2(y[0], -x[0]),

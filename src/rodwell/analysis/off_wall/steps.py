@@ -3,7 +3,8 @@
 Where the bending stiffness has a step, a rod in contact on both sides with a slope there would need a couple from the
 wall, which only pushes (:mod:`rodwell.physics.on_wall.sections`): it leaves the wall over a short stretch around the
 step. An end of a stretch in contact that comes to a step from the stiffer side goes no farther: beyond it the rod
-touches at a point, and leaves the wall before the step. All other ends, and points of contact, pass a step; since an
+touches at a point, and leaves the wall before the step. In the vertical plane it has no slope around the wall, and the
+wall no couple to give. All other ends, and points of contact, pass a step; since an
 element ends there, they are set over it (:func:`cross`).
 """
 
@@ -117,7 +118,7 @@ def cross(plan: Plan, condition: Condition) -> None:
     below, above = state.model.problem.rod.stiffness(sides(s))
     own, beyond = (below, above) if up else (above, below)
     into_gap = plan.touching[i if up else i + 1] and not plan.touching[i + 1 if up else i]
-    if into_gap and own > beyond:
+    if into_gap and own > beyond and not state.pattern.planar:
         plan.breaks[i : i + 1] = [s - size, s + size]
         plan.touching.insert(i + 1, False)
         plan.pair = (s - size, s + size)

@@ -42,8 +42,8 @@ BEYOND = "states beyond are not computed where the clearance has steps"
 
 def farthest(problem: Problem) -> float:
     """The end force in B/L² up to which a string that bridges steps is loaded if nothing is asked for."""
-    _, stiffness, weight, clearance, _ = np.array(problem.sections).T
-    b, q, narrow = float(np.max(stiffness)), float(np.max(weight)), problem.clearance * float(np.min(clearance))
+    b, q = (float(np.max(problem.rod.ranges[ratio])) for ratio in ("stiffness", "weight"))
+    narrow = problem.clearance * float(np.min(problem.rod.ranges["clearance"]))
     of_bed = 2.0 * float(np.sqrt(b * q * problem.lateral_weight / narrow))
     return -FARTHEST * (4.0 * np.pi**2 * b + of_bed + problem.weight)
 

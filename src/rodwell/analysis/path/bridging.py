@@ -113,12 +113,15 @@ def _steps(problem: Problem) -> FloatArray:
 
 
 def _own_lengths(problem: Problem) -> FloatArray:
-    """The length by which a beam of each section alone would bridge the lower of the steps at its ends, (n,), in L."""
+    """The length by which a beam of each section alone would bridge the lower of the steps at its ends, (n,), in L.
+
+    Where a section tapers, one of its least stiffness and largest weight.
+    """
     rod, steps = problem.rod, _steps(problem)
     lowest = np.fmin(np.append(steps, np.inf), np.append(np.inf, steps))
     lowest = np.where(lowest > 0.0, lowest, np.max(steps))  # its neighbours lie in the same hole
-    weight = problem.lateral_weight * np.maximum(rod.weight.coefficients[:, 0], LIGHTEST)
-    stiffness = rod.stiffness.coefficients[:, 0]
+    weight = problem.lateral_weight * np.maximum(rod.ranges["weight"][1], LIGHTEST)
+    stiffness = rod.ranges["stiffness"][0]
     return np.asarray((FREE_LENGTH * stiffness * problem.clearance * lowest / weight) ** 0.25)
 
 
@@ -158,7 +161,7 @@ def _held(problem: Problem, nodes: int) -> BoolArray:
 def _sag(problem: Problem) -> float:
     """Stiffness of a spring at a node that the heaviest section's weight over L presses in by less than a step."""
     steps = _steps(problem)
-    weight = problem.lateral_weight * float(np.max(problem.rod.weight.coefficients)) / problem.clearance
+    weight = problem.lateral_weight * float(np.max(problem.rod.ranges["weight"])) / problem.clearance
     return weight / max(SAG * float(np.min(steps[steps > 0.0])), LEAST_SAG)
 
 

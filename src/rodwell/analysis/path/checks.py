@@ -25,7 +25,8 @@ ALLOWED = f"a stiffness from {SOFTEST:g} to {STIFFEST:g} in units B = L = 1; lea
 def checked_problem(problem: Problem) -> None:
     """Raise if a rod has no load path here, with the reason."""
     problem.refuse_curved("load paths off the wall are followed")
-    problem.refuse_tapers("load paths off the wall")
+    if not problem.bridges:
+        problem.refuse_tapers("load paths off the wall, but in the vertical plane over steps of the clearance,")
     if problem.outside:
         raise InputError(
             "outside", True, "a rod outside a cylinder leaves it for good: there is no path beyond lift-off"

@@ -5,9 +5,10 @@ A model offers, in units where the disc has radius 1,
 * ``rim(s, u, load, given)`` and ``interior(s, u, load, given)``: energy density, its derivative by the load, gradient
   (f, 3), mixed derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields
   and two derivatives, and from what is ``given`` in each element, (g, e, 1);
-* ``load_per_length(given)``: in an element the density depends on s only through load + load_per_length · s;
-* ``rim_reaction(rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from φ′ and φ″
-  there, see :func:`_react`.
+* ``drift(s, u, mixed, given)``: the derivative of that gradient by s at the same u and load, (f, 3, e, q); that of the
+  density's derivative by the load vanishes;
+* ``rim_reaction(s, rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from φ′ and
+  φ″ there, see :func:`_react`.
 """
 
 from __future__ import annotations
@@ -121,29 +122,28 @@ def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple
     u = u * inverse[:, :, None]
     s = shape.places[group, None] + h[:, None] * element.points
     given = shape.chain.given[group].T[:, :, None]
-    per_length = model.load_per_length(given)
     e, e_load, g, mixed, hessian = density(s, u, shape.load, given)
+    drift = model.drift(s, u, mixed, given)
     weight = h[:, None] * element.weights  # (k, q)
     scaled = inverse.T[:, :, None] * weight[:, None]  # w h h^-d: (k, 3, q)
     # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
     fall = u * (-_ORDERS[:, None] / h)[:, :, None]
     lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + g * ((1.0 - _ORDERS[:, None]) / h)[:, :, None]
-    lengthen += per_length * mixed * element.points
-    rows = np.empty((3, k, fields, 3, q))
-    for row, part in zip(rows, (g, lengthen, mixed), strict=True):
+    lengthen += drift * element.points
+    rows = np.empty((4, k, fields, 3, q))
+    for row, part in zip(rows, (g, lengthen, drift, mixed), strict=True):
         np.multiply(part.transpose(2, 0, 1, 3), scaled[:, None], out=row)
-    columns = (rows.reshape(-1, 3 * q) @ element.table.reshape(3 * q, size)).reshape(3, k, fields * size)
+    columns = (rows.reshape(-1, 3 * q) @ element.table.reshape(3 * q, size)).reshape(4, k, fields * size)
     # the Hessian: all products of derivatives of two functions at all places
     inner = np.empty((k, fields, fields, 3, 3, q))
     both = scaled[:, :, None] * inverse.T[:, None, :, None]
     np.multiply(hessian.transpose(4, 0, 2, 1, 3, 5), both[:, None, None], out=inner)
     whole = np.empty((k, fields * size, fields * size + 4))
     whole[:, :, :-4] = (inner.reshape(-1, 9 * q) @ element.products).reshape(k, -1)[:, parts.pairs]
-    whole[:, :, -4], whole[:, :, -3], whole[:, :, -1] = columns[:, :, parts.order]
+    whole[:, :, -4:] = columns[:, :, parts.order].transpose(1, 2, 0)
     # the slopes' coefficients are slopes times h
     rate = (a[..., 1:ENDS:2] / h[:, None, None]).transpose(0, 2, 1).reshape(k, -1)
     whole[:, :, -3] += (whole[:, :, parts.slopes] @ rate[..., None])[..., 0]
-    whole[:, :, -2] = per_length * whole[:, :, -1]
     work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
     work += np.sum(whole[:, parts.slopes, -1] * rate, axis=1)
     energies = float(np.sum(weight * e)), float(np.sum(weight * e_load))
@@ -266,7 +266,8 @@ def _react(model: Any, out: Assembled) -> None:
         node, at = chain.moving[cuts.number], cuts.element
         bend = np.sum(bent(shape.local(at)[:, 0]) * reference_element(chain.degree).end_bends[cuts.ahead], axis=1)
         bend = bend / shape.lengths[at] ** 2
-        turn, by_rate, push = model.rim_reaction(shape.nodes[node, ANGLE_RATE], bend, chain.given[at].T)
+        given, rate = chain.given[at].T, shape.nodes[node, ANGLE_RATE]
+        turn, by_rate, push = model.rim_reaction(shape.places[node], rate, bend, given)
         sign = 2.0 * cuts.ahead - 1.0
         for total, part in ((out.moments, turn), (out.moment_rates, by_rate), (out.forces, push)):
             np.add.at(total, cuts.number, sign * part)

@@ -83,9 +83,9 @@ class SoftRim:
     model: Any
     stiffness: float
 
-    def load_per_length(self, given: FloatArray) -> FloatArray:
+    def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """That of the model."""
-        return np.asarray(self.model.load_per_length(given))
+        return np.asarray(self.model.drift(s, u, mixed, given))
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """That of the model: on a hard rim nothing is added."""

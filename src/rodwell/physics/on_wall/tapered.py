@@ -45,12 +45,22 @@ def here(s: Any, given: Any) -> Any:
     return _horner(given, STIFFNESS, TERMS, x), weight, _horner(given, LEVER, TERMS + 1, x) - weight * (s - 1.0)
 
 
+def _slope(given: Any, start: int, x: Any) -> Any:
+    first = 0.0 * x
+    for j in range(TERMS - 1, 0, -1):
+        first = first * x + float(j) * given[start + j]
+    return first
+
+
+def weight_rate(s: Any, given: Any) -> Any:
+    """The derivative q′ at ``s``."""
+    return _slope(given, WEIGHT, s - given[0])
+
+
 def stiffness_rates(s: Any, given: Any) -> Any:
     """b′ and b″ at ``s``."""
     x = s - given[0]
-    first, second = 0.0 * x, 0.0 * x
-    for j in range(TERMS - 1, 0, -1):
-        first = first * x + float(j) * given[STIFFNESS + j]
+    first, second = _slope(given, STIFFNESS, x), 0.0 * x
     for j in range(TERMS - 1, 1, -1):
         second = second * x + float(j * (j - 1)) * given[STIFFNESS + j]
     return first, second
