@@ -431,6 +431,16 @@ def test_beyond_lift_off(page: Any) -> None:
     page.keyboard.press("b")
     moved(page, before)
     assert page.inner_text("#snaps") == "not followed"
+    before = updates(page)
+    page.keyboard.press("b")
+    moved(page, before)
+    before = updates(page)
+    page.select_option("#branch", "load path, unloading")
+    moved(page, before)
+    page.locator("#controls input[type=range]").first.press("ArrowRight")
+    until(page, "document.getElementById('busy').textContent.startsWith('computing: beyond lift-off')")
+    assert page.locator("#message").is_hidden()  # the branch that is asked for comes with the load path
+    assert [page.inner_text("#now"), page.evaluate("window.__rodwell.ready")] == ["…", False]
 
 
 def test_nothing_is_drawn_while_nothing_moves(page: Any) -> None:

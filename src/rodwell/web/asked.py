@@ -69,4 +69,4 @@ def _snap(found: Explored, request: Request) -> dict[str, Any]:
     before: Any = off_wall.before_snap(path, event)
     if before is None:
         (before,) = state.states_of(found, STRAIGHT, event.force.value)
-    return {"scenes": [state.seen_of(found, shown).data for shown in (before, event.state.fine)]}
+    return {"scenes": [state.seen_of(found, shown)[0].data for shown in (before, event.state.fine)]}

@@ -15,6 +15,7 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.off_wall.certificate import LIMIT
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import drawn
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.plots.units import axis
@@ -28,13 +29,12 @@ from rodwell.web import off_wall
 from rodwell.web.explored import NO_PULL, STRAIGHT, Explored
 
 PLACES, SIDES = 241, 12
-"""Places along the rod and sides around it in the scene: what is drawn twenty times a second."""
-
-ALONG = 201
-"""Places along the rod of the curves."""
+"""Places along the rod, of the curves too, and sides around it in the scene: what is drawn twenty times a second."""
 
 DIGITS = 6
 
+SAME = 1e-6
+"""Part by which the highest pressure and the largest in size differ at most if they are one."""
 
 Shown = Solution | ContactState
 
@@ -87,7 +87,7 @@ def plain_state(
     known
         Whether the page knows the triangles of the scene from a state before: they are left out then.
     """
-    seen = seen_of(explored, solution.fine if isinstance(solution, ContactState) else solution)
+    seen, rod = seen_of(explored, solution.fine if isinstance(solution, ContactState) else solution)
     for part in seen.data["parts"] if known else ():
         if part["name"].startswith(KNOWN):
             del part["triangles"]
@@ -103,16 +103,17 @@ def plain_state(
         "load": explored.shown(solution.force),
         "index": solution.stability_index,
         "stable": solution.stability_index == 0,
-        "curves": curves(explored, solution),
+        "curves": curves(explored, solution, rod),
         "scene": seen.data,
         "bar": seen.bar,
     }
 
 
-def seen_of(explored: Explored, solution: Solution | PatternedState) -> View:
-    """The rod in its hole in three dimensions."""
+def seen_of(explored: Explored, solution: Solution | PatternedState) -> tuple[View, Geometry]:
+    """The rod in its hole in three dimensions: what is seen of it, and where it is."""
     scales = explored.case.scales
-    return view(solution, scales, drawn(solution, scales, PLACES), SIDES, readings=False)
+    rod = drawn(solution, scales, PLACES)
+    return view(solution, scales, rod, SIDES, readings=False), rod
 
 
 def _on_the_wall(explored: Explored, solution: Solution, branch: str) -> dict[str, Any]:
@@ -165,7 +166,7 @@ def numbers(explored: Explored, solution: Solution, push: Peak) -> dict[str, Any
     ``push``: the largest size of the contact pressure.
     """
     angle, torque = solution.largest("xi2"), solution.number("support_torque")
-    pulled = float(solution.fields(np.array([push.s]))["contact_pressure"][0]) > 0.0
+    pulled = solution.number(Measured.P_MAX).value > (1.0 - SAME) * push.value
     contact = "largest pull that the wall would have to give" if pulled else "largest push on the wall"
     out = {
         "force": _force(explored, solution.force),
@@ -206,10 +207,13 @@ def _angle(label: str, number: Any, s: float) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def curves(explored: Explored, solution: Shown) -> dict[str, Any]:
-    """Push on the wall and place around it along the rod, in the units shown; the gap of a rod off the wall."""
-    s = np.linspace(0.0, 1.0, ALONG)
-    fields, scales = solution.fields(s), explored.case.scales
+def curves(explored: Explored, solution: Shown, rod: Geometry) -> dict[str, Any]:
+    """Push on the wall and place around it along the rod, in the units shown; the gap of a rod off the wall.
+
+    ``rod`` is the same state in space, whose fields are known already.
+    """
+    s, scales = rod.s, explored.case.scales
+    fields = solution.fields(s) if isinstance(solution, ContactState) else rod.fields
     along, along_unit = (1.0, "L") if scales is None else axis("y", scales, 1.0)
     push = -fields["contact_pressure"]
     factor, unit = axis("contact_pressure", scales, float(np.abs(push).max()))

@@ -17,6 +17,9 @@ from rodwell.quantities.as_json import as_json
 Start = tuple[dict[str, Any] | None, str, str]
 """Content of the case file or None, the folder of its files, its name for messages."""
 
+COLLECT_AFTER = 50_000
+"""Objects more than before after which Python looks for cycles among them: imports make that many and leave none."""
+
 
 def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     """Answer requests from a pipe until it closes.
@@ -33,6 +36,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     start
         The case.
     """
+    gc.set_threshold(COLLECT_AFTER, 10, 10)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the server ends this process
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()

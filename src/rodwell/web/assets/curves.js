@@ -6,8 +6,9 @@ export class Curves {
     this.boxes = boxes; // {push, side}
     this.told = told; // (fraction or null, text) => void
     this.place = null;
+    this.sizes = {}; // of the boxes: asked for while other things change, the browser would lay out the page each time
     for (const [name, box] of Object.entries(boxes)) {
-      new ResizeObserver(() => this.draw(name)).observe(box);
+      new ResizeObserver(() => { this.sizes[name] = [box.clientWidth, box.clientHeight]; this.draw(name); }).observe(box);
       box.addEventListener("pointermove", (event) => this.point(name, event.clientX));
       box.addEventListener("keydown", (event) => {
         const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -30,11 +31,12 @@ export class Curves {
   draw(name) {
     const box = this.boxes[name], data = this.data;
     if (!data) { box.querySelectorAll("text").forEach((text) => text.remove()); return; }
-    if (!box.clientWidth) return;
+    const size = this.sizes[name];
+    if (!size?.[0]) return;
     const s = data.s.values, v = data[name].values;
     const x = { low: s[0], high: s[s.length - 1], label: `${data.s.label}  [${data.s.unit}]` };
     const y = { ...around([...v, 0]), label: `${data[name].label}  [${data[name].unit}]` };
-    const at = frame(box, { x, y, label: data[name].label, height: 150 });
+    const at = frame(size, { x, y, label: data[name].label });
     const points = s.map((each, k) => `${at.px(each).toFixed(1)},${at.py(v[k]).toFixed(1)}`).join("L");
     at.svg.append(element("path", { class: "fill", d: `M${at.px(s[0])},${at.py(0)}L${points}L${at.px(x.high)},${at.py(0)}Z` }));
     at.svg.append(element("path", { class: "curve", d: "M" + points }));

@@ -43,7 +43,7 @@ export class Diagram {
     x.low -= 0.02 * span;
     x.high += 0.02 * span;
     const y = { ...around([...heights, 0]), label: named.unit ? `${named.label}  [${named.unit}]` : named.label };
-    const at = (this.at = frame(this.box, { x, y, label: "Bifurcation diagram", height: 336 }));
+    const at = (this.at = frame([this.box.clientWidth || 600, this.box.clientHeight || 336], { x, y, label: "Bifurcation diagram" }));
     const focused = this.box.contains(document.activeElement) ? document.activeElement.getAttribute("data-key") : null;
     this.groups = new Map();
     const line = (points, kind) => element("path", { class: `seg ${kind}`, d: "M" + points.map((p) => p.map((v) => v.toFixed(2)).join(",")).join("L") });
@@ -109,6 +109,9 @@ export class Diagram {
     });
   }
 }
+
+// Whether states of a branch can be asked for: legs of the load path are there later than the others.
+export const has = (data, name) => !name || name === "straight" || data.branches.some((each) => each.name === name);
 
 // A load at which a branch has states: the one given if it does, else in its middle.
 export function within(data, name, at) {

@@ -26,8 +26,7 @@ export function short(value, digits = 4) {
 }
 
 // A frame with ticks and labels: returns the functions from data to pixels, and the svg.
-export function frame(box, { x, y, label, height }) {
-  const width = box.clientWidth || 600, tall = box.clientHeight || height;
+export function frame([width, tall], { x, y, label }) {
   const left = 62, right = 12, top = 22, bottom = 34;
   const svg = element("svg", { viewBox: `0 0 ${width} ${tall}`, role: "group", "aria-label": label });
   const px = (v) => left + ((v - x.low) / (x.high - x.low || 1)) * (width - left - right);

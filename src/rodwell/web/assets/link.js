@@ -50,8 +50,8 @@ export class Link {
     if (message.last && kind) delete this.running[kind];
     const late = kind === ON_THE_WAY && this.newest[kind] && message.id > (this.dropped[kind] ?? 0);
     const wanted = kind && (this.newest[kind] === message.id || late);
+    if (message.last) this.next(kind); // computed while this one is drawn
     if (wanted && message.kind !== "cancelled") this.heard({ ...message, of: kind });
-    if (message.last) this.next(kind);
   }
 
   // Ask; what was asked of the same kind before is no longer wanted. Returns the number of the request. Its content may

@@ -2,7 +2,7 @@
 import * as address from "./address.js";
 import { Control } from "./controls.js";
 import { Curves } from "./curves.js";
-import { Diagram, within } from "./diagram.js";
+import { Diagram, has, within } from "./diagram.js";
 import { Inputs } from "./inputs.js";
 import { keys } from "./keys.js";
 import { Link } from "./link.js";
@@ -180,7 +180,7 @@ function haveDiagram({ diagram: data, whole, of }) {
 }
 
 function askState() {
-  if (state.load === null) return;
+  if (state.load === null || (state.path && !withPath && !has(diagram, state.branch))) return; // the load path comes later
   const last = diagram.range[1];
   if (state.load > last * (1 + 1e-12) + 1e-300 && state.until === null && !state.branch) { // beyond what was followed: once, farther
     state.until = Number((1.05 * state.load).toPrecision(4));

@@ -76,17 +76,19 @@ function rodwellViewer(element, data) {
     controls.update();
     draw();
   }
+  let wide = 0, tall = 0; // of the stage: asked for at each label, the browser would lay out the page anew each time
   function draw() {
     renderer.render(scene, camera);
     labels.forEach(({ box, at }) => {
       const p = all.localToWorld(at.clone()).project(camera);
-      box.style.left = `${(p.x * 0.5 + 0.5) * stage.clientWidth}px`;
-      box.style.top = `${(-p.y * 0.5 + 0.5) * stage.clientHeight}px`;
+      box.style.left = `${(p.x * 0.5 + 0.5) * wide}px`;
+      box.style.top = `${(-p.y * 0.5 + 0.5) * tall}px`;
     });
   }
   function fit() {
     const width = stage.clientWidth, height = stage.clientHeight;
     if (!width || !height) return;
+    [wide, tall] = [width, height];
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
@@ -111,7 +113,7 @@ function rodwellViewer(element, data) {
     });
   });
   let turning = false;
-  const pixels = (ratio) => { renderer.setPixelRatio(ratio); renderer.setSize(stage.clientWidth, stage.clientHeight, false); };
+  const pixels = (ratio) => { renderer.setPixelRatio(ratio); renderer.setSize(wide, tall, false); };
   controls.addEventListener("start", () => { turning = true; if (coarse < sharp) pixels(coarse); });
   controls.addEventListener("end", () => { turning = false; if (coarse < sharp) pixels(sharp); draw(); });
   function turn(across, up) {
