@@ -9,7 +9,7 @@ from rodwell.analysis.loads.sensitivity import Sensitivity
 from rodwell.analysis.straight.lying_slopes import beside, inputs_of, step_in
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.spread import Spread, spread_of_load
-from rodwell.numerics.differences import central_slope
+from rodwell.numerics.equilibria.differences import central_slope
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 
