@@ -148,7 +148,8 @@ def test_proofs_in_an_arc_without_weight() -> None:
     [
         (Problem(15.0, build=0.2), "weight", "constant coefficients"),
         (Problem(0.0, build=0.2, ends="clamped-free"), "ends", "free end"),
-        (Problem(15.0, build=0.2, walk=0.1), "walk", "no critical load"),
+        (Problem(15.0, build=0.2, walk=0.1), "walk", "in a vertical plane"),
+        (Problem(0.0, build=0.2, twist=1.0, ends="pinned-pinned"), "twist", "turns around the hole"),
     ],
 )
 def test_what_cannot_be_proved_is_refused(problem: Problem, field: str, why: str) -> None:
