@@ -180,9 +180,14 @@ def test_the_whole_folder(tmp_path: Path) -> None:
     assert "cylinder.svg" not in names
     data = json.loads((tmp_path / "out" / "answer.json").read_text(encoding="utf-8"))
     assert "states off the wall" in data["lying"]["left_out"]
+    assert "derivatives" not in data["lying"]["left_out"]
+    assert [set(load["derivatives"]) for load in data["sensitivities"]] == [
+        {"weight", "alpha", "clearance", "build"}
+    ] * 2
     assert data["assessment"]["states"][0]["shape"] == "along the hole"
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "Not told of a curved hole" in page
+    assert "curvature of the hole" in page[page.index("What the inputs do to the loads") :]
     assert "computed in straight holes only" in page  # beyond lift-off
     assert "straight rod" not in page
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.in_parameter import parameter_label
-from rodwell.plots.style import INK, WARN, marked, new_axes
-from rodwell.problem.varying import CURVATURES, ParameterPath
+from rodwell.plots.style import INK, WARN, bends, marked, new_axes
+from rodwell.problem.varying import ParameterPath
 from rodwell.quantities.text import plain
 
 AXES = {
@@ -64,7 +64,7 @@ def _title(curve: Curve) -> str:
         "weight": f"γ = {plain(problem.weight, 6)}",
         "alpha": f"α = {plain(problem.alpha)}°",
         "clearance": f"Δ/L = {plain(problem.clearance)}",
-        **{name: f"{name} {value:.6g}/L" for name in CURVATURES if (value := getattr(problem, name)) != 0.0},
+        **bends(problem),
     }
     over = curve.over
     varies = over.names if isinstance(over, ParameterPath) else (over,)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 
 from rodwell.problem.problem import Problem
+from rodwell.problem.varying import CURVATURES
 from rodwell.problem.words import ends_text
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.text import plain, separated
@@ -110,11 +111,17 @@ def marked(number: int) -> dict[str, Any]:
     return {"color": MODES[number % len(MODES)], **extra}
 
 
+def bends(problem: Problem) -> dict[str, str]:
+    """The curvatures of a hole that has any, by name, in words."""
+    return {name: f"{name} {plain(value)}/L" for name in CURVATURES if (value := getattr(problem, name)) != 0.0}
+
+
 def parameters(problem: Problem, scales: Scales | None = None) -> str:
-    """What a figure is of, for the figure itself: γ, α, Δ/L and the ends, and twist if there is any."""
+    """What a figure is of, for the figure itself: γ, α, Δ/L and the ends, twist and curvature if there are any."""
     parts = [f"γ = {plain(problem.weight)}", f"α = {plain(problem.alpha)}°", f"Δ/L = {plain(problem.clearance)}"]
     if problem.twist != 0.0:
         parts.append(f"T₁ = {plain(problem.twist)} B/L")
+    parts += bends(problem).values()
     if scales is not None:
         parts.insert(0, f"L = {scales.text(1.0, 'length')}")
     return ",  ".join([*parts, ends_text(problem)])

@@ -16,11 +16,13 @@ from rodwell import (
     critical_loads,
     follow,
     lift_off_curve,
+    sensitivities,
 )
 from rodwell.analysis.curves.critical import _half_in_arc, _LoadsOverRange
 from rodwell.analysis.curves.points import CurveStart, PlanePoint
 from rodwell.analysis.curves.zeros import Touching
 from rodwell.analysis.loads.sensitivity import of_critical_load, of_lift_off
+from rodwell.answers.words.shown_loads import at_bottom
 
 INCLINED = Problem(15.0, 70.0, clearance=0.02, build=0.2, ends="pinned-clamped")
 STEPS = {"weight": 0.06, "alpha": 0.2, "clearance": 1e-4, "build": 1e-3}
@@ -146,7 +148,8 @@ def test_proofs_in_an_arc_without_weight() -> None:
     [
         (Problem(15.0, build=0.2), "weight", "constant coefficients"),
         (Problem(0.0, build=0.2, ends="clamped-free"), "ends", "free end"),
-        (Problem(15.0, build=0.2, walk=0.1), "walk", "no critical load"),
+        (Problem(15.0, build=0.2, walk=0.1), "walk", "in a vertical plane"),
+        (Problem(0.0, build=0.2, twist=1.0, ends="pinned-pinned"), "twist", "turns around the hole"),
     ],
 )
 def test_what_cannot_be_proved_is_refused(problem: Problem, field: str, why: str) -> None:
@@ -161,3 +164,19 @@ def test_what_an_axis_fixes_no_curve_can_change() -> None:
         lift_off_curve(Problem(15.0, axis=points.tolist()), "alpha", (70.0, 75.0))
     with pytest.raises(InputError, match="loads as functions of it are curves"):
         follow(Problem(15.0), start=follow(Problem(15.0), until=-115.0)[-1], parameter={"build": (0.0, 0.1)}, until=1.0)
+
+
+def test_of_a_rod_that_has_left_the_wall_of_a_drop_that_is_said() -> None:
+    """The inside of the curve: theory of curved holes has −74.434, where it leaves the wall, above mode 2."""
+    (load,) = sensitivities(Problem(15.0, build=-0.2), 2)
+    assert "left the wall" in load.note
+    assert load.force < -74.4344023
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_at_the_bottom_the_weight_over_the_rise_of_the_rod_changes_too(name: str) -> None:
+    found = at_bottom(of_critical_load(critical_loads(INCLINED, 1)[0]))
+    problems = {k: changed(INCLINED, name, k) for k in (-2, -1, 1, 2)}
+    loads = {k: critical_loads(one, 1)[0].force - one.hung_weight for k, one in problems.items()}
+    assert found.derivatives[name].value == pytest.approx(slope(name, loads), rel=1e-6)
+    assert found.force == critical_loads(INCLINED, 1)[0].force - INCLINED.hung_weight

@@ -16,7 +16,9 @@ from numpy.polynomial import chebyshev
 from rodwell import InputError, Problem, critical_loads, diagram, follow
 from rodwell.analysis.branch.special import BRANCH_POINT, LIFT_OFF
 from rodwell.analysis.branch.symmetry import reflections
+from rodwell.analysis.discrete.measures import AS_FIELD, Measured, measure
 from rodwell.analysis.loads.lying_rod import LyingRod, lying_rod
+from rodwell.analysis.state.fields import fields_at
 from rodwell.quantities.arrays import FloatArray
 
 CLEARANCE = 0.01
@@ -200,3 +202,18 @@ def test_a_rod_that_lies_nowhere_is_told_why(monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(InputError, match="lies on the wall at no end force from") as caught:
         lying_rod(Problem(0.1, 60.0, build=-0.4, walk=0.3))
     assert "the wall would have to pull it at s/L = " in caught.value.reason
+
+
+def test_the_largest_contact_force_is_held_to_the_tolerance(tilted: LyingRod) -> None:
+    """It is measured at its place, which is another one than that of the least, as the field has it there."""
+    state = tilted.last
+    for family, on in state.levels:
+        numbers, scales, _ = measure(family, on)
+        field = fields_at(TILTED, family, on, np.linspace(0.0, 1.0, 20001), balance=False)["contact_pressure"]
+        assert numbers[AS_FIELD] == pytest.approx(float(np.min(field)), rel=1e-7)
+        assert numbers[AS_FIELD] <= float(np.min(field))
+        assert numbers[Measured.P_MAX] > 0.1 * numbers[AS_FIELD]
+        assert scales[AS_FIELD] <= 0.5 * abs(numbers[AS_FIELD])
+    for force in (tilted.lowest.value, tilted.rest.force):
+        contact = tilted.at(force).largest("contact_pressure")
+        assert contact.error < 1e-8 * contact.value

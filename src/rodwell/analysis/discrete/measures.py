@@ -30,7 +30,7 @@ from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.basis import combine
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
-from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP
+from rodwell.physics.on_wall.parameters import CLEARANCE, RAMP, SIDE
 from rodwell.physics.on_wall.tapered import RodOfTapers
 from rodwell.quantities.arrays import FloatArray
 
@@ -106,7 +106,8 @@ STEEPEST = len(Measured)
 
 AS_FIELD = STEEPEST + 1
 """Position of the highest contact pressure as a field has it, from the spline's own third derivative: it is held to the
-tolerance too, so that fields along the rod keep their digits, and the paper's equations are met."""
+tolerance too, so that fields along the rod keep their digits, and the paper's equations are met. Of what is measured by
+arrays, whose highest pressure is the field's anyway, it is the lowest: the largest contact force, often elsewhere."""
 
 PROBED = AS_FIELD + 1
 """Position of the contact pressure at the first of the :data:`PROBES`."""
@@ -249,9 +250,16 @@ def _by_arrays(family: Family, state: State, found: tuple[FloatArray, FloatArray
         noise[soft] = SOFT * scales[soft]
     numbers[STEEPEST], scales[STEEPEST] = known["steepest"], np.inf
     scales[:STEEPEST][scales[:STEEPEST] == 0.0] = 1.0
-    numbers[AS_FIELD], scales[AS_FIELD] = np.max(values), scales[Measured.P_MAX]
+    numbers[AS_FIELD], scales[AS_FIELD] = _lowest_pressure(family, state), scales[Measured.P_MAX]
     numbers[PROBED:], scales[PROBED:] = probed[: len(PROBES)], np.inf
     return out
+
+
+def _lowest_pressure(family: Family, state: State) -> float:
+    """The lowest contact pressure: less the highest of a rod on the other side of the wall, where p counts reversed."""
+    turned = family.parameters(state.lam)
+    turned[SIDE] = -turned[SIDE]
+    return -float(np.max(_maxima(family, state.c, turned)[1]))
 
 
 def _maxima(family: Family, c: FloatArray, parameters: FloatArray) -> tuple[FloatArray, FloatArray, float]:

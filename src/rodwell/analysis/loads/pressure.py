@@ -12,7 +12,7 @@ from rodwell.analysis.branch.starts import at_state
 from rodwell.analysis.discrete.family import IN_CURVED_HOLE, given_along, given_in_kernels, path
 from rodwell.analysis.straight.lying_slopes import beside as changed
 from rodwell.analysis.straight.lying_slopes import step_in
-from rodwell.numerics.differences import central_slope
+from rodwell.numerics.equilibria.differences import central_slope
 from rodwell.numerics.equilibria.error import estimated_error
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State

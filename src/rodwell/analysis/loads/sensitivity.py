@@ -42,6 +42,10 @@ PARAMETERS = ("weight", "alpha", "clearance")
 """The numbers of a dimensionless problem that a load depends on: γ, α in degrees, Δ/L; in a curved hole those of
 :func:`rodwell.analysis.straight.lying_slopes.inputs_of`."""
 
+LEFT_BEFORE = (
+    "the wall would have to pull the rod before this load is reached: it has left the wall of the curved hole by then"
+)
+
 OF_THE_BRANCH = "of the load along the branch, which takes the hole where the undeformed rod is"
 
 Derivatives = dict[str, Value]
@@ -160,7 +164,10 @@ def sensitivities(problem: Problem, mode: int = 1, *, rtol: float = RTOL) -> tup
         assert isinstance(met, SpatialMode)
         known = met.error <= rtol * (abs(met.force) + twisted_load_scale(problem))
         out.append(replace(of_first_met(met), converged=known))
-    if problem.pressed if problem.hole is None else least_contact(problem, buckling.force).value > 0.0:
+    pressed = problem.pressed if problem.hole is None else least_contact(problem, buckling.force).value > 0.0
+    if problem.hole is not None and not pressed:
+        out[0] = replace(out[0], note=LEFT_BEFORE)
+    if pressed:
         branch = follow(problem, buckling, rtol=rtol)
         if (lift := branch.lift_off) is not None:
             out.append(replace(of_lift_off(lift), converged=branch.meets_tolerance(lift)))

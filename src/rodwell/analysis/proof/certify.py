@@ -15,13 +15,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from rodwell.analysis.discrete.curved import linear_space
 from rodwell.analysis.proof.enclosures import Enclosure, bits, checked_digits, exact
 from rodwell.analysis.proof.inertia import EnclosedRod
 from rodwell.analysis.proof.roots import Counter, Critical, critical_values
-from rodwell.analysis.straight.lying import refuse_spatial
-from rodwell.analysis.straight.lying_loads import UNSTABLE, stable_force
-from rodwell.analysis.straight.scale import EULER, load_scale
 from rodwell.errors import InputError, NotConvergedError, checked_whole
 from rodwell.physics.exact import horizontal, vertical
 from rodwell.problem.ends import WITH_Y_HELD, refuse_off_wall
@@ -155,10 +151,18 @@ def certify(problem: Problem, modes: int = 5, *, digits: int = DIGITS) -> Certif
 
 
 def _check_hole(problem: Problem) -> None:
-    """Refuse a curved hole in which the second variation of the rod has coefficients that vary."""
-    refuse_spatial(problem)
+    """Refuse a curved hole in which the second variation of the rod has coefficients that vary, or there is none."""
     if problem.hole is None:
         return
+    given = next((name for name in ("axis", "walk", "weight") if getattr(problem, name)), None)
+    if given is not None:
+        raise InputError(
+            given,
+            f"{len(problem.axis)} points" if given == "axis" else getattr(problem, given),
+            "must be left out: in a curved hole loads are proved of a rod without weight in constant curvature in a "
+            "vertical plane, where equation (64) has constant coefficients; critical_loads (`rodwell critical`) says "
+            "what is known of this one, with estimates of errors",
+        )
     if "free" in problem.ends:  # which leaves κᵣ v v′ at that end
         raise InputError(
             "ends",
@@ -166,26 +170,24 @@ def _check_hole(problem: Problem) -> None:
             "must be clamped, pinned or guided in a curved hole, whose curvature couples place and slope of a free "
             "end, which the proofs do not know; critical_loads has these loads with estimates of their errors",
         )
-    if problem.weight == 0.0 and not problem.axis:
-        return
-    name, value = ("axis", f"{len(problem.axis)} points") if problem.axis else ("weight", problem.weight)
-    raise InputError(
-        name,
-        value,
-        "must be left out: in a curved hole loads are proved of a rod without weight in constant curvature, where "
-        "equation (64) has constant coefficients; critical_loads (`rodwell critical`) has those of this one with "
-        "estimates of their errors",
-    )
+    if problem.twist != 0.0 and problem.ends != ("clamped", "clamped"):
+        reason = "must be 0 in a curved hole with these ends, which it turns around the hole: there is no critical load"
+        raise InputError("twist", problem.twist, reason)
+
+
+def _bent(problem: Problem) -> Fraction:
+    """κᵣ of the rod that lies in an arc, positive on the outside of the bend."""
+    build = -exact(problem.build) if problem.on_top else exact(problem.build)
+    return build / (1 + exact(problem.clearance) * build)
 
 
 def _before_all(problem: Problem) -> Fraction:
-    """−F before the first load: the count there is the proof. In a curved hole that grows with the distance from it."""
+    """−F before the first load, where the count is the proof that there is none."""
     if problem.hole is not None:
-        space = linear_space(problem, (-EULER, EULER))
-        stable = stable_force(problem, space, load_scale(problem))
-        if stable is None:
-            raise NotConvergedError(UNSTABLE)
-        return Fraction(-stable)
+        # N > −2√(P/Δ) is stable: on the outside of the bend with most to spare where that is an inequality of parabolas
+        # in F; on the inside wherever N > 0. The form is linear in F: counts grow with the distance from there
+        bent = _bent(problem)
+        return 2 * bent / exact(problem.clearance) - 2 * bent**2 if bent > 0 else -2 * bent**2 - 1
     # ∫y² ≤ 4∫y'²/π² for functions that vanish at one end bounds what a negative foundation can do
     against = 4.0 * problem.lateral_weight / problem.clearance / math.pi**2 if problem.on_top else 0.0
     return Fraction(-2.0 - problem.heaviest - 1.001 * against)
@@ -207,8 +209,7 @@ def _rod(problem: Problem, x: Ball) -> EnclosedRod:
     if problem.untouched and not problem.holds_angle:  # it can be turned as a whole: y(0) = 0, as in (65)
         ends = WITH_Y_HELD[ends[0]], ends[1]
     if problem.hole is not None:  # N − 2κᵣ² and P/Δ with P = −κᵣ(N − κᵣ²)
-        build = -exact(problem.build) if problem.on_top else exact(problem.build)
-        bent = ball(build / (1 + exact(problem.clearance) * build))
+        bent = ball(_bent(problem))
         return EnclosedRod(-x - 2 * bent**2, weight[0], bent * (x + bent**2) / clearance, ends)
     foundation = weight[1] / clearance
     return EnclosedRod(-x, weight[0], -foundation if problem.on_top else foundation, ends)

@@ -39,11 +39,6 @@ APART = 100.0
 SETTLED = 1e-7
 """Relative change of a load from which on the next one, which squares it, is below round-off."""
 
-UNSTABLE = (
-    "the rod that lies along this hole is unstable on the wall at every end force: there is no load at which it begins "
-    "to buckle. Of a string that hangs through a build in tension, take the part below the build"
-)
-
 LARGEST_LOAD = 1e9
 """In units of the scale of loads: how far a stable force is looked for."""
 
@@ -202,7 +197,10 @@ def loads_of_lying_rod(problem: Problem, count: int, rtol: float, tension: bool 
     if rest is None:
         if tension:
             return None
-        raise NotConvergedError(UNSTABLE)
+        raise NotConvergedError(
+            "the rod that lies along this hole is unstable on the wall at every end force: there is no load at which "
+            "it begins to buckle. Of a string that hangs through a build in tension, take the part below the build"
+        )
     if tension:
         count = min(count, _Pencil(problem, space).unstable(rest + ENDLESS * scale))
         if count == 0:

@@ -14,7 +14,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rodwell.analysis.straight.lying_loads import variation_factors
-from rodwell.numerics.differences import central_slope, one_sided_slope
+from rodwell.numerics.equilibria.differences import central_slope, one_sided_slope
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray

@@ -205,8 +205,13 @@ class Computed:
 
     @cached_property
     def sensitivities(self) -> tuple[Sensitivity, ...]:
-        """How the first critical load and the lift-off load change with the inputs; not known in a curved hole."""
-        if self.case.problem.hole is not None:
+        """How the first critical load and the lift-off load change with the inputs.
+
+        Of curved holes those of constant curvature in a vertical plane, in which the rod does not leave the wall before
+        it buckles: along a survey or a centre line an input moves the whole hole.
+        """
+        problem = self.case.problem
+        if problem.hole is not None and (problem.axis or not problem.hole.planar or self.left_before is not None):
             return ()
         out = [of_critical_load(self.critical[0])]
         if isinstance(self.first_met, SpatialMode):

@@ -224,7 +224,7 @@ def next_steps(answer: Answer) -> tuple[str, ...]:
             f"{plain(case.rtol)}."
         )
     out += _about_the_load(answer)
-    if not case.uncertain and case.scales is not None and case.problem.hole is None:
+    if not case.uncertain and case.scales is not None and answer.sensitivities:
         out.append(
             "Give inputs that are not known well with their uncertainty "
             f'("{UNCERTAIN[case.scales.system.name]}"): the loads then get one too.'

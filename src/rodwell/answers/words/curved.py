@@ -53,10 +53,11 @@ def _places(answer: Answer) -> str:
 
 def left_out(answer: Answer) -> str:
     """What a straight hole's answer has and this one has not."""
-    parts = ["states off the wall", "the load without the wall's help", "moments in the cylinder",
-             "derivatives by the inputs"]  # fmt: skip
-    if answer.case.uncertain:
-        parts[-1] += ", so that the uncertainties given are not carried through"
+    parts = ["states off the wall", "the load without the wall's help", "moments in the cylinder"]
+    if not answer.sensitivities:
+        parts.append("derivatives by the inputs")
+        if answer.case.uncertain:
+            parts[-1] += ", so that the uncertainties given are not carried through"
     if answer.case.cylinder is not None:
         parts[2] += " and its stress"
     return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."

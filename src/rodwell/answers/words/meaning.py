@@ -86,7 +86,8 @@ def sentences(answer: Answer) -> list[str]:
         *window_sentences(a),
     ]
     out.append(_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "")
-    out += in_curved_hole(answer) if answer.case.problem.hole is not None else [_inputs(answer)]
+    out += [_inputs(answer)] if answer.sensitivities else []
+    out += in_curved_hole(answer) if answer.case.problem.hole is not None else []
     out.append(a.validity.sentence)
     return [sentence for sentence in out if sentence]
 
@@ -196,8 +197,9 @@ def _inputs(computed: Computed) -> str:
     if abs(load.force) < SMALL_LOAD:
         return ""
     e = load.elasticities()
-    names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length"}
-    parts = ", ".join(f"{names[name]} {_signed(e[name])}" for name in names)
+    names = {"clearance": "clearance", "weight_per_length": "weight", "stiffness": "stiffness", "length": "length",
+             "build": "curvature of the hole"}  # fmt: skip
+    parts = ", ".join(f"{names[name]} {_signed(e[name])}" for name in names if name in e)
     where = forces_of(computed.case).at_end
     text = f"One percent more of an input changes the {load.name}{where} by: {parts}; one degree more from the "
     text += f"vertical by {_signed(e['alpha'])}."

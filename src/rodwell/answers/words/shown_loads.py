@@ -6,8 +6,11 @@ import math
 from dataclasses import replace
 
 from rodwell.analysis.loads.sensitivity import Sensitivity
+from rodwell.analysis.straight.lying_slopes import beside, inputs_of, step_in
 from rodwell.answers.result.computed import Computed
 from rodwell.answers.result.spread import Spread, spread_of_load
+from rodwell.numerics.equilibria.differences import central_slope
+from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 
 
@@ -23,8 +26,21 @@ def shown_sensitivities(computed: Computed) -> list[tuple[Sensitivity, Spread | 
 def at_bottom(load: Sensitivity) -> Sensitivity:
     """The load as force at the lower end, N(0) = F − γ cos α, and its derivatives."""
     problem, alpha = load.problem, math.radians(load.problem.alpha)
+    if problem.hole is not None:
+        slopes = {name: _hung_slope(problem, name) for name in inputs_of(problem)}
+        return _less(load, slopes)
     whole = problem.rod.whole_weight if problem.sections else 1.0
     whole *= -1.0 if problem.floats else 1.0
     slopes = {"weight": -whole * math.cos(alpha), "alpha": whole * problem.weight * math.sin(alpha) * math.radians(1.0)}
+    return _less(load, slopes)
+
+
+def _less(load: Sensitivity, slopes: dict[str, float]) -> Sensitivity:
+    """The load less the axial weight of the whole rod, with the derivatives of that, but for its sign, by name."""
     derivatives = {name: Value(v.value + slopes.get(name, 0.0), v.error) for name, v in load.derivatives.items()}
-    return replace(load, force=load.force - problem.hung_weight, derivatives=derivatives)
+    return replace(load, force=load.force - load.problem.hung_weight, derivatives=derivatives)
+
+
+def _hung_slope(problem: Problem, name: str) -> float:
+    """Derivative of −γ times the rise of the rod in a curved hole."""
+    return -float(central_slope(lambda step: beside(problem, name, step).hung_weight, step_in(problem, name)))

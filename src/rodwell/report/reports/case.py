@@ -216,6 +216,7 @@ def _inputs_and_loads(computed: Computed) -> tuple[ReportSection, ...]:
         return ()
     uncertain = computed.case.uncertain
     head = ["Load", "clearance Δ", "weight per length", "stiffness B", "length L", "angle α, per degree"]
+    head += ["curvature of the hole"] if computed.case.problem.hole is not None else []
     head += ["± from the inputs"] if uncertain else []
     lines = [(row["name"], *row["cells"], *([row["spread"]] if uncertain else [])) for row in sensitivities(computed)]
     note = (

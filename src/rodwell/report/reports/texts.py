@@ -154,7 +154,8 @@ def sensitivities(computed: Computed) -> list[dict[str, Any]]:
     out = []
     for load, spread in shown_sensitivities(computed):
         e = load.elasticities() if load.force != 0.0 else {}
-        names = ("clearance", "weight_per_length", "stiffness", "length", "alpha")
+        names = ["clearance", "weight_per_length", "stiffness", "length", "alpha"]
+        names += ["build"] if computed.case.problem.hole is not None else []
         cells = [minus(f"{e[name].value:+.2f} %") if e else "" for name in names]
         size = ""
         if spread is not None:
