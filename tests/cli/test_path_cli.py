@@ -67,6 +67,11 @@ def test_a_spring_in_series() -> None:
     assert "driven displacement 0.0111233" in shown.output
 
 
+def test_a_rod_that_stays_straight_is_said_to() -> None:
+    assert "The rod stays straight" in run(*COMMON, "--until", "-90").output
+    assert "The rod stays straight" not in run(*COMMON, "--until", "-112").output
+
+
 def test_bad_input() -> None:
     for arguments, field in (
         (("--until", "-130", "--at", "much"), "--at"),

@@ -92,6 +92,8 @@ def print_path(result: LoadPath) -> None:
             energy += "" if driven is None else f", F = {_signed(event.to.force, 10)}"
             click.echo(f"      {energy}; {event.to.agree} of {event.to.starts} disturbed starts end there")
     symbol = "F" if result.way.by_force else result.way.held
+    if result.reached and not any(leg.runs for leg in result.legs):
+        click.echo("The rod stays straight: the first load at which it buckles is not reached.")
     if result.reached:
         click.echo(f"Followed to {symbol} = {plain(result.until, 6)}" + (
             "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."

@@ -52,7 +52,8 @@ def resolved_event(event: PathEvent, rtol: float) -> ResolvedEvent:
         best, load = finer, finer.state.load
         if error <= PART * rtol * abs(load) and contact_certificate(best.state).passed:
             break
-    if best.kind == BRANCH_POINT and best.between is not None:  # the equations are all but singular there
+    if best.kind == BRANCH_POINT and best.between is not None and not best.state.pattern.planar:
+        # the equations are all but singular there: Newton's method is not kept off the disturbance that grows
         first, second = best.between
         error = max(error, AS_GOOD_AS_ZERO * abs(second.load - first.load))
     return ResolvedEvent(best, Value(load, error), error <= rtol * abs(load))

@@ -7,7 +7,8 @@ tangent (the sign of T₁ is the paper's, M⁽¹⁾ = (−T₁, ω₂, ω₃)),
 
 gives the part of the internal force n across the rod; the part along it follows from n·k = N(s) = F + wₐ h(s), the
 axial resultant (h = s − 1 of a uniform rod), since nothing but the weight acts along the hole without friction. Along
-a free stretch n′ = wₗ i + wₐ k remains to be met, i pointing up across the hole: none of these is used by the solver.
+a free stretch n′ = wₗ i + wₐ k remains to be met, i pointing up across the hole: none of these is used by the solver,
+which takes only what a rod on the wall exerts radially where it is cut (:func:`radially_at_wall`).
 """
 
 from __future__ import annotations
