@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import rodwell
-from rodwell.report.folders.pictures import draw
+from rodwell.report.folders.pictures import draw_branches, draw_rod
 from rodwell.report.pages.pdf import typeset
 from rodwell.report.reports.case import case_report
 
@@ -17,7 +17,7 @@ def pages(out: Path) -> dict[str, str]:
     answer = rodwell.answer(rodwell.Case.read(out / "examples" / "field-drill-pipe.toml"))
     pictures = {
         name: next((kind, formats[kind]) for kind in ("svg", "png") if kind in formats)
-        for name, formats in draw(answer).items()
+        for name, formats in {**draw_branches(answer), **draw_rod(answer)}.items()
     }
     sheets = typeset(case_report(answer), pictures, format="png", ppi=PPI)
     (out / "front.png").write_bytes(sheets[0])

@@ -30,8 +30,7 @@ import rodwell
 from rodwell.case.case import Case
 from rodwell.case.file import read_case
 from rodwell.errors import InputError
-from rodwell.studies.sweep.study import is_study
-from rodwell.studies.sweep.varied import varied_inputs
+from rodwell.studies.sweep.varied import is_study, varied_inputs
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]

@@ -95,7 +95,7 @@ def test_a_title_with_control_characters_loses_nothing(tmp_path: Path, monkeypat
     pypdf = pytest.importorskip("pypdf")
     empty = {"svg": b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"></svg>'}
     pictures = dict.fromkeys(PICTURES, empty)
-    monkeypatch.setattr("rodwell.report.folders.case.drawing", lambda: lambda _: pictures)  # they have no title
+    monkeypatch.setattr("rodwell.report.folders.beside.drawing", lambda: lambda *_: pictures)  # they have no title
     text = f"title = {json.dumps(ESCAPES)}\n{GOOD}"
     (tmp_path / "case.toml").write_text(text, encoding="utf-8")
     case = Case.read(tmp_path / "case.toml")

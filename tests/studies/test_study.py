@@ -27,9 +27,9 @@ from rodwell.quantities.table import Table
 from rodwell.store.tables import write_csv, write_xlsx
 from rodwell.strength.limits import LIFTS_OFF, YIELDS
 from rodwell.studies.sweep.plain import study_dict
-from rodwell.studies.sweep.study import Study, is_study
+from rodwell.studies.sweep.study import Study
 from rodwell.studies.sweep.tables import sentences, study_table
-from rodwell.studies.sweep.varied import varied_inputs
+from rodwell.studies.sweep.varied import is_study, varied_inputs
 from rodwell.studies.varied import MOST_POINTS
 
 STRING: dict[str, Any] = {
