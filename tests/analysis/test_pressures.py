@@ -8,8 +8,7 @@ import pytest
 import rodwell
 from rodwell import Problem
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.discrete.measures import Measured
-from rodwell.analysis.discrete.pressures import balanced_pressures
+from rodwell.analysis.discrete.measures import Measured, balanced_pressures
 
 PLACES = np.linspace(0.0, 1.0, 41)
 
@@ -17,7 +16,7 @@ PLACES = np.linspace(0.0, 1.0, 41)
 def both(state: Solution) -> tuple[np.ndarray, np.ndarray]:
     family, fine = state.levels[1]
     parameters = family.parameters(fine.lam)
-    balanced = balanced_pressures(family.mesh, fine.space.knots, fine.space.landmarks[0], fine.c, parameters, PLACES)
+    balanced = balanced_pressures(family, fine, parameters, PLACES)
     side = -1.0 if state.problem.outside else 1.0
     return balanced, side * state.fields(PLACES)["contact_pressure"]
 

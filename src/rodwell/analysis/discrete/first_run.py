@@ -47,8 +47,8 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
     (
         state_numbers,
         (
-            *(_MESH, _VECTOR, _TABLE, _POSITIONS, _TABLES, _VECTOR, _VECTOR, types.float64),  # landmarks, marks, probes
-            *(_VECTOR, _VECTOR, types.float64),  # places, sizes, lowest
+            *(_MESH, _VECTOR, _TABLE, _POSITIONS, _TABLES, types.int64),  # landmarks, marks, tables
+            *(_VECTOR, _VECTOR, types.float64, _VECTOR, _VECTOR, types.float64),  # c … energy, places, sizes, lowest
         ),
     ),
     (

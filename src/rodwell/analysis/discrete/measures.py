@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
 from enum import IntEnum
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -12,11 +10,12 @@ import numpy as np
 from rodwell.analysis.discrete import by_arrays
 from rodwell.analysis.discrete.pressures import (
     COEFFICIENT_NOISE,
+    Tables,
     balanced,
-    balanced_pressures,
     derivative,
     free_ends,
-    tabulated,
+    tables_for,
+    tabulate_places,
     totals,
 )
 from rodwell.compiling.kernels import direct, kernel
@@ -24,7 +23,7 @@ from rodwell.compiling.second_process import wait_for
 from rodwell.errors import unknown_name
 from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.equilibria.family import Family
-from rodwell.numerics.equilibria.maxima import maxima
+from rodwell.numerics.equilibria.maxima import MOST_MAXIMA, maxima
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import TwoMeshes
 from rodwell.numerics.splines.basis import combine
@@ -79,9 +78,9 @@ MEASURES = {
 }
 """Names of the measured numbers, as in the nomenclature."""
 
-_Positions: Any = namedtuple("_Positions", Measured.__members__)  # type: ignore[misc]
-AT = _Positions(*map(int, Measured))
-"""The same positions as plain numbers: kernels take no others as indices with Numba below 0.68."""
+SOFT_ONES = (int(Measured.ANGLE_MID), int(Measured.TORQUE_0))
+"""Those that a soft direction of the rod moves, as plain numbers: kernels take no others as indices with Numba below
+0.68."""
 
 _NAMED = {name: which for which, name in MEASURES.items()}
 
@@ -117,65 +116,66 @@ PROBES = (0.21, 0.46, 0.5, 0.78)
 
 
 @kernel
-def state_numbers(mesh, knots, landmarks, marks, probes, c, parameters, energy, places, sizes, lowest):
+def state_numbers(mesh, knots, landmarks, marks, tables, known, c, parameters, energy, places, sizes, lowest):
     """Rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
 
-    ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,),
-    ``probes`` what is :func:`tabulated` at the PROBES;
-    ``places`` (k,) are those of maxima of the contact pressure, ``sizes`` (k,) what the spline has there, ``lowest`` is
-    the least of that.
+    ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,).
+    ``tables`` have room for the PROBES and then for the ``places`` (k,) of maxima of the contact pressure; the first
+    ``known`` rows are filled. ``sizes`` (k,) is what the spline has at the places, ``lowest`` the least of that.
+
+    Returns
+    -------
+    numbers
+        As above.
+    pressures
+        At the places, (k,), from the balance of forces.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
-    count = places.size
-    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(count), np.empty(count)
-    at_probes, unused = np.empty(len(PROBES)), np.empty(len(PROBES))
+    first, count = len(PROBES), places.size
+    shear, values, left = np.empty(mesh.starts.size + 1), np.empty(first + count), np.empty(first + count)
+    for i in range(count):
+        tables[0][first + i] = places[i]
+    free = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
     shortening, torque, bending, torque_size, sharpest, widest, steepest = totals(
-        mesh, knots, landmarks, c, parameters, shear
+        mesh, knots, landmarks, free, c, parameters, shear
     )
-    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
-    balanced(mesh, knots, c, parameters, shear, tables, values, left)
-    balanced(mesh, knots, c, parameters, shear, probes, at_probes, unused)
+    tabulate_places(mesh.local, knots, mesh.starts, mesh.points, tables, known, first + count)
+    balanced(mesh, knots, free, c, parameters, shear, tables, values, left)
     highest = as_field = -np.inf
     unsure = 0.0
     for i in range(count):
-        highest, as_field, unsure = larger(highest, values[i]), larger(as_field, sizes[i]), larger(unsure, left[i])
-    u = np.empty((3, 3))  # place, derivative
+        highest, as_field = larger(highest, values[first + i]), larger(as_field, sizes[i])
+        unsure = larger(unsure, left[first + i])
+    u, omega2, noise = np.empty((3, 3)), np.empty(3), np.empty(3)  # place, derivative
     for i in range(3):
         combine(mesh.local, landmarks, i, c, marks[i], u[i])
-        u[i, 1] += ramp
-    out = np.zeros((3, PROBED + len(PROBES)))
-    numbers, scales, noise = out
-    _, turns_0, _, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
-    for i, which, turns in ((0, AT.OMEGA2_0, turns_0), (2, AT.OMEGA2_1, turns_1)):
         bend, size = derivative(landmarks[i], 2, c, marks[i])
-        # no moment where the end turns freely: what the spline has there tells how far it is off
-        u[i, 2], noise[which] = (0.0, OTHER_END * abs(bend)) if turns else (bend, COEFFICIENT_NOISE * size)
-    numbers[AT.P_MAX], scales[AT.P_MAX] = highest, HALF * max(abs(highest), abs(lowest))
-    numbers[AT.ENERGY], scales[AT.ENERGY] = energy, max(abs(energy), bending)
-    numbers[AT.SHORTENING] = scales[AT.SHORTENING] = shortening
-    numbers[AT.OMEGA2_0] = -u[0, 2] / np.sqrt(1.0 - u[0, 1] ** 2)
-    numbers[AT.OMEGA2_1] = -u[2, 2] / np.sqrt(1.0 - u[2, 1] ** 2)
-    # the scale is ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
-    scales[AT.OMEGA2_0] = scales[AT.OMEGA2_1] = max(sharpest, steepest**2 / clearance)
-    numbers[AT.ANGLE_MID], scales[AT.ANGLE_MID] = (u[1, 0] + 0.5 * ramp) / clearance, widest
-    numbers[AT.TORQUE_0], scales[AT.TORQUE_0] = torque, torque_size
-    numbers[STEEPEST], scales[STEEPEST] = steepest, np.inf
-    for k in range(STEEPEST):
-        if scales[k] == 0.0:  # numbers that vanish identically: the straight rod, no lateral weight
-            scales[k] = 1.0
-    numbers[AS_FIELD], scales[AS_FIELD] = as_field, scales[AT.P_MAX]
-    for k in range(len(PROBES)):
-        numbers[PROBED + k], scales[PROBED + k] = at_probes[k], np.inf
-    noise[AT.P_MAX] = unsure
-    for which in (AT.ANGLE_MID, AT.TORQUE_0):
-        noise[which] = SOFT * scales[which]
-    return out
+        omega2[i], noise[i] = -bend / np.sqrt(1.0 - (u[i, 1] + ramp) ** 2), COEFFICIENT_NOISE * size
+        if i != 1 and free[i + 1]:  # no moment where the end turns: what the spline has there tells how far it is off
+            omega2[i], noise[i] = 0.0, OTHER_END * abs(bend)
+    numbers = (
+        highest, energy, shortening, omega2[0], omega2[2], (u[1, 0] + 0.5 * ramp) / clearance, torque,
+        steepest, as_field,
+    )  # fmt: skip
+    bent = max(sharpest, steepest**2 / clearance)  # ω₂, or ω₃ where that is larger: a helix has ω₂ = 0
+    most = HALF * max(abs(highest), abs(lowest))
+    scales = most, max(abs(energy), bending), shortening, bent, bent, widest, torque_size, np.inf, most
+    left_in = unsure, 0.0, 0.0, noise[0], noise[2], 0.0, 0.0, 0.0, 0.0
+    out = np.zeros((3, PROBED + len(PROBES)))
+    for k in range(PROBED):
+        # numbers that vanish identically (the straight rod, no lateral weight) have the scale 1
+        out[0, k], out[1, k], out[2, k] = numbers[k], scales[k] if scales[k] != 0.0 else 1.0, left_in[k]
+    for k in SOFT_ONES:
+        out[2, k] = SOFT * out[1, k]
+    for k in range(first):
+        out[0, PROBED + k], out[1, PROBED + k] = values[k], np.inf
+    return out, values[first:]
 
 
 _quick_numbers, _quick_maxima = direct(state_numbers), direct(maxima)
 
-_probed: WeakKeyDictionary[SplineSpace, Any] = WeakKeyDictionary()
-"""What is tabulated at the :data:`PROBES`, for each space: the states of a branch are all measured on a few."""
+_tables: WeakKeyDictionary[SplineSpace, Tables] = WeakKeyDictionary()
+"""For each space, tables that are filled at the :data:`PROBES`: the states of a branch are all measured on a few."""
 
 LINKS = tuple((int(Measured.P_MAX), PROBED + i) for i in range(len(PROBES)))
 """The error of the largest contact pressure is not much below that of the pressure at some places that stay
@@ -211,16 +211,29 @@ def measure(family: Family, state: State) -> FloatArray:
     Behind them stand STEEPEST, AS_FIELD, and the contact pressure at the :data:`PROBES`. Round-off in the terms of a
     spline's derivatives comes out of these enlarged by h⁻¹, h⁻².
     """
-    space, p = state.space, family.parameters(state.lam)
+    p = family.parameters(state.lam)
     found = _maxima(family, state.c, p)
     if isinstance(family.model, BY_ARRAYS):
         return _by_arrays(family, state, found)
-    probes = _probed.get(space)
-    if probes is None:
-        probes = _probed[space] = tabulated(space.tags[0], space.knots, space.starts, space.points, np.array(PROBES))
+    return _by_loops(family, state, p, *found)[0]
+
+
+def _by_loops(
+    family: Family, state: State, parameters: FloatArray, places: FloatArray, sizes: FloatArray, lowest: float
+) -> tuple[FloatArray, FloatArray]:
+    """The same from compiled loops, and the contact pressure at ``places``."""
+    space, room = family.space, len(PROBES) + places.size
+    tables, known = _tables.get(space), len(PROBES)
+    if tables is None or tables[0].size < room:
+        tables, known = tables_for(space, max(room, len(PROBES) + MOST_MAXIMA)), 0
+        tables[0][: len(PROBES)] = PROBES
+        _tables[space] = tables
     wait_for("state_numbers")
-    numbers = _quick_numbers(family.mesh, space.knots, *space.landmarks, probes, state.c, p, state.energy, *found)
-    return np.asarray(numbers)
+    numbers, pressures = _quick_numbers(
+        family.mesh, space.knots, *space.landmarks, tables, known, state.c, parameters, state.energy,
+        *(places, sizes, lowest),
+    )  # fmt: skip
+    return numbers, pressures
 
 
 def _by_arrays(family: Family, state: State, found: tuple[FloatArray, FloatArray, float]) -> FloatArray:
@@ -246,7 +259,7 @@ def _by_arrays(family: Family, state: State, found: tuple[FloatArray, FloatArray
     middle += 0.5 * ramp
     numbers[Measured.ANGLE_MID], scales[Measured.ANGLE_MID] = middle / clearance, known["widest"]
     numbers[Measured.TORQUE_0], scales[Measured.TORQUE_0] = known["torque"], known["torque_size"]
-    for soft in (Measured.ANGLE_MID, Measured.TORQUE_0):
+    for soft in SOFT_ONES:
         noise[soft] = SOFT * scales[soft]
     numbers[STEEPEST], scales[STEEPEST] = known["steepest"], np.inf
     scales[:STEEPEST][scales[:STEEPEST] == 0.0] = 1.0
@@ -287,9 +300,13 @@ def pressure_maxima(
     family: Family, state: State, parameters: FloatArray | None = None
 ) -> tuple[FloatArray, FloatArray, float]:
     """Places and values of the highest maxima of the contact pressure, and its lowest sampled value."""
-    space, p = state.space, family.parameters(state.lam) if parameters is None else parameters
+    p = family.parameters(state.lam) if parameters is None else parameters
     places, _, lowest = _maxima(family, state.c, p)
     if isinstance(family.model, BY_ARRAYS):
         return places, by_arrays.pressures(family, state, places)[0], float(lowest)
-    values = balanced_pressures(family.mesh, space.knots, space.landmarks[0], state.c, p, places)
-    return places, values, float(lowest)
+    return places, balanced_pressures(family, state, p, places), float(lowest)
+
+
+def balanced_pressures(family: Family, state: State, parameters: FloatArray, places: FloatArray) -> FloatArray:
+    """Contact pressure (k,) at ``places`` (k,) from the balance of forces."""
+    return _by_loops(family, state, parameters, places, np.zeros_like(places), 0.0)[1]

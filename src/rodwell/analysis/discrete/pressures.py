@@ -18,13 +18,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rodwell.compiling.kernels import direct, formula, inlined, kernel
+from rodwell.compiling.kernels import formula, inlined
 from rodwell.numerics.equilibria.error import larger
 from rodwell.numerics.splines.assembly import SHARED, at_points
 from rodwell.numerics.splines.basis import AT_ONCE, MOST_ORDERS, element_of, find_span, side_by_side
 from rodwell.numerics.splines.lanes import on_lanes
-from rodwell.numerics.splines.records import Discretisation
+from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.parameters import CLEARANCE, LATERAL_WEIGHT, RAMP
 from rodwell.quantities.arrays import FloatArray
 
@@ -47,6 +48,18 @@ CHANGE = 1e-5
 
 STILL = (0.0,) * (RAMP + 1)
 """No parameter changes."""
+
+Tables = tuple[FloatArray, NDArray[np.int64], FloatArray, FloatArray, FloatArray]
+"""What does not depend on a state at places (k,): the places; the element of each, and the part of that before it;
+basis functions and two derivatives, (k, 3, p+1); basis functions at the element's Gauss points, moved to where only the
+part before the place is integrated over, (k, points of an element, p+1)."""
+
+
+def tables_for(space: SplineSpace, count: int) -> Tables:
+    """Room for what is known at ``count`` places."""
+    local = space.degree + 1
+    basis, inner = np.zeros((count, 3, local)), np.zeros((count, space.per_element, local))
+    return np.zeros(count), np.zeros(count, dtype=np.int64), np.zeros(count), basis, inner
 
 
 def _adding(model: Any, rows: Any, parameters: Any) -> Sequence[Any]:
@@ -106,13 +119,13 @@ def free_ends(last, held, follows):
 
 
 @inlined
-def _balance(mesh, knots, ends, c, ramp, push, lever, shear):
+def _balance(mesh, knots, ends, free, c, ramp, push, lever, shear):
     """Turn integrals of ∂e/∂y up to mesh points, in ``shear``, into V there.
 
     ``push`` is ∫∂e/∂y′, ``lever`` ∫(1 − s) ∂e/∂y.
     """
     count, local = shear.size, len(mesh.local)
-    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh.starts[-1] + local - 1, mesh.held, mesh.follows)
+    loose_0, turns_0, loose_1, turns_1 = free
     whole = shear[count - 1]
     if loose_0 and loose_1:  # from the nearer end
         for i in range(count):
@@ -137,11 +150,12 @@ def _balance(mesh, knots, ends, c, ramp, push, lever, shear):
         shear[i] += start
 
 
-@kernel
-def totals(mesh, knots, ends, c, parameters, shear):
+@inlined
+def totals(mesh, knots, ends, free, c, parameters, shear):
     """Integrals over the rod and largest values; write to ``shear`` (elements + 1,) V at mesh points.
 
-    ``ends`` has the basis functions and two derivatives at both ends, first and last.
+    ``ends`` has the basis functions and two derivatives at both ends, first and last; ``free`` is what
+    :func:`free_ends` tells of them.
 
     Returns
     -------
@@ -162,37 +176,25 @@ def totals(mesh, knots, ends, c, parameters, shear):
     for k in range(TOTALS):
         for i in range(found.shape[1]):
             gathered[k] = gathered[k] + found[k, i] if k < SUMS else larger(gathered[k], found[k, i])
-    _balance(mesh, knots, ends, c, parameters[RAMP], gathered[4], gathered[5], shear)
+    _balance(mesh, knots, ends, free, c, parameters[RAMP], gathered[4], gathered[5], shear)
     return (
         gathered[0], gathered[1], gathered[2], gathered[3],
         gathered[6], gathered[7], gathered[8],
     )  # fmt: skip
 
 
-@kernel
-def tabulated(local_tag, knots, starts, points, places):
-    """Everything at ``places`` (k,) that does not depend on a state.
+@inlined
+def tabulate_places(local_tag, knots, starts, points, tables, begin, end):
+    """Fill the rows from ``begin`` to ``end`` of tables whose places are known.
 
-    ``starts`` are the first functions, ``points`` the Gauss points of all elements: those of a place's element are
-    moved to where only the part of it before the place is integrated over. ``local_tag`` is a tuple of p + 1 zeros.
-
-    Returns
-    -------
-    places
-        As given, (k,).
-    elements, shares
-        The element of each place, (k,), and the part of it that lies before the place, (k,).
-    basis
-        Basis functions and two derivatives at the places, (k, 3, p+1).
-    inner
-        Basis functions at the moved Gauss points, (k, points of an element, p+1).
+    ``starts`` are the first functions, ``points`` the Gauss points of all elements. ``local_tag`` is a tuple of p + 1
+    zeros.
     """
     degree = len(local_tag) - 1
     per_element = points.size // starts.size
-    elements, shares = np.empty(places.size, np.int64), np.empty(places.size)
-    basis, inner = np.empty((places.size, 3, degree + 1)), np.empty((places.size, per_element, degree + 1))
+    places, elements, shares, basis, inner = tables
     x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, degree + 1, AT_ONCE))
-    for k in range(places.size):
+    for k in range(begin, end):
         span = find_span(knots, degree, places[k])
         low, element = knots[span], element_of(starts, span - degree)
         elements[k], shares[k] = element, (places[k] - low) / (knots[span + 1] - low)
@@ -207,7 +209,6 @@ def tabulated(local_tag, knots, starts, points, places):
                         inner[k, first + i - 1, a] = out[0, a, i]
                     for order in range(3 if first + i == 0 else 0):
                         basis[k, order, a] = out[order, a, 0]
-    return places, elements, shares, basis, inner
 
 
 @inlined
@@ -241,16 +242,16 @@ def derivative(basis, order, c, first):
     return value, size
 
 
-@kernel
-def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
-    """Write to ``values`` (k,) the contact pressure at the places of tables, to ``noise`` (k,) what round-off leaves.
+@inlined
+def balanced(mesh, knots, free, c, parameters, shear, tables, values, noise):
+    """Write to ``values`` (k,) the contact pressure at k places of tables, to ``noise`` (k,) what round-off leaves.
 
-    ``shear`` (elements + 1,) is V at mesh points, ``tables`` what :func:`tabulated` returns.
+    ``shear`` (elements + 1,) is V at mesh points.
     """
     known, out = np.empty((5 + mesh.given.shape[1], len(CHANGED))), np.empty((1, len(CHANGED)))
     places, elements, shares, basis, inner = tables
-    loose_0, turns_0, loose_1, turns_1 = free_ends(mesh.starts[-1] + len(mesh.local) - 1, mesh.held, mesh.follows)
-    for i in range(places.size):
+    loose_0, turns_0, loose_1, turns_1 = free
+    for i in range(values.size):
         s, first = places[i], mesh.starts[elements[i]]
         force = _shear_at(mesh, knots, c, parameters, shear, elements[i], shares[i], inner[i])
         y = 0.0
@@ -273,17 +274,3 @@ def balanced(mesh, knots, c, parameters, shear, tables, values, noise):
         _pressure(mesh.model, CHANGED, known, (parameters,), out)
         values[i] = out[0, 0]
         noise[i] = COEFFICIENT_NOISE / (2.0 * CHANGE) * (abs(out[0, 2] - out[0, 1]) + abs(out[0, 4] - out[0, 3]))
-
-
-_quick_totals, _quick_balanced = direct(totals), direct(balanced)
-
-
-def balanced_pressures(
-    mesh: Discretisation, knots: FloatArray, ends: FloatArray, c: FloatArray, parameters: FloatArray, places: FloatArray
-) -> FloatArray:
-    """Contact pressure (k,) at ``places`` (k,); ``ends`` has the basis functions at both ends, first and last."""
-    shear, values, noise = np.empty(mesh.starts.size + 1), np.empty(places.size), np.empty(places.size)
-    _quick_totals(mesh, knots, ends, c, parameters, shear)
-    tables = tabulated(mesh.local, knots, mesh.starts, mesh.points, places)
-    _quick_balanced(mesh, knots, c, parameters, shear, tables, values, noise)
-    return values
