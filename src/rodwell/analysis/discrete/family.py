@@ -11,6 +11,7 @@ from rodwell.analysis.discrete.curved import along_rod
 from rodwell.errors import InputError
 from rodwell.numerics.equilibria.family import MIRROR, Family, Given
 from rodwell.numerics.equilibria.series import series_path
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.curved import RodInCurvedHole
@@ -267,3 +268,13 @@ def _reflections(problem: Problem) -> tuple[tuple[int, bool], ...]:
     found = [MIRROR] if plain else []
     found += [(1, True)] if plain and turnable else []
     return (*found, (-1, True)) if turnable else tuple(found)
+
+
+def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArray | None = None) -> FloatArray:
+    """Y and its derivatives at ``s`` (m,), (orders, m): the spline (with coefficients ``c``, if given) and the ramp."""
+    out = state.space.evaluate(state.c if c is None else c, s, orders)
+    ramp = family.parameters(state.lam)[RAMP]
+    out[0] += ramp * s
+    if orders > 1:
+        out[1] += ramp
+    return out

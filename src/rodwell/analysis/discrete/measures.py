@@ -117,18 +117,13 @@ PROBES = (0.21, 0.46, 0.5, 0.78)
 
 @kernel
 def state_numbers(mesh, knots, landmarks, marks, tables, known, c, parameters, energy, places, sizes, lowest):
-    """Rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, and what round-off leaves in them.
+    """Return rows of (3, 13): the :class:`Measured` numbers, the scales of their errors, what round-off leaves in them.
+
+    The second result is the contact pressure at ``places`` (k,), from the balance of forces.
 
     ``landmarks`` (3, 3, p+1) are the basis functions at both ends and in the middle, in the elements ``marks`` (3,).
     ``tables`` have room for the PROBES and then for the ``places`` (k,) of maxima of the contact pressure; the first
     ``known`` rows are filled. ``sizes`` (k,) is what the spline has at the places, ``lowest`` the least of that.
-
-    Returns
-    -------
-    numbers
-        As above.
-    pressures
-        At the places, (k,), from the balance of forces.
     """
     clearance, ramp = parameters[CLEARANCE], parameters[RAMP]
     first, count = len(PROBES), places.size
@@ -183,16 +178,6 @@ where they are."""
 
 GROUPS = ((int(Measured.OMEGA2_0), int(Measured.OMEGA2_1)),)
 """Measured numbers of one kind: the end curvatures."""
-
-
-def shape(family: Family, state: State, s: FloatArray, orders: int, c: FloatArray | None = None) -> FloatArray:
-    """Y and its derivatives at ``s`` (m,), (orders, m): the spline (with coefficients ``c``, if given) and the ramp."""
-    out = state.space.evaluate(state.c if c is None else c, s, orders)
-    ramp = family.parameters(state.lam)[RAMP]
-    out[0] += ramp * s
-    if orders > 1:
-        out[1] += ramp
-    return out
 
 
 def measured_meshes(family: Family, rtol: float, most_elements: int) -> TwoMeshes:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.discrete.family import shape
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at

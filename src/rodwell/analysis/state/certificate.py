@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.discrete.family import shape
 from rodwell.analysis.state.curved_certificate import residuals
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import element_fields, gauss_calculus, gauss_places

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.discrete.family import given_of
-from rodwell.analysis.discrete.measures import shape
+from rodwell.analysis.discrete.family import given_of, shape
 from rodwell.analysis.state.in_hole import in_hole
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
