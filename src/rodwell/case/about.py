@@ -6,11 +6,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from rodwell.case.kinds import Line, SectionInput, _key
 from rodwell.errors import InputError
 
 KINDS = {".png": "png", ".svg": "svg", ".jpg": "jpeg", ".jpeg": "jpeg"}
 LARGEST_LOGO = 2_000_000
 """Bytes that a logo may have: it stands inside of the page."""
+
+
+class ReportInput(SectionInput):
+    """[report]: what stands at the head of the report, to be signed."""
+
+    client: Line | None = _key(None, "for whom", "Example Oil plc")
+    project: Line | None = _key(None, "of which it is a part", "Well A-12, 8 1/2 in section")
+    author: Line | None = _key(None, "who made it", "A. Engineer")
+    revision: Line | None = _key(None, "of the report", "B, for approval")
+    logo: Line | None = _key(
+        None, "picture at its head (PNG, JPEG, SVG), from the folder of the case file", "logo.svg",
+        allowed="at most 2 MB",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import Field, StrictBool, model_validator
 
+from rodwell.case.about import ReportInput
 from rodwell.case.hole.schema import CylinderInput, Hole
 from rodwell.case.kinds import (
     REQUIRED,
@@ -24,7 +25,6 @@ from rodwell.case.kinds import (
     Forces,
     InnerLength,
     Length,
-    Line,
     Moment,
     Motion,
     Name,
@@ -195,19 +195,6 @@ class CatalogueFiles(SectionInput):
     files: list[str] = _key(
         REQUIRED, "TOML files with pipes, materials and grades of your own, from the folder of the case file",
         ["my-pipes.toml"],
-    )  # fmt: skip
-
-
-class ReportInput(SectionInput):
-    """[report]: what stands at the head of the report, to be signed."""
-
-    client: Line | None = _key(None, "for whom", "Example Oil plc")
-    project: Line | None = _key(None, "of which it is a part", "Well A-12, 8 1/2 in section")
-    author: Line | None = _key(None, "who made it", "A. Engineer")
-    revision: Line | None = _key(None, "of the report", "B, for approval")
-    logo: Line | None = _key(
-        None, "picture at its head (PNG, JPEG, SVG), from the folder of the case file", "logo.svg",
-        allowed="at most 2 MB",
     )  # fmt: skip
 
 

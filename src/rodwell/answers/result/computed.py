@@ -10,12 +10,10 @@ import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Progress
-from rodwell.analysis.branch.follow import extended, follow
+from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import SpecialPoint
-from rodwell.analysis.branch.symmetry import arms_differ
 from rodwell.analysis.discrete import first_run
-from rodwell.analysis.loads.arms import to_lift_off
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.loads.sensitivity import Sensitivity, of_critical_load, of_first_met, of_lift_off
 from rodwell.analysis.state.certificate import Certificate
@@ -24,7 +22,7 @@ from rodwell.analysis.straight.critical import CriticalLoads, Mode, critical_loa
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.analysis.straight.without_wall import SpatialMode, loads_without_wall
 from rodwell.answers.result.lying import check_lying, left_before, lift_off_of, lying_along
-from rodwell.answers.result.reach import followed_on
+from rodwell.answers.result.reach import first_branch
 from rodwell.answers.result.spread import Spread, spread_of_load
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
@@ -256,7 +254,7 @@ def compute(case: Case, progress: Progress | None = None, begun: Callable[[Compu
     check_lying(case)
     critical = critical_loads(problem, case.modes, rtol=case.rtol)
     tell("lift-off", 0.1)
-    first, other, until = _first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))
+    first, other, until = first_branch(case, critical, lambda force: tell(f"mode 1 at F = {force:.4g} B/L²", 0.1))
     branches = [first]
     if begun is not None:
         begun(Computed(case, critical, (first,), until, other))
@@ -271,34 +269,3 @@ def compute(case: Case, progress: Progress | None = None, begun: Callable[[Compu
         branches.append(follow(problem, mode, until=until, rtol=case.rtol, progress=report))
     tell("done", 1.0)
     return Computed(case, critical, tuple(branches), until, other)
-
-
-def _first_branch(
-    case: Case, critical: CriticalLoads, report: Callable[[float], None]
-) -> tuple[Branch, Branch | None, float]:
-    """Branch of the first mode, its other arm where that differs, and the end force to follow branches to.
-
-    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes. The first branch
-    goes on to the loads that act.
-    """
-    first = critical[0]
-    until, asked = case.until, case.until is not None and case.until < first.force
-    if left_before(case.problem, critical) is not None:  # what follows needs a wall that pulls: there is no lift-off
-        until = until if until is not None and asked else _reach(critical, None)
-        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
-    if until is not None and asked and not arms_differ(case.problem, first.parity):
-        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
-    lifted, other = to_lift_off(case.problem, first, case.rtol, progress=report)
-    if until is not None and asked:
-        mirror = lifted.origin.mirror
-        return follow(case.problem, first, until=until, mirror=mirror, rtol=case.rtol), other, until
-    until = _reach(critical, lifted.lift_off)
-    branch = extended(lifted, until) if lifted.reached_end else lifted
-    return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), other, until
-
-
-def _reach(critical: CriticalLoads, lift: SpecialPoint | None) -> float:
-    """End force past lift-off and all modes."""
-    first = critical[0].force
-    past = 0.0 if lift is None else 1.3 * (first - lift.force)
-    return float(first - max(1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2, past))

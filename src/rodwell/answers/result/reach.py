@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numpy as np
+
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import extended
-from rodwell.analysis.branch.special import END, LIFT_OFF
+from rodwell.analysis.branch.follow import extended, follow
+from rodwell.analysis.branch.special import END, LIFT_OFF, SpecialPoint
+from rodwell.analysis.branch.symmetry import arms_differ
+from rodwell.analysis.loads.arms import to_lift_off
+from rodwell.analysis.straight.critical import CriticalLoads
+from rodwell.answers.result.lying import left_before
+from rodwell.case.case import Case
 from rodwell.quantities.forces import Forces
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.tolerance import LARGEST_FORCE
@@ -67,3 +76,34 @@ def no_lift_off(scales: Scales | None, branch: Branch) -> str:
             "all the way"
         )
     return f"was not found: the branch could be followed to {far} only: {branch.ended_because}"
+
+
+def first_branch(
+    case: Case, critical: CriticalLoads, report: Callable[[float], None]
+) -> tuple[Branch, Branch | None, float]:
+    """Branch of the first mode, its other arm where that differs, and the end force to follow branches to.
+
+    That is the one asked for, if it buckles the rod; otherwise one past lift-off and all modes. The first branch
+    goes on to the loads that act.
+    """
+    first = critical[0]
+    until, asked = case.until, case.until is not None and case.until < first.force
+    if left_before(case.problem, critical) is not None:  # what follows needs a wall that pulls: there is no lift-off
+        until = until if until is not None and asked else _reach(critical, None)
+        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
+    if until is not None and asked and not arms_differ(case.problem, first.parity):
+        return follow(case.problem, first, until=until, rtol=case.rtol, progress=report), None, until
+    lifted, other = to_lift_off(case.problem, first, case.rtol, progress=report)
+    if until is not None and asked:
+        mirror = lifted.origin.mirror
+        return follow(case.problem, first, until=until, mirror=mirror, rtol=case.rtol), other, until
+    until = _reach(critical, lifted.lift_off)
+    branch = extended(lifted, until) if lifted.reached_end else lifted
+    return followed_on(branch, min((load.force for load in case.applied), default=np.inf)), other, until
+
+
+def _reach(critical: CriticalLoads, lift: SpecialPoint | None) -> float:
+    """End force past lift-off and all modes."""
+    first = critical[0].force
+    past = 0.0 if lift is None else 1.3 * (first - lift.force)
+    return float(first - max(1.2 * (first - critical[-1].force), 0.3 * critical[0].wavenumber ** 2, past))

@@ -8,6 +8,7 @@ import re
 from pydantic import BaseModel, ValidationError
 
 from rodwell.case import schema
+from rodwell.case.about import ReportInput
 from rodwell.case.checks.pointers import KEYS_ELSEWHERE, SECTIONS_ELSEWHERE
 from rodwell.case.hole.schema import CylinderInput, Hole
 from rodwell.case.hole.sections import HoleSectionInput
@@ -27,7 +28,7 @@ SECTIONS: dict[str, type[BaseModel]] = {
     "pressure": schema.PressureAtEnd,
     "packer": schema.PackerInput,
     "catalogue": schema.CatalogueFiles,
-    "report": schema.ReportInput,
+    "report": ReportInput,
 }
 """Sections of a case file."""
 

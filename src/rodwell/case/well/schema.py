@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, StrictBool
 
+from rodwell.case.about import ReportInput
 from rodwell.case.hole.schema import DepthUnit
 from rodwell.case.kinds import (
     REQUIRED,
@@ -22,7 +23,7 @@ from rodwell.case.kinds import (
     Units,
     _key,
 )
-from rodwell.case.schema import CatalogueFiles, Mud, PressureAtEnd, ReportInput, StringInput
+from rodwell.case.schema import CatalogueFiles, Mud, PressureAtEnd, StringInput
 from rodwell.case.well.hole_sections import ALLOWED_FRICTION, HolePart
 
 KINDS_OF_OPERATION = ("run-in", "pull-out", "rotate-off-bottom", "slide", "drill", "ream", "back-ream")

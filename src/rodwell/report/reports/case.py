@@ -92,11 +92,8 @@ def key_numbers(answer: Answer) -> ReportSection:
     """All key numbers, with errors."""
     head = ("Quantity", "Value", "±\u00a0error", "Where, and what else")
     table = _grid(head, rows(answer.key_numbers.values(), answer.case))
-    warning = Words(
-        f"Not every number meets the tolerance {plain(answer.case.rtol)}. The error estimates say how well each "
-        "is known.",
-        "warning",
-    )
+    missed = f"Not every number meets the tolerance {plain(answer.case.rtol)}."
+    warning = Words(f"{missed} The error estimates say how well each is known.", "warning")
     said = Words(f"{forces_of(answer.case).convention}. Errors are estimates of the numerical error.", "small")
     return ReportSection("Key figures", (table, said) if answer.converged else (warning, table, said))
 
