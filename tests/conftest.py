@@ -16,6 +16,13 @@ settings.register_profile("rodwell", deadline=None, derandomize=True)  # tests d
 settings.load_profile("rodwell")
 
 
+@pytest.fixture
+def nothing_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The folder of a case has one picture, of a byte, for tests of other things: drawing is most of a short run."""
+    for half in ("draw_branches", "draw_rod"):
+        monkeypatch.setattr(f"rodwell.report.folders.pictures.{half}", lambda *_: {"bifurcation": {"png": b"0"}})
+
+
 @pytest.fixture(scope="session")
 def fig3c() -> dict[int, rodwell.Branch]:
     """The first two branches of the paper's Fig. 3(c), w = 15, to F = −400."""

@@ -165,6 +165,7 @@ def test_far_too_much_work_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "work allowed for one branch is used up" in branch.ended_because
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_text_that_looks_like_markup(
     place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -175,6 +176,7 @@ def test_text_that_looks_like_markup(
     assert "x[b]" in printed
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_a_folder_in_the_way_leaves_everything_as_it_was(
     place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -186,6 +188,7 @@ def test_a_folder_in_the_way_leaves_everything_as_it_was(
     assert (place / "results" / "report.html").read_text(encoding="utf-8") == "old"
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_nothing_is_made_if_nothing_is_written(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(*_: object) -> None:
         raise KeyboardInterrupt

@@ -63,14 +63,9 @@ def computed() -> Answer:
 
 
 @pytest.fixture
-def quick(computed: Answer, monkeypatch: pytest.MonkeyPatch) -> None:
+def quick(computed: Answer, nothing_drawn: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let ``rodwell run`` find its answer computed and its figures drawn."""
-
     monkeypatch.setattr("rodwell.answers.result.answer.answer", lambda *_: computed)
-    for half in ("draw_branches", "draw_rod"):
-        monkeypatch.setattr(
-            f"rodwell.report.folders.pictures.{half}", lambda *_: {"bifurcation": {"png": b"new figure"}}
-        )
     monkeypatch.setattr("rodwell.report.pages.pdf.render", lambda *_: "<p>new report</p>")
 
 
@@ -233,6 +228,7 @@ def test_folder_where_nothing_can_be_made(rodwell: Run, place: Path) -> None:
     assert "name another folder" in err
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_load_beyond_ninety_degrees(rodwell: Run, place: Path) -> None:
     (place / "steep.toml").write_text(BEYOND_RANGE, encoding="utf-8")
     code, out, err = rodwell("run", "steep.toml", "--out", "results", "--json")
@@ -243,6 +239,7 @@ def test_load_beyond_ninety_degrees(rodwell: Run, place: Path) -> None:
     assert "results/answer.json" in entries(place)
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_states_that_miss_the_tolerance(rodwell: Run, place: Path) -> None:
     """In a wide cylinder the last states before the end miss a strict tolerance: that is said."""
     strict = BEYOND_RANGE.replace("0.3", "0.7").replace("1e-4", "1e-8")
