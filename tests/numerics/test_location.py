@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import CubicHermiteSpline
 
 from rodwell import Problem, follow
 from rodwell.numerics.continuation.crossings import _bisect
 from rodwell.numerics.continuation.location import Segment, bracketed_root
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
+from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -30,6 +32,19 @@ def test_root_of_a_function_with_a_kink() -> None:
         return max(math.sin(3.0 * x) - 0.9, 2.0 * x - 0.8)
 
     assert bracketed_root(f, 0.0, 1.0, f(0.0), f(1.0)) == pytest.approx(math.asin(0.9) / 3.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("linear", "bent"), [(0.5, 0.1), (0.9, -0.15), (0.45, 0.02)])
+def test_where_the_inverse_is_a_quadratic_its_interpolation_meets_the_root(linear: float, bent: float) -> None:
+    """x = 0.3 + a f + b f²: the secant is the first place that is looked at, the second is the root."""
+    calls = []
+
+    def f(x: float) -> float:
+        calls.append(x)
+        return (math.sqrt(linear**2 + 4.0 * bent * (x - 0.3)) - linear) / (2.0 * bent)
+
+    assert bracketed_root(f, 0.0, 1.0, f(0.0), f(1.0), noise=1e-14) == pytest.approx(0.3, abs=1e-14)
+    assert len(calls) == 4
 
 
 class Staircase:
@@ -57,6 +72,45 @@ def test_every_change_of_the_index_is_resolved(jumps: dict[float, int]) -> None:
     assert sum(changes.values()) == total
     if len({by > 0 for by in jumps.values()}) == 1:
         assert changes == pytest.approx({round(k, 9): v for k, v in jumps.items()}, abs=1e-8)
+
+
+def on_curve(t: float) -> State:
+    """A point of the curve c = (t, t², t³, 1), λ = (t − ½)², with its unit tangent in the Euclidean metric."""
+    tangent, rate = np.array([1.0, 2.0 * t, 3.0 * t * t, 0.0]), 2.0 * (t - 0.5)
+    length = math.sqrt(tangent @ tangent + rate * rate)
+    t1, r = tangent / length, rate / length
+    c = np.array([t, t * t, t**3, 1.0])
+    return State(SplineSpace(np.linspace(0.0, 1.0, 3), 2), c, (t - 0.5) ** 2, t1, r, t1, r, 0, 0.0)
+
+
+def cubic_arc() -> Segment:
+    """Its stretch from t = 0.2 to 0.9."""
+    return Segment(None, on_curve(0.2), on_curve(0.9))  # type: ignore[arg-type]
+
+
+def test_the_interpolant_between_two_states_is_hermites_cubic() -> None:
+    """SciPy's CubicHermiteSpline over the distance along the first tangent, tangents scaled to it."""
+    arc = cubic_arc()
+    a, b, length = arc.first, arc.last, arc.first.along(arc.last)
+    growth = float(a.row @ b.tangent) + a.row_lam * b.tangent_lam
+    values = np.array([[*x.c, x.lam] for x in (a, b)])
+    slopes = np.array([[*a.tangent, a.tangent_lam], np.array([*b.tangent, b.tangent_lam]) / growth])
+    cubic = CubicHermiteSpline([0.0, length], values, slopes)
+    for t in (0.2, 0.5, 0.7):
+        c, lam = arc._interpolant(t)
+        np.testing.assert_allclose([*c, lam], cubic(t * length), rtol=0.0, atol=1e-15)
+
+
+def test_doubt_of_a_load_is_how_far_it_moves_with_the_place() -> None:
+    """dλ/dt by differences; where λ turns back in the middle, as a parabola does, λ″/2 · shift² at least."""
+    arc = cubic_arc()
+    length = arc.first.along(arc.last)
+    for t in (0.3, 0.6):
+        here, ahead = on_curve(t), on_curve(t + 1e-6)
+        rate = (ahead.lam - here.lam) / (arc.first.along(ahead) - arc.first.along(here)) * length
+        assert arc.doubt(here, arc.first.along(here) / length, 1e-9) == pytest.approx(1e-9 * abs(rate), rel=1e-5)
+    ends = Segment(None, on_curve(0.0), on_curve(1.0))  # type: ignore[arg-type]
+    assert ends.doubt(on_curve(0.5), 0.5, 1e-3) == pytest.approx(2.0 * 1e-6, rel=1e-12)
 
 
 def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> tuple[np.ndarray, np.ndarray]:
