@@ -147,12 +147,11 @@ def quick(tests: str, name: str) -> dict[str, float]:
 
 
 def chosen(name: str, before: list[resumable.Result]) -> list[str]:
-    """Quick tests of the room of a file, as many as run in TOGETHER: first those that noticed most, in this file."""
+    """Quick tests of the room of a file, as many as run in TOGETHER: first those that noticed most in it."""
     tests = quick(tests_of(name), name)
     by = Counter(_noticed(one) for one in before if one["file"] == name)
-    by_any = Counter(_noticed(one) for one in before)
     taken, total = [], 0.0
-    for test in sorted(tests, key=lambda one: (-by[one], -by_any[one], tests[one])):
+    for test in sorted(tests, key=lambda one: (-by[one], tests[one])):
         total += tests[test]
         if total > TOGETHER:
             break
