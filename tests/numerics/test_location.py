@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,9 @@ from scipy.interpolate import CubicHermiteSpline
 
 from rodwell import Problem, follow
 from rodwell.numerics.continuation.crossings import _bisect
+from rodwell.numerics.continuation.events import Event
 from rodwell.numerics.continuation.location import Segment, bracketed_root
+from rodwell.numerics.continuation.stretch import _Stretch
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.state import State
@@ -113,6 +116,32 @@ def test_doubt_of_a_load_is_how_far_it_moves_with_the_place() -> None:
     assert ends.doubt(on_curve(0.5), 0.5, 1e-3) == pytest.approx(2.0 * 1e-6, rel=1e-12)
 
 
+class Losing:
+    """Meshes that have finer ones, on which one of two points is not found."""
+
+    def __init__(self, lost: str) -> None:
+        self.lost = lost
+
+    def refined(self, _: object) -> Losing:
+        return self
+
+    def adopt(self, _: object, point: str) -> tuple[None, str | None]:
+        return None, None if point == self.lost else point
+
+
+@pytest.mark.parametrize(("lost", "kept"), [("before", False), ("after", False), ("neither", True)])
+def test_a_stretch_on_finer_meshes_has_both_its_ends(lost: str, kept: bool) -> None:
+    finer = _Stretch(Losing(lost), "before", "after").on_finer("between")  # type: ignore[arg-type]
+    assert (finer is not None) == kept
+
+
+@pytest.mark.parametrize(("ahead", "starts"), [(0.0, True), (1e-9, True), (1e-5, False)])
+def test_the_zero_of_an_event_next_to_the_start_is_the_start(ahead: float, starts: bool) -> None:
+    """Up to a millionth of the stretch."""
+    ends = [SimpleNamespace(lam=lam, values=np.zeros(1)) for lam in (3.0 - ahead, 4.0)]
+    assert _Stretch(None, *ends).starts_at(Event.at("3", 3.0)) == starts  # type: ignore[arg-type]
+
+
 def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> tuple[np.ndarray, np.ndarray]:
     """Maxima for a given y(s), projected on a fine space, and a dense sample of the pressure."""
     from rodwell.physics.on_wall.strand import contact_pressure
@@ -126,7 +155,8 @@ def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> 
     grid, table = space.samples
     family = Family(RodOnCylinder(), np.zeros((4, p.size)), space, Ends((2, 2)), 0, clearance, 1.0, 1.0)
     places, values, _ = maxima(family.mesh, space.knots, grid, table, c, p, 0.5)
-    dense = np.linspace(0.0, 1.0, 200_001)
+    around = places[:, None] + np.linspace(-1e-3, 1e-3, 401)  # 5e-6 apart, as much as counts beside them
+    dense = np.unique(np.clip(np.concatenate([np.linspace(0.0, 1.0, 2001), around.ravel()]), 0.0, 1.0))
     u = space.evaluate(c, dense, 4)
     return np.array([places, values]), np.array([dense, contact_pressure(dense, *u, p)])
 
