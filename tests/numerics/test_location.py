@@ -142,6 +142,19 @@ def test_the_zero_of_an_event_next_to_the_start_is_the_start(ahead: float, start
     assert _Stretch(None, *ends).starts_at(Event.at("3", 3.0)) == starts  # type: ignore[arg-type]
 
 
+def test_what_happens_past_the_start_is_placed_on_the_whole_stretch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stretch 0.1 long is looked at from 1e-4 on: what lies half-way from there lies at 0.001 + 0.999/2 of it."""
+    just_past = SimpleNamespace(lam=1e-4, tangent_lam=1.0, index=0)
+    start = SimpleNamespace(lam=0.0, along=lambda other: 1e-4 if other is just_past else 0.1)
+    stretch = _Stretch(  # type: ignore[arg-type]
+        SimpleNamespace(point=lambda *_: "there"), SimpleNamespace(fine=start), SimpleNamespace(fine="end")
+    )
+    stretch.__dict__["segments"] = [lambda t: just_past if t == pytest.approx(1e-3) else None] * 2
+    monkeypatch.setattr(_Stretch, "changes", lambda _: [(0.5, "found")])
+    ((place, found),) = stretch.changes_past_the_start(SimpleNamespace(index=lambda _: 0))  # type: ignore[arg-type]
+    assert (place, found) == (pytest.approx(0.001 + 0.999 * 0.5), "found")
+
+
 def pressure(clearance: float, lateral: float, amplitude: float, shape: str) -> tuple[np.ndarray, np.ndarray]:
     """Maxima for a given y(s), projected on a fine space, and a dense sample of the pressure."""
     from rodwell.physics.on_wall.strand import contact_pressure
