@@ -26,6 +26,8 @@ import numba.extending
 import numpy as np
 import pytest
 
+numba.core.config.reload_config()  # where Numba was there before
+
 
 def _flat(array: Any) -> Any:
     """The numbers of a contiguous array, to read and to write."""

@@ -3,14 +3,16 @@
     python benchmarks/campaigns/map_kills.py [--kills 100] [--seed 25]
 
 A map of 128 lift-off loads, 8 chunks, and its jumps, is computed by a process alone or on a cluster of a scheduler and
-two workers, and one of these processes is killed after a random time, not longer than an undisturbed map takes. Then
+two workers, and one of these processes is killed when the client has had a random part of the processor's time that it
+has of an undisturbed map. Then
 
 - every chunk of the store must be absent, or whole and that of an undisturbed run, byte for byte;
 - the same question again must end the map, equal to the undisturbed one byte for byte in all chunks;
 - and leave the chunks that were there as they were, file by file: what is computed again is what was in flight.
 
-Where a worker is killed the map must end by itself. Results go to ``map_kills.json`` beside this file; a campaign that
-was broken off goes on where it ended (``map_kills.part``). Needs a POSIX system and ``rodwell[map]``.
+Where a worker is killed the map must end by itself. Results go to ``map_kills.json`` beside this file, to which more
+kills of the same seed are added; a campaign that was broken off goes on where it ended (``map_kills.part``). Needs a
+POSIX system and ``rodwell[map]``.
 """
 
 from __future__ import annotations
@@ -35,6 +37,8 @@ from typing import Any
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
+import killing
+
 import rodwell
 
 HERE = Path(__file__).parent
@@ -42,8 +46,8 @@ OUT, PART = HERE / "map_kills.json", HERE / "map_kills.part"
 PORT = 28786
 OVER = {"weight": "5..200 in 16", "alpha": "60..90 in 8"}
 TARGETS = ("client alone", "client", "worker", "scheduler")
-PATIENCE = 120.0
-"""Seconds after which a run that has not ended counts as hanging."""
+PATIENCE = 900.0
+"""Seconds after which a run that has not ended counts as hanging, on a machine that has much else to do."""
 
 
 def mapped(out: Path, scheduler: str | None) -> rodwell.Map:
@@ -163,7 +167,7 @@ def trial(seed: int, whole: dict[str, bytes], seconds: dict[bool, float], cluste
         out = Path(folder) / "map.zarr"
         address = None if alone else cluster.address
         pid = run(out, address)
-        time.sleep(after)
+        killing.wait_for(pid, after)
         victims = {"worker": cluster.workers(), "scheduler": [cluster.processes[0].pid]}.get(target, [pid])
         if victims:
             with suppress(ProcessLookupError):
@@ -215,13 +219,12 @@ def undisturbed() -> Any:
 
 
 def timed(scheduler: str | None) -> float:
+    """Seconds of the processor that the client of an undisturbed map takes."""
     with tempfile.TemporaryDirectory() as folder:
-        start = time.monotonic()
-        ended(run(Path(folder) / "map.zarr", scheduler))
-        return time.monotonic() - start
+        return killing.taken_by(run(Path(folder) / "map.zarr", scheduler))
 
 
-def killed(done: list[dict[str, Any]], given: argparse.Namespace) -> None:
+def killed(done: list[dict[str, Any]], numbers: range, seed: int) -> None:
     """Kill until there are as many trials as wanted."""
     rodwell.map(rodwell.Problem(15.0, 90.0), "lift-off", over={"weight": [15.0, 16.0]})  # kernels, for all that follow
     cluster = Cluster()
@@ -230,12 +233,36 @@ def killed(done: list[dict[str, Any]], given: argparse.Namespace) -> None:
             known = done[-1].get("seconds") if done else None
             alone, shared = known or (timed(None), timed(cluster.address))
             seconds = {True: alone, False: shared}
-            for number in range(len(done), given.kills):
-                done.append(trial(given.seed * 1_000_000 + number, whole, seconds, cluster))
+            for number in numbers[len(done) :]:
+                done.append(trial(seed + number, whole, seconds, cluster))
                 part.write(json.dumps(done[-1]) + "\n")
                 part.flush()
     finally:
         cluster.stop()
+
+
+def counted(done: list[dict[str, Any]]) -> dict[str, Any]:
+    """Numbers of the summary that add up from one run of the campaign to the next."""
+    return {
+        "targets": dict(Counter(one["target"] for one in done).most_common()),
+        "chunks_left_by_the_kill": dict(sorted(Counter(str(one["chunks_left"]) for one in done).items())),
+        "maps_that_ended_although_a_worker_was_killed": sum(
+            one["target"] == "worker" and one["ended_by_itself"] for one in done
+        ),
+        "equal_to_the_undisturbed_map_after_the_next_run": sum(one["equal"] for one in done),
+        "chunks_done_again_although_they_were_there": sum(len(one["done_again"]) for one in done),
+        "hidden_folders_after_the_next_run": sum(bool(one["hidden"]) for one in done),
+    }
+
+
+def summed(numbers: dict[str, Any], before: dict[str, Any]) -> dict[str, Any]:
+    """Counts with those of an earlier run."""
+    return {
+        key: summed(value, before.get(key, {})) | {k: n for k, n in before.get(key, {}).items() if k not in value}
+        if isinstance(value, dict)
+        else value + before.get(key, 0)
+        for key, value in numbers.items()
+    }
 
 
 def main() -> None:
@@ -243,23 +270,18 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--seed", type=int, default=25)
     given = parser.parse_args()
+    stored = json.loads(OUT.read_text(encoding="utf-8")) if OUT.exists() else {}
+    before = stored if stored.get("seed") == given.seed and not stored["faults"] else {}
+    numbers, seed = range(before.get("kills", 0), given.kills), given.seed * 1_000_000
     done = [json.loads(line) for line in PART.read_text().splitlines()] if PART.exists() else []
-    done = [one for one in done if one["seed"] // 1_000_000 == given.seed]
-    if len(done) < given.kills:
-        killed(done, given)
+    done = [one for one in done if one["seed"] - seed in numbers]
+    if len(done) < len(numbers):
+        killed(done, numbers, seed)
     result = {
         "what": "kill -9 of client, worker or scheduler at random moments of a map of 128 lift-off loads",
         "seed": given.seed, "date": date.today().isoformat(), "rodwell": rodwell.__version__,
         "machine": f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
-        "kills": len(done), "targets": dict(Counter(one["target"] for one in done).most_common()),
-
-        "chunks_left_by_the_kill": dict(sorted(Counter(one["chunks_left"] for one in done).items())),
-        "maps_that_ended_although_a_worker_was_killed": sum(
-            one["target"] == "worker" and one["ended_by_itself"] for one in done
-        ),
-        "equal_to_the_undisturbed_map_after_the_next_run": sum(one["equal"] for one in done),
-        "chunks_done_again_although_they_were_there": sum(len(one["done_again"]) for one in done),
-        "hidden_folders_after_the_next_run": sum(bool(one["hidden"]) for one in done),
+        "kills": len(done) + before.get("kills", 0), **summed(counted(done), before),
         "faults": [one for one in done if fault(one)],
     }  # fmt: skip
     OUT.write_text(json.dumps(result, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -17,45 +17,30 @@ import difflib
 import functools
 import inspect
 import json
-import os
 import random
-import shutil
-import subprocess
-import sys
-import tempfile
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
+import mutants_tried
 import resumable
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator, operator_names
-
-from rodwell.compiling.cache import sources
+from mutants_tried import SOURCE
 
 HERE = Path(__file__).parent
-ROOT = HERE.parent.parent
 SEED, LINES, SUMMARY = 25, HERE / "mutants.jsonl", HERE / "mutants.json"
+PAGE = HERE.parent / "results" / "mutants.md"
 
-QUICK, TOGETHER, MOST, ALL = 5.0, 120.0, 30.0, 600.0
-"""Seconds: of a test that is taken, of all that are taken, after which a test has failed, after which all have."""
+SURVIVORS: dict[str, dict[str, str]] = json.loads((HERE / "mutants_survivors.json").read_text(encoding="utf-8"))
+"""Changes that lived, each with the test that was written for it, or why it is the same program."""
+
+LONGEST = 60.0
+"""Seconds of the processor after which a test that was written for a change has failed."""
 
 LEFT_OUT = "_density.py", "_curved_density.py", "__init__.py"
 """Written by the program itself, and held against what writes them by a test; names alone."""
-
-ROOMS = {
-    "numerics/stretches": "numerics/test_stretches.py physics/test_off_wall.py analysis/test_load_path.py "
-    "analysis/test_string_path.py analysis/test_bridging.py analysis/test_soft_wall.py",
-    "numerics": "numerics validation/test_critical_loads.py validation/test_sections.py analysis/test_branches.py "
-    "analysis/test_pressures.py analysis/test_curves.py",
-    "physics/off_wall": "physics/test_off_wall.py numerics/test_stretches.py analysis/test_load_path.py",
-    "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/test_certify.py",
-    "physics": "physics validation/test_critical_loads.py validation/test_sections.py validation/test_tapers.py "
-    "analysis/curved analysis/test_endless.py analysis/test_pressures.py",
-    "quantities": "quantities case answers/test_answer.py report/test_report.py studies/test_screening.py",
-}
-"""Tests that look at a room, by the beginning of its path."""
 
 Mutant = tuple[str, str, int]  # path in src/rodwell, operator, which of its occurrences
 
@@ -64,11 +49,11 @@ def every_mutant() -> list[Mutant]:
     """All changes that can be made."""
     found = []
     for room in ("physics", "numerics", "quantities"):
-        for path in sorted((ROOT / "src" / "rodwell" / room).rglob("*.py")):
+        for path in sorted((SOURCE / room).rglob("*.py")):
             if path.name in LEFT_OUT:
                 continue
             nodes = list(ast_nodes(get_ast(path.read_text(encoding="utf-8"))))
-            name = path.relative_to(ROOT / "src" / "rodwell").as_posix()
+            name = path.relative_to(SOURCE).as_posix()
             for operator in sorted(operator_names()):
                 made = _operator(operator)
                 if made is not None:
@@ -94,121 +79,100 @@ def sample() -> list[Mutant]:
     return mutants
 
 
-@functools.cache
-def in_kernels() -> frozenset[str]:
-    """Paths in src/rodwell of what machine code depends on: files behind modules with kernels, and behind models."""
-    source = ROOT / "src" / "rodwell"
-    files: set[Path] = set()
-    for path in source.rglob("*.py"):
-        if "rodwell.compiling.kernels import" in path.read_text(encoding="utf-8") or path.parent.name == "on_wall":
-            files |= sources(".".join(("rodwell", *path.relative_to(source).with_suffix("").parts)))
-    return frozenset(path.relative_to(source).as_posix() for path in files)
-
-
-def tests_of(name: str) -> str:
-    """The tests of the room of a file."""
-    return next(tests for room, tests in ROOMS.items() if name.startswith(room))
-
-
-@functools.cache
-def _tree() -> Path:
-    """A copy of what is tested, of this process; made once."""
-    tree = Path(tempfile.mkdtemp(prefix="mutants-"))
-    for name in ("src", "tests", "examples", "docs", "benchmarks"):
-        ignored = shutil.ignore_patterns("__pycache__", "_build", "_generated", "jupyter_execute")
-        shutil.copytree(ROOT / name, tree / name, ignore=ignored)
-    for name in ("pyproject.toml", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"):
-        shutil.copy(ROOT / name, tree / name)
-    return tree
-
-
-def _tested(tests: list[str], *, interpreted: bool, more: dict[str, str], stop: bool = True) -> tuple[str, str]:
-    """Run tests in the copy; ``passed``, ``failed`` or ``too long``, and the end of what they say."""
-    tree = _tree()
-    environment = os.environ | {"PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree / 'benchmarks' / 'campaigns'}"}
-    environment |= {"OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"} | more
-    environment["INTERPRETED"] = "yes" if interpreted else "no"
-    if not interpreted:
-        environment["NUMBA_CACHE_DIR"] = str(tree / "kernels")
-    command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "interpreted", "-p", "no:cacheprovider"]
-    try:
-        run = subprocess.run(
-            [*command, *(["-x"] if stop else []), *tests],
-            cwd=tree, env=environment, capture_output=True, text=True, timeout=ALL if stop else None, check=False,
-        )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return "too long", ""
-    return "passed" if run.returncode == 0 else "failed", "\n".join(run.stdout.splitlines()[-3:])
-
-
-@functools.cache
-def quick(tests: str, *, interpreted: bool) -> tuple[str, ...]:
-    """Those of ``tests`` that pass as things stand and are quick, the quickest first, as many as run in TOGETHER."""
-    kept = HERE / "mutants_tests.part"
-    known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
-    key = f"{'interpreted' if interpreted else 'compiled'}: {tests}"
-    if key not in known:
-        named = [f"tests/{name}" for name in tests.split()]
-        if not interpreted:  # what is compiled first is not counted
-            _tested(named, interpreted=False, more={}, stop=False)
-        with tempfile.NamedTemporaryFile() as file:
-            more = {"SECONDS_OUT": file.name, "MOST_SECONDS": str(QUICK)}
-            _tested(named, interpreted=interpreted, more=more, stop=False)
-            rows = [line.split(" ", 2) for line in Path(file.name).read_text(encoding="utf-8").splitlines()]
-        known[key] = sorted((float(seconds), name) for seconds, outcome, name in rows if outcome == "passed")
-        kept.write_text(json.dumps(known), encoding="utf-8")
-    taken, total = [], 0.0
-    for seconds, name in known[key]:
-        total += seconds
-        if total > TOGETHER:
-            break
-        taken.append(name)
-    return tuple(taken)
+def _changed(number: int) -> tuple[str, str, list[str]]:
+    """File, its text with a change, and the lines that changed."""
+    name, operator, occurrence = sample()[number]
+    before = (SOURCE / name).read_text(encoding="utf-8")
+    after = mutate_code(before, _operator(operator), occurrence)
+    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
+    return name, after, [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
 
 
 def trial(number: int) -> resumable.Result:
     """Make one change, test it, take it back."""
-    name, operator, occurrence = sample()[number]
-    path = _tree() / "src" / "rodwell" / name
-    before = (ROOT / "src" / "rodwell" / name).read_text(encoding="utf-8")
-    after = mutate_code(before, _operator(operator), occurrence)
-    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
-    change = [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
+    name, after, change = _changed(number)
+    operator = sample()[number][1].rpartition("/")[2]
     known: resumable.Result = {
-        "number": number, "file": name, "operator": operator.rpartition("/")[2], "change": change, "fault": None,
+        "number": number, "file": name, "operator": operator, "change": change, "fault": None,
     }  # fmt: skip
     try:
         compile(after, name, "exec")
     except SyntaxError:
         return known | {"outcome": "no program"}
-    interpreted = name in in_kernels() and Path(name).name not in ("lanes.py", "products.py")
-    tests = quick(tests_of(name), interpreted=interpreted)
-    try:
-        path.write_text(after, encoding="utf-8")
-        outcome, said = _tested(list(tests), interpreted=interpreted, more={"MOST_SECONDS": str(MOST)})
-    finally:
-        path.write_text(before, encoding="utf-8")
+    tests = mutants_tried.chosen(name, resumable.done(LINES))
+    with mutants_tried.changed(name, after):
+        outcome, said = mutants_tried.run_tests(tests, name, longest=mutants_tried.MOST)
     return known | {
-        "interpreted": interpreted,
+        "interpreted": mutants_tried.interpreted(name),
         "tests": len(tests),
         "outcome": "survived" if outcome == "passed" else "killed",
         "how": said if outcome == "failed" else outcome,
     }
 
 
+def seen_to(one: resumable.Result) -> resumable.Result:
+    """A survivor with what was done about it: the test that notices it now, tried; or why it is the same program."""
+    what = SURVIVORS.get(f"{one['file']}: {one['change'][-1][1:].strip()}", {})
+    told_of = {key: one[key] for key in ("number", "file", "operator", "change")} | what
+    if "test" not in what:
+        return told_of
+    name, after, _ = _changed(one["number"])
+    with mutants_tried.changed(name, after):
+        outcome, _ = mutants_tried.run_tests([what["test"]], name, longest=LONGEST)
+    return told_of | {"noticed now": outcome != "passed"}
+
+
 def told(results: list[resumable.Result]) -> resumable.Result:
     """What the summary says."""
     outcomes = Counter(result["outcome"] for result in results)
-    told_of = "number", "file", "operator", "change"
-    survived = [{key: one[key] for key in told_of} for one in results if one["outcome"] == "survived"]
+    survivors = [seen_to(one) for one in results if one["outcome"] == "survived"]
+    noticed = sum(one.get("noticed now", False) for one in survivors)
     programs = len(results) - outcomes["no program"]
+    by_file: dict[str, Counter[str]] = {}
+    for one in results:
+        by_file.setdefault(one["file"].rpartition("/")[0], Counter())[one["outcome"]] += 1
     return {
         "what": inspect.cleandoc(__doc__ or "").splitlines()[0], "changes that can be made": len(sample()),
-        "no program": outcomes["no program"], "killed": outcomes["killed"], "survived": outcomes["survived"],
-        "share killed": round(outcomes["killed"] / programs, 4), "survivors": survived,
+        "no program": outcomes["no program"], "programs": programs,
+        "killed at first": outcomes["killed"], "share killed at first": round(outcomes["killed"] / programs, 4),
+        "killed by tests written since": noticed, "share killed": round((outcomes["killed"] + noticed) / programs, 4),
+        "rooms": by_file, "survivors": survivors,
     }  # fmt: skip
 
 
+def page(summary: resumable.Result) -> str:
+    """The summary, to read."""
+    lines = [
+        f"`python benchmarks/campaigns/mutants.py --count {summary['count']}`, seed {summary['seed']}, "
+        f"{summary['date']}, {summary['machine']}. Of {summary['changes that can be made']:,} changes of physics, "
+        f"numerics and units that cosmic-ray can make, {summary['count']} were drawn; {summary['no program']} are no "
+        f"program, {summary['programs']} were tested.", "",
+        "| | |", "| --- | --- |",
+        f"| noticed by the quickest tests of the room | {summary['killed at first']} "
+        f"({summary['share killed at first']:.1%}) |",
+        f"| … with the tests that were written for those that lived | {summary['share killed']:.1%} |", "",
+        "| Room | Changes | Noticed at first | Lived | No program |", "| --- | --- | --- | --- | --- |",
+        *(
+            f"| {room} | {sum(n.values())} | {n['killed']} | {n['survived']} | {n['no program']} |"
+            for room, n in sorted(summary["rooms"].items())
+        ), "",
+        "Those that lived:", "", "| File | Was | Is | What of it |", "| --- | --- | --- | --- |",
+    ]  # fmt: skip
+    for one in summary["survivors"]:
+        was, now = (" ".join(x[1:].strip() for x in one["change"] if x[0] == sign) for sign in "-+")
+        what = f"noticed by `{one['test'].rpartition('/')[2]}`" if one.get("noticed now") else one.get("why", "open")
+        lines.append(f"| {one['file']} | {_code(was)} | {_code(now)} | {what} |")
+    return "\n".join(lines) + "\n"
+
+
+def _code(text: str) -> str:
+    return f"`{text}`".replace("|", "\\|")
+
+
 if __name__ == "__main__":
+    for one in resumable.done(LINES):
+        if _changed(one["number"])[2] != one["change"]:
+            raise SystemExit(f"{LINES} is of other sources: move it away")
     _, summary = resumable.campaign(__doc__ or "", trial, SEED, LINES, SUMMARY, told)
-    print(json.dumps({k: v for k, v in summary.items() if k != "survivors"}, indent=1))
+    PAGE.write_text(page(summary), encoding="utf-8")
+    print(json.dumps({k: v for k, v in summary.items() if k not in ("survivors", "rooms")}, indent=1))

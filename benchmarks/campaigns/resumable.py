@@ -23,7 +23,7 @@ def machine() -> str:
 
 def finished(trial: Trial, count: int, lines: Path, workers: int, chunk: int) -> list[Result]:
     """Results of trials 0 to ``count`` − 1, in order: those in ``lines``, and the others, which are added to it."""
-    found = _done(lines)
+    found = {result["number"]: result for result in done(lines)}
     missing = [number for number in range(count) if number not in found]
     with lines.open("a", encoding="utf-8") as file:
         for result in _results(trial, missing, workers, chunk):
@@ -51,11 +51,9 @@ def campaign(
     return results, data
 
 
-def _done(lines: Path) -> dict[int, Result]:
-    """Trials that an earlier run has finished."""
-    if not lines.exists():
-        return {}
-    return {line["number"]: line for line in map(json.loads, lines.read_text(encoding="utf-8").splitlines())}
+def done(lines: Path) -> list[Result]:
+    """Trials that have been finished."""
+    return [json.loads(line) for line in lines.read_text(encoding="utf-8").splitlines()] if lines.exists() else []
 
 
 def _results(trial: Trial, numbers: list[int], workers: int, chunk: int) -> Iterator[Result]:

@@ -1,10 +1,11 @@
 """``rodwell run`` of a case and of a study survives kill -9 at random moments, seeded, resumable.
 
-    python benchmarks/campaigns/run_kills.py [--kills 50] [--seed 25]
+    python benchmarks/campaigns/run_kills.py [--kills 100] [--seed 25]
 
 The command writes its results over those of another case, beside a file of the user's, and is killed after a random
-time, not longer than an undisturbed run takes. Then the folder must hold all results of the one case or all of the
-other, and the user's file; the next run must leave those of its own case and no hidden folder with anything in it.
+part of the processor's time that an undisturbed run takes. Then the folder must hold all results of the one case or all
+of the other, and the user's file; the next run must leave those of its own case and no hidden folder with anything in
+it.
 Results go to ``run_kills.json`` beside this file; a campaign that was broken off goes on where it ended
 (``run_kills.part``). Needs a POSIX system.
 """
@@ -19,7 +20,6 @@ import random
 import shutil
 import signal
 import tempfile
-import time
 import warnings
 from collections import Counter
 from datetime import date
@@ -29,6 +29,7 @@ from typing import Any
 for _variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
+import killing
 from click.testing import CliRunner
 
 import rodwell
@@ -96,7 +97,7 @@ def trial(seed: int, whole: dict[str, dict[int, set[str]]], seconds: dict[str, f
         shutil.copytree(bases / kind, out)
         (out / "notes.txt").write_text("mine")
         pid = run(out, kind, 17)
-        time.sleep(after)
+        killing.wait_for(pid, after)
         os.kill(pid, signal.SIGKILL)
         ended(pid)
         left = state(out, kind, whole[kind])
@@ -115,7 +116,7 @@ def fault(one: dict[str, Any]) -> bool:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--seed", type=int, default=25)
     given = parser.parse_args()
     done = [json.loads(line) for line in PART.read_text().splitlines()] if PART.exists() else []
@@ -125,9 +126,7 @@ def main() -> None:
         for kind in CASES:
             rodwell.answer(rodwell.Case.from_dict({"dimensionless": {"weight": 15, "alpha": 90, "clearance": 0.01}}))
             for weight in (17, 15):
-                start = time.monotonic()
-                ended(run(bases / kind, kind, weight))
-                seconds[kind] = time.monotonic() - start
+                seconds[kind] = killing.taken_by(run(bases / kind, kind, weight))
                 whole.setdefault(kind, {})[weight] = {entry.name for entry in (bases / kind).iterdir()}
         for number in range(len(done), given.kills):
             done.append(trial(given.seed * 1_000_000 + number, whole, seconds, bases))

@@ -11,14 +11,17 @@ import sys
 from pathlib import Path
 
 import h5netcdf
+import numpy as np
 import pytest
 
 from rodwell.answers.result.answer import answer
 from rodwell.case.case import Case
+from rodwell.cli.catalogue import catalogue
 from rodwell.cli.main import main
 from rodwell.cli.options import print_json
 from rodwell.cli.terminal import PLAIN, ending_well, has_all_characters, never_fail_to_encode
 from rodwell.report.folders.case import write_results
+from rodwell.store.folder import whole_folder
 
 GOOD = "[dimensionless]\nweight = 16.5\n\n[analysis]\nmodes = 1\nrtol = 1e-4\n"
 
@@ -172,6 +175,7 @@ import signal, time
 signal.signal(signal.{name}, signal.SIG_DFL)  # also where the parent ignores it
 from pathlib import Path
 from rodwell.cli.catalogue import catalogue
+from rodwell.cli.catalogue import catalogue
 from rodwell.cli.main import main
 from rodwell.cli.options import print_json
 from rodwell.store.folder import whole_folder
@@ -223,6 +227,25 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
         assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+# Memory
+
+
+def test_too_little_memory_is_said_in_a_line_and_leaves_nothing_half_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def greedy(**_: object) -> None:
+        with whole_folder(tmp_path / "results") as folder:
+            (folder / "half.png").write_bytes(b"half")
+            np.ones(10**15)
+
+    monkeypatch.setattr(catalogue, "callback", greedy)
+    assert run(monkeypatch, "catalogue") == 1
+    said = capsys.readouterr().err
+    assert said.startswith("rodwell: error: there is not memory enough: Unable to allocate")
+    assert said.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 # Reasons

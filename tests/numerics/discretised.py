@@ -29,9 +29,10 @@ OF_MODELS = (assemble, variation, newton, maxima)
 @contextmanager
 def nothing_on_disk() -> Iterator[None]:
     """Keep machine code for models of a test off the disk: an index that names them can be read by that test alone."""
-    caches = [kernel._cache for kernel in OF_MODELS]
-    for kernel in OF_MODELS:
+    kernels = [kernel for kernel in OF_MODELS if hasattr(kernel, "_cache")]  # NUMBA_DISABLE_JIT: plain functions
+    caches = [kernel._cache for kernel in kernels]
+    for kernel in kernels:
         kernel._cache = NullCache()
     yield
-    for kernel, cache in zip(OF_MODELS, caches, strict=True):
+    for kernel, cache in zip(kernels, caches, strict=True):
         kernel._cache = cache

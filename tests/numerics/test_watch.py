@@ -28,6 +28,20 @@ def test_a_dip_is_where_the_parabola_has_its_minimum() -> None:
     assert watch.dips() == pytest.approx([-0.05 / 0.2])
 
 
+@pytest.mark.parametrize("scale", [0.2, 1.0, 7.0])
+def test_a_dip_is_deep_where_the_parabola_loses_half_of_the_middle_value(scale: float) -> None:
+    """Of a (x − 0.1)² + h the middle value is 0.01 a + h, the least h."""
+    for h, deep in ((0.009, True), (0.011, False)):
+        found = _dip(PLACE, [scale * ((x - 0.1) ** 2 + h) for x in PLACE])
+        assert (found == pytest.approx(0.1)) if deep else (found is None)
+
+
+def test_points_that_are_taken_back_are_forgotten() -> None:
+    watch = SoftestEigenvalues(values=[(float(k), 1.0) for k in range(5)], places=[0.0, 0.1, 0.2, 0.3, 0.4])
+    watch.forget(2)
+    assert watch == SoftestEigenvalues(values=[(0.0, 1.0), (1.0, 1.0), (2.0, 1.0)], places=[0.0, 0.1, 0.2])
+
+
 @pytest.mark.parametrize("values", [[1.0, 0.95, 1.0], [3.0, 2.0, 1.0], [1.0, -0.1, 1.0], [1.0, 2.0, 1.0]])
 def test_what_is_no_dip(values: list[float]) -> None:
     """Shallow, falling, of two signs (a change that counting sees), or a maximum."""

@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 
 import rodwell
+from rodwell.physics.on_wall.braid import _cylinder_force_around, _Frame
+from rodwell.physics.on_wall.end_loads import EndForce
+from rodwell.physics.on_wall.parameters import CLEARANCE, COUNT, TWIST
+from rodwell.physics.on_wall.strand import strand_force
+from rodwell.physics.on_wall.tapered import more_force
 
 H = 2e-4
 CASES = {
@@ -152,3 +157,15 @@ def test_end_reactions_by_virtual_work_agree_with_the_fields(state: rodwell.Solu
     assert reactions["moment"].value == pytest.approx(f["omega2"][0], rel=1e-7)
     along = state.fields()
     assert reactions["shear"].value == pytest.approx(f["rod_F3"][0], abs=1e-6 * np.max(np.abs(along["rod_F3"])))
+
+
+def test_force_towards_the_axis_at_an_end_that_turns_is_that_of_moment_balance() -> None:
+    """Of a rod that tapers, at an end at ξ₂ = a: seen from a + π/2, all that it exerts around there is −F₂(1), (47)."""
+    y1, y2, y3, clearance, twist, stiffness, rate, angle = 0.03, 0.4, -2.0, 0.02, 1.5, 0.8, 0.7, 0.6
+    parameters = np.zeros(COUNT)
+    parameters[CLEARANCE], parameters[TWIST] = clearance, twist
+    moment = -stiffness * y2 / np.sqrt(1.0 - y1 * y1)
+    end = EndForce(0.9, moment, angle, y1, stiffness, rate)
+    frame = _Frame.along(np.array([angle + 0.5 * np.pi]), np.zeros(1))
+    inward = strand_force(1.0, y1, y2, y3, parameters, stiffness)[1] + more_force(y1, y2, y3, clearance, rate)[1]
+    assert _cylinder_force_around(frame, np.zeros((2, 1)), parameters, end) == pytest.approx(-inward, rel=1e-13)

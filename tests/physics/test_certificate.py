@@ -188,6 +188,16 @@ def test_paper_system_has_fifteen_of_everything() -> None:
     assert list(ends) == [f"(B{i})" for i in range(1, 16)]
 
 
+@pytest.mark.parametrize("ends", [("clamped", "clamped"), ("pinned", "free")])
+def test_a_straight_rod_under_twist_meets_all_end_conditions(ends: tuple[str, str]) -> None:
+    """Of its fifteen variables the axial force is F at s = 1, the torque −T₁, and all others vanish at the ends."""
+    load = Load(-50.0, 1.5, 5.0, 8.0, 0.01, 1.0 / 1.3, ends=ends)
+    first, last = (Fifteen(*np.zeros(15))._replace(F1=force, M1=-load.twist) for force in (-55.0, -50.0))
+    last = last._replace(xi1=load.twist / load.C, z=1.0)
+    conditions = equations.end_conditions(first, last, load)
+    assert {name: float(one.residual) for name, one in conditions.items() if one.residual != 0.0} == {}
+
+
 def test_where_the_odd_coil_is_unstable_another_shape_of_less_energy_is_found() -> None:
     """One turn, w = 15, F = −140: the odd coil loses stability near T₁ = 4.87, where an unsymmetric one takes over."""
     odd = rodwell.equilibrium(Problem(15.0, turns=1, twist=4.0), -140.0)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rodwell import Problem, coil, critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.physics import exact
+from rodwell.physics.exact.twisted import twisted_loads
 
 PI2 = math.pi**2
 
@@ -230,3 +231,12 @@ def test_equal_energy_of_coils_that_the_solver_finds() -> None:
     (point,) = [p for p in coil(problem).special_points if p.kind == "equal_energy"]
     bound = exact.equal_energy_load(2.0 * math.pi, 15.0, 0.01)
     assert bound < point.force < 0.85 * bound
+
+
+@pytest.mark.parametrize(
+    ("ends", "wavenumbers"),
+    [("ball", [math.pi, 2.0 * math.pi, 3.0 * math.pi]), ("clamped", [2.0 * math.pi, 8.986818916, 4.0 * math.pi])],
+)
+def test_loads_of_a_twisted_rod_without_twist_are_those_of_the_column(ends: str, wavenumbers: list[float]) -> None:
+    """Roots of sin k, and of sin ½k (½k cos ½k − sin ½k) (Timoshenko & Gere, *Theory of Elastic Stability*, 2.4)."""
+    assert twisted_loads(0.0, 3, ends) == pytest.approx([-k * k for k in wavenumbers], rel=1e-9)

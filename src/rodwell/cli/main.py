@@ -97,6 +97,9 @@ def main() -> None:
     except BrokenPipeError:  # the reader of a pipe has left
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(COMPUTATION_ERROR)
+    except MemoryError as error:
+        click.echo(f"rodwell: error: there is not memory enough{f': {error}' if str(error) else ''}", err=True)
+        sys.exit(COMPUTATION_ERROR)
     except OSError as error:
         click.echo(f"rodwell: error: {error}", err=True)
         sys.exit(COMPUTATION_ERROR)
