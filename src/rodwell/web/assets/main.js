@@ -233,6 +233,10 @@ function settled() {
 
 function scene(found) {
   const element = $("rod");
+  if (typeof rodwellViewer === "undefined") { // read after this script, which asks for the diagram first
+    addEventListener("load", () => { if (shown === found) scene(found); }, { once: true });
+    return;
+  }
   element.querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = ""; });
   if (rod === null) {
     $("true-scale").checked = state.scale === "true";
