@@ -46,9 +46,20 @@ export function frame([width, tall], { x, y, label }) {
   return { svg, px, py, back, left, right: width - right, top, bottom: tall - bottom, width };
 }
 
+// Writes only what differs: the browser lays out and paints again whatever is written.
+export function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 export function around(values, part = 0.06) {
   let low = Math.min(...values), high = Math.max(...values);
   if (!(high > low)) { low -= Math.abs(low) || 1; high += Math.abs(high) || 1; }
   const more = part * (high - low);
   return { low: low - more, high: high + more };
+}
+
+// The same up to whole quarters of the steps between ticks: axes stay while what is drawn moves a little.
+export function quarters({ low, high }, count) {
+  const [first, second] = ticks(low, high, count), step = (second - first || high - low) / 4;
+  return { low: Math.floor(low / step) * step, high: Math.ceil(high / step) * step };
 }

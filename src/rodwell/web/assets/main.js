@@ -250,7 +250,7 @@ function scene(found) {
 }
 
 function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
-const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg });
+const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg, rod: () => rod });
 
 function failed(message) {
   $("busy").textContent = "";

@@ -86,11 +86,11 @@ function light(scene) {
   scene.add(sun);
 }
 
-function tag(stage, label) {
-  const box = document.createElement("span");
+// A label, in the box of one before where there is one.
+function tag(stage, label, before) {
+  const box = before || stage.appendChild(document.createElement("span"));
   box.className = label.above ? "tag above" : "tag";
-  box.textContent = label.text;
-  stage.appendChild(box);
+  if (box.textContent !== label.text) box.textContent = label.text;
   return { box, at: new THREE.Vector3(...label.at) };
 }
 
