@@ -24,8 +24,7 @@ export class Curves {
   show(data) {
     this.data = data;
     Object.keys(this.boxes).forEach((name) => this.draw(name));
-    if (data) this.at(this.place);
-    else this.told(null, "");
+    this.at(this.place);
   }
 
   draw(name) {
@@ -35,7 +34,7 @@ export class Curves {
     if (!size?.[0]) return;
     const s = data.s.values, v = data[name].values;
     const x = { low: s[0], high: s[s.length - 1], label: `${data.s.label}  [${data.s.unit}]` };
-    const y = { ...quarters(around([...v, 0]), size[1] / 42), label: `${data[name].label}  [${data[name].unit}]` };
+    const y = { ...quarters(around([...v, 0]), size[1]), label: `${data[name].label}  [${data[name].unit}]` };
     const key = JSON.stringify([size, x, y]), kept = this.frames[name];
     const at = kept?.key === key && box.querySelector("text") ? kept : this.begin(name, key, frame(size, { x, y, label: data[name].label }));
     const points = s.map((each, k) => `${at.px(each).toFixed(1)},${at.py(v[k]).toFixed(1)}`).join("L");
@@ -66,7 +65,7 @@ export class Curves {
   at(place) {
     this.place = place;
     Object.keys(this.boxes).forEach((name) => this.mark(name));
-    if (place === null || !this.data) return;
+    if (place === null || !this.data) { this.told(null, ""); return; }
     const { s, push, side, gap } = this.data;
     const say = (each) => `${short(each.values[place])} ${each.unit}`.replace(" °", "°");
     this.told(place / (s.values.length - 1), `s = ${say(s)}: push ${say(push)}, angle ${say(side)}${gap ? `, gap ${say(gap)}` : ""}`);

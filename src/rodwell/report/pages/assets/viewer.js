@@ -235,7 +235,7 @@ function rodwellViewer(element, data) {
       if (part.name === "cylinder" || from.length !== to.length || at.array.length !== from.length) continue;
       for (let i = 0; i < from.length; i++) at.array[i] = from[i] + t * (to[i] - from[i]);
       at.needsUpdate = true;
-      geometry.computeVertexNormals();
+      setNormals(geometry);
       geometry.computeBoundingSphere();
     }
     draw();
