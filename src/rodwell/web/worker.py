@@ -94,9 +94,12 @@ def _first(engine: Engine, pipe: Connection, cancelled: Any) -> list[tuple[int, 
 
     asked: list[tuple[int, dict[str, Any]]] = []
 
-    def tell(message: dict[str, Any]) -> None:
+    def look() -> None:
         if not asked and pipe.poll():
             asked.append(pipe.recv())
+
+    def tell(message: dict[str, Any]) -> None:
+        look()
         for number, request in asked:
             if cancelled.value >= number:
                 raise Cancelled
@@ -104,7 +107,9 @@ def _first(engine: Engine, pipe: Connection, cancelled: Any) -> list[tuple[int, 
                 pipe.send((number, False, as_json({"id": request.get("id"), **message}, compact=True)))
 
     with contextlib.suppress(RodwellError, Cancelled, EOFError, OSError):  # what fails is told when it is asked for
-        engine.explored({}, lambda: None, tell)
+        look()
+        if not asked or as_given(asked[0][1]):
+            engine.explored({}, lambda: None, tell)
     return asked
 
 

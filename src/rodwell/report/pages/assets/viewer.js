@@ -5,6 +5,7 @@
 "use strict";
 
 const SELDOM = 80; // milliseconds from one scene drawn to the next, where the processor draws and they come fast
+const CALM = 700; // milliseconds after which scenes have come to rest: the last one is drawn with all pixels
 
 function rodwellViewer(element, data) {
   const stage = element.querySelector(".stage");
@@ -200,11 +201,11 @@ function rodwellViewer(element, data) {
   function show(other) {
     newest = other;
     if (!slow) { draw(); return; }
-    const now = performance.now(), follows = now - shownAt < 1000, full = renderer.getPixelRatio() === sharp;
+    const now = performance.now(), follows = now - shownAt < CALM, full = renderer.getPixelRatio() === sharp;
     shownAt = now;
     if (follows && full) pixels(0.5 * sharp);
     clearTimeout(calm);
-    if (follows) calm = setTimeout(() => { pixels(sharp); draw(); }, 1000);
+    if (follows || !full) calm = setTimeout(() => { pixels(sharp); draw(); }, CALM);
     clearTimeout(late);
     if (!follows || full || now - filledAt > SELDOM) draw();
     else late = setTimeout(draw, SELDOM);
@@ -221,6 +222,7 @@ function rodwellViewer(element, data) {
   }
   // Read in the task in which it is drawn: what has been shown is not kept.
   function picture() {
+    if (renderer.getPixelRatio() !== sharp) pixels(sharp);
     draw();
     return renderer.domElement.toDataURL("image/png");
   }
