@@ -21,7 +21,9 @@ from rodwell.report.folders.case import write_results
 from rodwell.report.pages.path import PAGE, write_path_page
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
-SOFTWARE = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+SOFTWARE = ("--no-sandbox", "--enable-unsafe-swiftshader")
+"""WebGL is drawn by the processor; the page itself in the way that Chromium chooses then, which costs the least."""
+
 WIDTHS = (1440, 820, 390)
 
 if CHROMIUM is None and not os.environ.get("RODWELL_NEEDS_BROWSER"):

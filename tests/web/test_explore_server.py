@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import multiprocessing
 import os
 import re
 import signal
@@ -14,6 +15,7 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -25,6 +27,7 @@ testclient = pytest.importorskip("starlette.testclient", reason="needs httpx")
 
 from starlette.websockets import WebSocketDisconnect  # noqa: E402
 
+from rodwell.web import worker  # noqa: E402
 from rodwell.web.app import FROM_REPORT, app, asset  # noqa: E402
 from rodwell.web.desk import Desk, Job  # noqa: E402
 from rodwell.web.serve import _listening, check_installed  # noqa: E402
@@ -115,6 +118,8 @@ def test_the_first_page_is_light_and_asks_for_nothing_from_elsewhere() -> None:
         assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)", text), file.name  # the name of SVG is no address
         for name in re.findall(r'from "\./([\w.]+)"', text):
             assert asset(name) is not None
+    preloaded = re.findall(r'rel="modulepreload" href="([\w.]+)"', page)  # else they are read one after the other
+    assert sorted([*preloaded, "main.js"]) == sorted(file.name for file in scripts)
     assert "<noscript>" in page
     assert "rodwell run" in page.split("<noscript>")[1].split("</noscript>")[0]
     assert not re.search(r"\son\w+=|style=|<style|<script>", page)  # the policy would refuse it
@@ -133,6 +138,27 @@ def test_requests_are_answered_and_nonsense_is_told(client: Any) -> None:
             assert socket.receive_json() == {"kind": "failed", "message": "that is no request", "last": True}
         socket.send_json({"kind": "state", "id": 7})
         assert socket.receive_json() == {"kind": "state", "id": 7, "last": True}
+
+
+@pytest.mark.parametrize(
+    ("inputs", "cancelled", "told"), [({}, 0, 1), ({"dimensionless.weight": 16.0}, 0, 0), ({}, 1, 0)]
+)
+def test_what_is_being_computed_is_told_to_who_asks_for_it(inputs: dict[str, Any], cancelled: int, told: int) -> None:
+    """A page asks while the case as it was given is computed: it waits for no more than it would otherwise."""
+    ours, theirs = multiprocessing.Pipe()
+    asked = {"kind": "diagram", "id": 7, "inputs": inputs, "until": None}
+
+    class Computing:
+        def explored(self, _: Any, __: Any, tell: Any) -> None:
+            tell({"kind": "progress"})  # nobody has asked
+            ours.send((1, asked))
+            tell({"kind": "diagram"})
+
+    assert worker._first(Computing(), theirs, SimpleNamespace(value=cancelled)) == [(1, asked)]  # type: ignore[arg-type]
+    messages = [ours.recv() for _ in range(2) if ours.poll()]
+    assert [(number, last, json.loads(text)) for number, last, text in messages] == (
+        [(1, False, {"id": 7, "kind": "diagram"})] * told
+    )
 
 
 def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -77,8 +77,9 @@ def _special(found: Explored, name: str, number: int) -> Chosen:
     point = points[number]
     index = f"index {point.index_before} → {point.index_after}"
     what = LABELS[point.kind]
-    error = error_digit(found.load_unit[0] * point.error)
-    note = f"{what[:1].upper()}{what[1:]} of {name}, known to ± {error} {found.load_unit[1]}"
+    note = f"{what[:1].upper()}{what[1:]} of {name}"
+    if point.error > 0.0:  # an end to which a branch was followed is no result
+        note += f", known to ± {error_digit(found.load_unit[0] * point.error)} {found.load_unit[1]}"
     return Chosen(point.solution, name, note=f"{note}; {index}.")
 
 

@@ -146,12 +146,13 @@ class Desk:
             self._pipe.send((number, job.request))
             last = False
             while not last:
-                if not await asyncio.to_thread(self._pipe.poll, 0.25):
+                message = await asyncio.to_thread(self._message)
+                if message is None:
                     told, awake = self._told, self._awake
                     if told is not None and awake is not None and time.monotonic() - max(told, awake) > PATIENCE:
                         raise EOFError
                     continue
-                got, last, text = await asyncio.to_thread(self._pipe.recv)
+                got, last, text = message
                 self._awake = self._awake or time.monotonic()
                 last = last and got == number  # the first messages say that there is a case, and then an engine
                 if got == number:
@@ -163,6 +164,10 @@ class Desk:
                 failed = {"kind": "cancelled", "id": job.request.get("id")}
             await job.reply(json.dumps(failed | {"last": True}))
             await asyncio.to_thread(self._anew)
+
+    def _message(self) -> tuple[int, bool, str] | None:
+        """The next message of the process; None where none comes in a while."""
+        return self._pipe.recv() if self._pipe.poll(0.25) else None
 
     def _anew(self) -> None:
         self.stop()

@@ -183,6 +183,11 @@ class Engine:
         send({"kind": "path", "diagram": plain(found), "whole": True, "last": True})
 
 
+def as_given(request: Request) -> bool:
+    """Whether a request asks for the diagram of the case as it was given."""
+    return request.get("kind") == "diagram" and _key(request) == _key({})
+
+
 def _key(request: Request) -> str:
     """Of what was computed for the inputs of a request."""
     return json.dumps([dict(request.get("inputs") or {}), request.get("until")], sort_keys=True)

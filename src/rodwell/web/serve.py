@@ -44,7 +44,8 @@ def serve(start: Start, port: int, opened: Callable[[str], None]) -> None:
         token = secrets.token_urlsafe(18)
         config = uvicorn.Config(
             app(desk, token, lambda: number), log_level="error", access_log=False, server_header=False,
-            ws="websockets-sansio", ws_max_size=100_000, lifespan="on", timeout_graceful_shutdown=1,
+            ws="websockets-sansio", ws_max_size=100_000, ws_per_message_deflate=False,  # it never leaves the machine
+            lifespan="on", timeout_graceful_shutdown=1,
         )  # fmt: skip
         desk.ready()
         opened(f"http://{ADDRESS}:{number}/{token}/")

@@ -87,10 +87,8 @@ def plain_state(
     known
         Whether the page knows the triangles of the scene from a state before: they are left out then.
     """
-    seen, rod = seen_of(explored, solution.fine if isinstance(solution, ContactState) else solution)
-    for part in seen.data["parts"] if known else ():
-        if part["name"].startswith(KNOWN):
-            del part["triangles"]
+    here = solution.fine if isinstance(solution, ContactState) else solution
+    seen, rod = seen_of(explored, here, KNOWN if known else ())
     if isinstance(solution, ContactState):
         own = _off_the_wall(explored, solution, branch)
     else:
@@ -109,11 +107,13 @@ def plain_state(
     }
 
 
-def seen_of(explored: Explored, solution: Solution | PatternedState) -> tuple[View, Geometry]:
-    """The rod in its hole in three dimensions: what is seen of it, and where it is."""
+def seen_of(
+    explored: Explored, solution: Solution | PatternedState, known: tuple[str, ...] = ()
+) -> tuple[View, Geometry]:
+    """The rod in its hole in three dimensions: what is seen of it, and where it is; ``known`` as of :func:`view`."""
     scales = explored.case.scales
     rod = drawn(solution, scales, PLACES)
-    return view(solution, scales, rod, SIDES, readings=False), rod
+    return view(solution, scales, rod, SIDES, readings=False, known=known), rod
 
 
 def _on_the_wall(explored: Explored, solution: Solution, branch: str) -> dict[str, Any]:

@@ -9,10 +9,13 @@ import os
 import signal
 import threading
 from multiprocessing.connection import Connection, wait
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell.errors import RodwellError
 from rodwell.quantities.as_json import as_json
+
+if TYPE_CHECKING:
+    from rodwell.web.engine import Engine
 
 Start = tuple[dict[str, Any] | None, str, str]
 """Content of the case file or None, the folder of its files, its name for messages."""
@@ -52,12 +55,10 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
 
     engine = Engine(given)
     pipe.send((0, True, ""))
-    if not pipe.poll():
-        with contextlib.suppress(RodwellError, Cancelled):  # what the page asks for first; what fails is told then
-            engine.explored({}, lambda: None)
+    asked = _first(engine, pipe, cancelled)
     while True:
         try:
-            number, request = pipe.recv()
+            number, request = asked.pop() if asked else pipe.recv()
         except (EOFError, OSError):
             return
 
@@ -82,6 +83,34 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
             send({"kind": "failed", "of": request.get("kind"), "message": f"not computed: {what}", "last": True})
         if request.get("kind") == "diagram":
             gc.collect()  # branches and their states refer to each other: left to itself, Python keeps hundreds of them
+
+
+def _first(engine: Engine, pipe: Connection, cancelled: Any) -> list[tuple[int, dict[str, Any]]]:
+    """Compute what the page asks for first; return what it has asked for meanwhile.
+
+    Where that is what is being computed, it is told what there is already.
+    """
+    from rodwell.web.engine import Cancelled, as_given  # noqa: PLC0415 - with the engine
+
+    asked: list[tuple[int, dict[str, Any]]] = []
+
+    def look() -> None:
+        if not asked and pipe.poll():
+            asked.append(pipe.recv())
+
+    def tell(message: dict[str, Any]) -> None:
+        look()
+        for number, request in asked:
+            if cancelled.value >= number:
+                raise Cancelled
+            if as_given(request):
+                pipe.send((number, False, as_json({"id": request.get("id"), **message}, compact=True)))
+
+    with contextlib.suppress(RodwellError, Cancelled, EOFError, OSError):  # what fails is told when it is asked for
+        look()
+        if not asked or as_given(asked[0][1]):
+            engine.explored({}, lambda: None, tell)
+    return asked
 
 
 def _end_with_parent() -> None:

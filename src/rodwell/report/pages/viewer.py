@@ -59,6 +59,7 @@ def view(
     sides: int = SIDES,
     *,
     readings: bool = True,
+    known: tuple[str, ...] = (),
 ) -> View:
     """Return what there is to see of a solution, to be shown by as many pages as one likes.
 
@@ -72,11 +73,13 @@ def view(
         How many sides around the rod.
     readings
         Whether the pointer reads numbers along the rod.
+    known
+        How names of parts begin whose triangles a page has from a state before: they are left out.
     """
     if rod is None:
         elements = 0 if isinstance(solution, PatternedState) else solution.meshes.fine.space.breaks.size - 1
         rod = drawn(solution, scales, min(max(PLACES[0], 2 * elements + 1), PLACES[1]))
-    data = _data(solution.problem, rod, sides)
+    data = _data(solution.problem, rod, sides, known)
     if readings:
         data["along"] = _along(rod, scales)
     if isinstance(solution, Equilibrium) and rod.bent and rod.radial_scale != 1.0:  # scaling does not set back bends
@@ -128,7 +131,7 @@ def caption(solution: InSpace, rod: Geometry, scales: Scales | None) -> str:
     )
 
 
-def _data(problem: Problem, rod: Geometry, sides: int) -> dict[str, Any]:
+def _data(problem: Problem, rod: Geometry, sides: int, known: tuple[str, ...] = ()) -> dict[str, Any]:
     """The scene for viewer.js: x along the cylinder from mid-length, y up (i), z sideways (j), in L."""
 
     def shift(points: FloatArray) -> FloatArray:
@@ -139,7 +142,10 @@ def _data(problem: Problem, rod: Geometry, sides: int) -> dict[str, Any]:
     ends, axis = shift(rod.axis[[0, -1]]), shift(rod.axis)
     above = ends[1] + np.array([0.0, reach + 0.1, 0.0])
     return {
-        "parts": [_part(part, shift(part.mesh.vertices)) for part in scene(rod, sides)],
+        "parts": [
+            _part(part, shift(part.mesh.vertices)) | ({} if part.name.startswith(known) else _triangles(part))
+            for part in scene(rod, sides)
+        ],
         "lines": [
             *({"group": "wall", "points": _rounded(shift(circle))} for circle in _rims(rod)),
             {"group": "wall", "points": _rounded(shift(straight_contact(rod)))},
@@ -169,9 +175,9 @@ READINGS = 401
 def _true_scale(solution: Equilibrium, rod: Geometry, sides: int) -> dict[str, Any]:
     """What is another in true scale: places of all that has its triangles and colours already."""
     true = geometry(solution, rod.s.size, rod_radius=rod.rod_radius, radial_scale=1.0)
-    data = _data(solution.problem, true, sides)
+    data = _data(solution.problem, true, sides, known=("",))
     for part in data["parts"]:
-        del part["triangles"], part["colours"]
+        del part["colours"]
     return {key: data[key] for key in OF_SCALE}
 
 
@@ -218,10 +224,13 @@ def _part(part: Part, points: FloatArray) -> dict[str, Any]:
         "low": [float(x) for x in low],
         "high": [float(x) for x in high],
         "positions": _base64(np.round(65535.0 * (points - low) / span).astype("<u2")),
-        "triangles": _base64(part.mesh.triangles.astype("<u4")),
         "colours": colours,
         "opacity": part.opacity,
     }
+
+
+def _triangles(part: Part) -> dict[str, str]:
+    return {"triangles": _base64(part.mesh.triangles.astype("<u4"))}
 
 
 def _base64(values: Any) -> str:

@@ -1,11 +1,12 @@
 // Push on the wall and place around it along the rod, with one cursor for both.
-import { around, element, frame, short } from "./draw.js";
+import { around, element, frame, quarters, short } from "./draw.js";
 
 export class Curves {
   constructor(boxes, told) {
     this.boxes = boxes; // {push, side}
     this.told = told; // (fraction or null, text) => void
     this.place = null;
+    this.frames = {}; // of each box: what stays from state to state
     this.sizes = {}; // of the boxes: asked for while other things change, the browser would lay out the page each time
     for (const [name, box] of Object.entries(boxes)) {
       new ResizeObserver(() => { this.sizes[name] = [box.clientWidth, box.clientHeight]; this.draw(name); }).observe(box);
@@ -22,10 +23,8 @@ export class Curves {
 
   show(data) {
     this.data = data;
-    this.frames = {};
     Object.keys(this.boxes).forEach((name) => this.draw(name));
-    if (data) this.at(this.place);
-    else this.told(null, "");
+    this.at(this.place);
   }
 
   draw(name) {
@@ -35,21 +34,28 @@ export class Curves {
     if (!size?.[0]) return;
     const s = data.s.values, v = data[name].values;
     const x = { low: s[0], high: s[s.length - 1], label: `${data.s.label}  [${data.s.unit}]` };
-    const y = { ...around([...v, 0]), label: `${data[name].label}  [${data[name].unit}]` };
-    const at = frame(size, { x, y, label: data[name].label });
+    const y = { ...quarters(around([...v, 0]), size[1]), label: `${data[name].label}  [${data[name].unit}]` };
+    const key = JSON.stringify([size, x, y]), kept = this.frames[name];
+    const at = kept?.key === key && box.querySelector("text") ? kept : this.begin(name, key, frame(size, { x, y, label: data[name].label }));
     const points = s.map((each, k) => `${at.px(each).toFixed(1)},${at.py(v[k]).toFixed(1)}`).join("L");
-    at.svg.append(element("path", { class: "fill", d: `M${at.px(s[0])},${at.py(0)}L${points}L${at.px(x.high)},${at.py(0)}Z` }));
-    at.svg.append(element("path", { class: "curve", d: "M" + points }));
-    at.line = element("line", { class: "at", y1: at.top, y2: at.bottom, visibility: "hidden" });
-    at.dot = element("circle", { class: "at", r: 3.5, visibility: "hidden" });
-    at.svg.append(at.line, at.dot);
-    box.replaceChildren(at.svg);
-    this.frames = { ...this.frames, [name]: at };
+    at.fill.setAttribute("d", `M${at.px(s[0])},${at.py(0)}L${points}L${at.px(x.high)},${at.py(0)}Z`);
+    at.curve.setAttribute("d", "M" + points);
     this.mark(name);
   }
 
+  // A frame with nothing in it yet.
+  begin(name, key, at) {
+    Object.assign(at, { key, fill: element("path", { class: "fill" }), curve: element("path", { class: "curve" }) });
+    at.line = element("line", { class: "at", y1: at.top, y2: at.bottom, visibility: "hidden" });
+    at.dot = element("circle", { class: "at", r: 3.5, visibility: "hidden" });
+    at.svg.append(at.fill, at.curve, at.line, at.dot);
+    this.boxes[name].replaceChildren(at.svg);
+    this.frames[name] = at;
+    return at;
+  }
+
   point(name, clientX) {
-    const at = this.frames?.[name];
+    const at = this.frames[name];
     if (!at || !this.data) return;
     const s = this.data.s.values, end = s[s.length - 1];
     const along = at.back(clientX - at.svg.getBoundingClientRect().left) / end;
@@ -59,14 +65,14 @@ export class Curves {
   at(place) {
     this.place = place;
     Object.keys(this.boxes).forEach((name) => this.mark(name));
-    if (place === null || !this.data) return;
+    if (place === null || !this.data) { this.told(null, ""); return; }
     const { s, push, side, gap } = this.data;
     const say = (each) => `${short(each.values[place])} ${each.unit}`.replace(" °", "°");
     this.told(place / (s.values.length - 1), `s = ${say(s)}: push ${say(push)}, angle ${say(side)}${gap ? `, gap ${say(gap)}` : ""}`);
   }
 
   mark(name) {
-    const at = this.frames?.[name];
+    const at = this.frames[name];
     if (!at || this.place === null || !this.data) return;
     const x = at.px(this.data.s.values[this.place]), y = at.py(this.data[name].values[this.place]);
     for (const [key, value] of [["x1", x], ["x2", x], ["visibility", "visible"]]) at.line.setAttribute(key, value);

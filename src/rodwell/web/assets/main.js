@@ -111,6 +111,7 @@ function show(dragged = false) {
   if (of !== diagramOf || (withPath && !state.path)) {
     const underWay = of === pending && diagramOf === "";
     stale(fits);
+    if (state.path) $("busy").textContent = "updating: a rod off the wall is shown once its new load path has been followed …";
     if (underWay) return;
     link.drop("state", "verdict", "details", "path", ...(dragged ? [] : ["diagram"]));
     const content = () => ({ ...wanted(), path: false, load: state.load, from: origin, known });
@@ -227,12 +228,13 @@ function settled() {
   // at a special point the line that says which one stays; verdicts are those of a rod on the wall
   if (state.special === null && !shown.beyond) link.ask("verdict", request());
   link.ask("details", request());
-  if (!rod) taking.picture();
+  if (rod === false) taking.picture();
   if (!load.slider.matches(":active") && !player.since) history.replaceState(null, "", address.written(state, hello));
 }
 
 function scene(found) {
   const element = $("rod");
+  if (typeof rodwellViewer === "undefined") return addEventListener("load", () => { if (shown === found) scene(found); }, { once: true }); // read after this script, which asks first
   element.querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = ""; });
   if (rod === null) {
     $("true-scale").checked = state.scale === "true";
@@ -246,7 +248,7 @@ function scene(found) {
 }
 
 function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
-const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg });
+const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg, rod: () => rod });
 
 function failed(message) {
   $("busy").textContent = "";

@@ -1,4 +1,5 @@
 // The state shown in numbers, what can be copied and saved.
+import { write } from "./draw.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -20,16 +21,14 @@ export function showNumbers(state) {
   }
   rows.forEach(([name, label, text, error], i) => {
     body.rows[i].dataset.name = name;
-    body.rows[i].cells[0].textContent = label;
-    body.rows[i].cells[1].textContent = text;
-    body.rows[i].cells[2].textContent = error === "given" ? error : `± ${error}`;
+    [label, text, error === "given" ? error : `± ${error}`].forEach((each, k) => write(body.rows[i].cells[k], each));
   });
 }
 
 // A state in words and numbers.
 export function showState(found) {
   showNumbers(found);
-  $("certificate").textContent = ""; // of the state before
+  write($("certificate"), ""); // of the state before
   $("now").textContent = `${found.values.force.text}: ${found.branch}, ${found.stable ? "stable" : `unstable (index ${found.index})`}`;
   $("headline").textContent = `${found.headline[0].toUpperCase()}${found.headline.slice(1)}. ${found.note}${found.accurate ? "" : " Not every number meets the tolerance."}`;
   $("verdict").textContent = $("headline").textContent;
@@ -48,9 +47,13 @@ export function showLoads(data, state) {
   $("convention").textContent = `${data.convention}.${data.unexplored.length ? ` Not explored: ${data.unexplored.join("; ")}.` : ""}`;
 }
 
+let gradient = ""; // of the bar of colours
+
 export function showBar(bar) {
-  $("bar-first").textContent = bar.first;
-  $("bar-last").textContent = `${bar.last} ${bar.unit}`;
+  write($("bar-first"), bar.first);
+  write($("bar-last"), `${bar.last} ${bar.unit}`);
+  if (bar.gradient === gradient) return;
+  gradient = bar.gradient;
   const stops = [...bar.gradient.matchAll(/(#[0-9a-f]{6}) ([\d.]+)%/g)];
   $("bar-gradient").innerHTML = stops.map(([, colour, where]) => `<stop offset="${where}%" stop-color="${colour}"></stop>`).join("");
 }
@@ -123,13 +126,13 @@ export async function copy(text, what) {
 }
 
 // The page as it is, in one file that needs neither server nor script.
-export async function snapshot(state, hello) {
+export async function snapshot(state, hello, rod) {
   const css = await Promise.all(["viewer.css", "explore.css"].map(async (name) => (await fetch(name)).text()));
   const body = document.body.cloneNode(true);
   body.querySelectorAll("script, noscript, dialog, button, #banner, #message, input[type=range], .tools label, .hit").forEach((each) => each.remove());
-  const canvas = document.querySelector("#rod canvas"), still = body.querySelector("#rod img.still");
+  const still = body.querySelector("#rod img.still");
   body.querySelectorAll("#rod canvas").forEach((each) => each.remove());
-  const picture = canvas ? canvas.toDataURL("image/png") : document.querySelector("#rod img.still").src;
+  const picture = rod ? rod.picture() : document.querySelector("#rod img.still").src;
   if (picture) { still.src = picture; still.hidden = false; }
   body.querySelector("#rod").classList.remove("live");
   const live = document.body.querySelectorAll("input[type=number], select");

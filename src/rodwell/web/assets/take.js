@@ -3,7 +3,7 @@ import { copy, pixels, save, saveBlob, snapshot, standalone } from "./panel.js";
 
 export class Taking {
   constructor(page) {
-    this.page = page; // shown(), state(), hello(), request(), values(), ask(kind, content), svg()
+    this.page = page; // shown(), state(), hello(), request(), values(), ask(kind, content), svg(), rod()
     this.copying = "python"; // which text is wanted
     this.saving = ""; // which file
     this.still = false; // whether a still picture stands in for the rod that cannot be turned
@@ -17,7 +17,7 @@ export class Taking {
 
   async file(kind) {
     const { page } = this;
-    if (kind === "page") saveBlob("rodwell.html", await snapshot({ ...page.state(), values: page.values() }, page.hello()));
+    if (kind === "page") saveBlob("rodwell.html", await snapshot({ ...page.state(), values: page.values() }, page.hello(), page.rod()));
     else { this.saving = kind; page.ask("file", { ...page.request(), suffix: kind }); }
   }
 

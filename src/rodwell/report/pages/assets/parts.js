@@ -3,10 +3,14 @@
 "use strict";
 
 function bytes(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text).buffer;
   const raw = atob(text), out = new Uint8Array(raw.length);
   for (let i = 0; i < raw.length; i++) out[i] = raw.charCodeAt(i);
   return out.buffer;
 }
+
+// A colour of a picture, 0 to 255, in linear light.
+const LIGHT = Float32Array.from({ length: 256 }, (_, value) => new THREE.Color().setRGB(value / 255, 0, 0, "srgb").r);
 
 // Positions come as 16-bit numbers between the corners of the part's box.
 function positions(part) {
@@ -22,7 +26,7 @@ function mesh(part) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions(part), 3));
   geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(part.triangles)), 1));
-  geometry.computeVertexNormals();
+  setNormals(geometry);
   const clear = part.opacity < 1;
   const material = new THREE.MeshStandardMaterial({
     metalness: 0, roughness: 0.55, transparent: clear, opacity: part.opacity, depthWrite: !clear,
@@ -49,7 +53,7 @@ function renewed(old, part) {
   }
   at.array.set(moved);
   at.needsUpdate = true;
-  old.geometry.computeVertexNormals();
+  setNormals(old.geometry);
   old.geometry.computeBoundingSphere();
   if (typeof part.colours === "string") {
     const colour = old.geometry.getAttribute("color");
@@ -57,6 +61,27 @@ function renewed(old, part) {
     colour.needsUpdate = true;
   }
   return true;
+}
+
+// As computeVertexNormals of three.js, in a fraction of its time: shapes come twenty times a second.
+function setNormals(geometry) {
+  const p = geometry.getAttribute("position").array, triangles = geometry.index.array;
+  const n = geometry.getAttribute("normal")?.array.fill(0) || new Float32Array(p.length);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+    const ux = p[c] - p[b], uy = p[c + 1] - p[b + 1], uz = p[c + 2] - p[b + 2];
+    const vx = p[a] - p[b], vy = p[a + 1] - p[b + 1], vz = p[a + 2] - p[b + 2];
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx; // as long as twice the area: large triangles count more
+    n[a] += x; n[a + 1] += y; n[a + 2] += z;
+    n[b] += x; n[b + 1] += y; n[b + 2] += z;
+    n[c] += x; n[c + 1] += y; n[c + 2] += z;
+  }
+  for (let i = 0; i < n.length; i += 3) {
+    const size = Math.sqrt(n[i] ** 2 + n[i + 1] ** 2 + n[i + 2] ** 2) || 1; // Math.hypot takes ten times as long
+    n[i] /= size; n[i + 1] /= size; n[i + 2] /= size;
+  }
+  if (geometry.getAttribute("normal")) geometry.getAttribute("normal").needsUpdate = true;
+  else geometry.setAttribute("normal", new THREE.BufferAttribute(n, 3));
 }
 
 function discard(item) {
@@ -68,9 +93,7 @@ function discard(item) {
 }
 
 function colours(part) {
-  const rgb = new Uint8Array(bytes(part.colours)), out = new Float32Array(rgb.length), c = new THREE.Color();
-  for (let i = 0; i < rgb.length; i += 3) c.setRGB(rgb[i] / 255, rgb[i + 1] / 255, rgb[i + 2] / 255, "srgb").toArray(out, i);
-  return out;
+  return Float32Array.from(new Uint8Array(bytes(part.colours)), (value) => LIGHT[value]);
 }
 
 function curve(line, material) {
@@ -86,11 +109,11 @@ function light(scene) {
   scene.add(sun);
 }
 
-function tag(stage, label) {
-  const box = document.createElement("span");
+// A label, in the box of one before where there is one.
+function tag(stage, label, before) {
+  const box = before || stage.appendChild(document.createElement("span"));
   box.className = label.above ? "tag above" : "tag";
-  box.textContent = label.text;
-  stage.appendChild(box);
+  if (box.textContent !== label.text) box.textContent = label.text;
   return { box, at: new THREE.Vector3(...label.at) };
 }
 

@@ -1,15 +1,18 @@
 // The rod in its cylinder, to be turned and zoomed. Needs THREE (three.min.js), what it is made of (parts.js) and nothing from the network.
 // rodwellViewer(element, data): data as made by rodwell.report.viewer; returns false where the browser has no WebGL, else
-// an object whose show(data) takes another scene, between(one, other, t) draws a shape between two, mark(fraction) marks a place along the rod, and vertices() says where
-// the rod's vertices are across the axis, in wall radii.
+// an object whose show(data) takes another scene, between(one, other, t) draws a shape between two, mark(fraction) marks a place along the rod, picture() is
+// what is seen as PNG, and vertices() says where the rod's vertices are across the axis, in wall radii.
 "use strict";
+
+const SELDOM = 80; // milliseconds from one scene drawn to the next, where the processor draws and they come fast
+const CALM = 700; // milliseconds after which scenes have come to rest: the last one is drawn with all pixels
 
 function rodwellViewer(element, data) {
   const stage = element.querySelector(".stage");
   const slow = drawnByProcessor();
   let renderer;
   try {
-    renderer = new THREE.WebGLRenderer({ antialias: !slow, alpha: true, preserveDrawingBuffer: true });
+    renderer = new THREE.WebGLRenderer({ antialias: !slow, alpha: true, preserveDrawingBuffer: false });
   } catch (problem) {
     return false; // the still picture stays
   }
@@ -28,32 +31,38 @@ function rodwellViewer(element, data) {
   all.add(mark);
   const known = new Map(); // parts by name, kept from scene to scene
   let given = data; // as it came, where data is its true scale
-  let rest = []; // lines, made anew of one material: with the last of its kind goes its shader, which takes long to make
+  let rest = [], restOf = ""; // lines, made anew of one material: with the last of its kind goes its shader, which takes long to make
   const ink = new THREE.LineBasicMaterial({ color: 0x627d98 });
   const arrow = new THREE.ArrowHelper(new THREE.Vector3(0, -1, 0), new THREE.Vector3(), 0.09, 0x52606d, 0.03, 0.018);
   groups.wall.add(arrow);
   let calm = 0, shownAt = -1e9; // when scenes have come to rest, and when the last one came
+  let newest = null, late = 0, filledAt = -1e9; // a scene that waits to be drawn, until when, and when the last one was
+  let marked; // where along the rod the mark stands, null: nowhere; undefined where the mark is that of the place read
   let labels = [];
   function fill() {
-    const names = new Set(data.parts.map((part) => part.name));
-    known.forEach((old, name) => { if (!names.has(name)) { discard(old); known.delete(name); } });
-    data.parts.forEach((part) => {
-      const old = known.get(part.name);
+    const parts = new Map(data.parts.map((part, i) => [keyOf(part, i), part]));
+    known.forEach((old, key) => { if (!parts.has(key)) { discard(old); known.delete(key); } });
+    parts.forEach((part, key) => {
+      const old = known.get(key);
       if (old && renewed(old, part)) return;
       if (old) discard(old);
-      known.set(part.name, mesh(part));
-      groups[groupOf(part)].add(known.get(part.name));
+      known.set(key, mesh(part));
+      groups[groupOf(part)].add(known.get(key));
     });
-    rest.forEach((line) => { line.removeFromParent(); line.geometry.dispose(); });
-    rest = data.lines.map((line) => curve(line, ink));
-    rest.forEach((line, i) => groups[data.lines[i].group].add(line));
+    const of = JSON.stringify(data.lines);
+    if (of !== restOf) {
+      restOf = of;
+      rest.forEach((line) => { line.removeFromParent(); line.geometry.dispose(); });
+      rest = data.lines.map((line) => curve(line, ink));
+      rest.forEach((line, i) => groups[data.lines[i].group].add(line));
+    }
     arrow.visible = data.weight > 0;
     if (arrow.visible) {
       arrow.position.set(...data.arrow);
       arrow.setDirection(new THREE.Vector3(...data.gravity));
     }
-    labels.forEach(({ box }) => box.remove());
-    labels = data.labels.map((label) => tag(stage, label));
+    labels.splice(data.labels.length).forEach(({ box }) => box.remove());
+    data.labels.forEach((label, i) => { labels[i] = tag(stage, label, labels[i]?.box); });
   }
   fill();
   light(scene);
@@ -67,22 +76,25 @@ function rodwellViewer(element, data) {
   const places = along.points.map((point) => new THREE.Vector3(...point));
   let place = -1; // which place is read
 
-  function home() {
+  function stand() {
     controls.target.set(0, 0, 0);
     const towards = new THREE.Vector3(-0.32, 0.36, 0.95).normalize();
     const across = 2 * Math.tan((camera.fov * Math.PI) / 360);
     const distance = Math.max(1.52 / (across * camera.aspect), (data.height * 2.6) / across, 0.2);
     camera.position.copy(towards.multiplyScalar(distance));
     controls.update();
-    draw();
   }
+  const home = () => { stand(); draw(); };
   let wide = 0, tall = 0; // of the stage: asked for at each label, the browser would lay out the page anew each time
   function draw() {
+    if (newest) take();
+    if (marked !== undefined) placeMark();
     renderer.render(scene, camera);
     labels.forEach(({ box, at }) => {
       const p = all.localToWorld(at.clone()).project(camera);
-      box.style.left = `${(p.x * 0.5 + 0.5) * wide}px`;
-      box.style.top = `${(-p.y * 0.5 + 0.5) * tall}px`;
+      const [left, top] = [`${((p.x * 0.5 + 0.5) * wide).toFixed(1)}px`, `${((-p.y * 0.5 + 0.5) * tall).toFixed(1)}px`];
+      if (box.style.left !== left) box.style.left = left;
+      if (box.style.top !== top) box.style.top = top;
     });
   }
   function fit() {
@@ -177,63 +189,86 @@ function rodwellViewer(element, data) {
     all.scale.set(1, across, across);
     const shown = really && given.true_scale ? { ...given, ...given.true_scale } : given;
     if (shown !== data && given.true_scale) { data = shown; fill(); } // a bent hole has a scene of its own
-    scale.textContent = really ? "true scale" : data.says;
+    const says = really ? "true scale" : data.says;
+    if (scale.textContent !== says) scale.textContent = says;
   }
   if (trueScale) trueScale.onchange = () => { scaled(); draw(); };
   fit();
   home();
-  return { show, between, mark: markAt, vertices, drawn: () => renderer.info.render.frame };
+  return { show, between, mark: markAt, picture, vertices, drawn: () => renderer.info.render.frame };
 
-  // Many scenes after each other are drawn with fewer pixels, the last one with all.
+  // Many scenes after each other are drawn with fewer pixels, and not each of them; the last one with all.
   function show(other) {
-    if (slow) {
-      if (renderer.getPixelRatio() === sharp && performance.now() - shownAt < 1000) pixels(0.5 * sharp);
-      shownAt = performance.now();
-      clearTimeout(calm);
-      if (renderer.getPixelRatio() !== sharp) calm = setTimeout(() => { pixels(sharp); draw(); }, 1000);
-    }
-    const taller = Math.abs(other.height / data.height - 1) > 0.02;
-    given = data = other;
+    newest = other;
+    if (!slow) { draw(); return; }
+    const now = performance.now(), follows = now - shownAt < CALM, full = renderer.getPixelRatio() === sharp;
+    shownAt = now;
+    if (follows && full) pixels(0.5 * sharp);
+    clearTimeout(calm);
+    if (follows || !full) calm = setTimeout(() => { pixels(sharp); draw(); }, CALM);
+    clearTimeout(late);
+    if (!follows || full || now - filledAt > SELDOM) draw();
+    else late = setTimeout(draw, SELDOM);
+  }
+  // The scene that came last becomes the one that is drawn.
+  function take() {
+    const taller = Math.abs(newest.height / data.height - 1) > 0.02;
+    given = data = newest;
+    newest = null;
+    filledAt = performance.now();
     fill();
     scaled();
-    if (taller) home();
-    else draw();
+    if (taller) stand();
+  }
+  // Read in the task in which it is drawn: what has been shown is not kept.
+  function picture() {
+    if (renderer.getPixelRatio() !== sharp) pixels(sharp);
+    draw();
+    return renderer.domElement.toDataURL("image/png");
   }
   // A shape between those of two scenes of the same rod, t from 0 to 1, in the colours that stand there: not computed.
   function between(one, other, t) {
     const parts = one.parts.filter((part) => /^(rod|material|cylinder)/.test(part.name)); // no contacts in between
     if (t === 0) show({ ...one, parts, lines: one.lines.filter((line) => line.group === "wall") });
-    mark.visible = false;
+    if (newest) take();
     for (const part of parts) {
       const end = other.parts.find((each) => each.name === part.name), geometry = known.get(part.name).geometry;
       const at = geometry.getAttribute("position"), from = positions(part), to = end ? positions(end) : from;
       if (part.name === "cylinder" || from.length !== to.length || at.array.length !== from.length) continue;
       for (let i = 0; i < from.length; i++) at.array[i] = from[i] + t * (to[i] - from[i]);
       at.needsUpdate = true;
-      geometry.computeVertexNormals();
+      setNormals(geometry);
       geometry.computeBoundingSphere();
     }
     draw();
   }
-  // A place along the rod, 0 to 1: the middle of the rod's vertices there.
+  // A place along the rod, 0 to 1, or null: it stays marked in the scenes that come.
   function markAt(fraction) {
+    if (fraction === marked) return;
+    marked = fraction;
+    if (!newest) draw();
+  }
+  // The middle of the rod's vertices there.
+  function placeMark() {
     const rod = known.get("rod"), sides = data.sides;
-    if (fraction === null || !rod || !sides) { mark.visible = false; draw(); return; }
+    mark.visible = marked !== null && Boolean(rod && sides);
+    if (!mark.visible) return;
     const at = rod.geometry.getAttribute("position"), rings = Math.floor(at.count / sides);
-    const first = Math.min(Math.max(Math.round(fraction * (rings - 1)), 0), rings - 1) * sides;
+    const first = Math.min(Math.max(Math.round(marked * (rings - 1)), 0), rings - 1) * sides;
     mark.position.set(0, 0, 0);
     for (let i = first; i < first + sides; i++) mark.position.add(new THREE.Vector3().fromBufferAttribute(at, i));
     mark.position.multiplyScalar(1 / sides);
-    mark.visible = true;
-    draw();
   }
   function vertices() {
+    if (newest) take();
     const at = known.get("rod").geometry.getAttribute("position");
     let widest = 0;
     for (let i = 0; i < at.count; i++) widest = Math.max(widest, Math.hypot(at.getY(i), at.getZ(i)));
     return widest / (data.height / 2);
   }
 
+  // A ring that moves along the rod is called by its place there: it is the same ring.
+  function keyOf(part, i) { return / at s = /.test(part.name) ? `ring ${i}` : part.name; }
   function groupOf(part) {
     return part.name === "cylinder" ? "wall" : part.name.startsWith("material") ? "lines" : "rest";
   }
