@@ -11,12 +11,11 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.arrange import arranged, solved
-from rodwell.analysis.off_wall.changes import changed
+from rodwell.analysis.off_wall.changes import changed, growing_direction
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
-from rodwell.analysis.off_wall.turning import growing_direction
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.bordered import Row
 from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
