@@ -90,9 +90,14 @@ class PatternedState:
         return contact_pieces(self.solved.shape)
 
     @property
+    def _read_off(self) -> bool:
+        """Whether contact is read off the shape: behind a soft wall, but of the straight rod that nothing presses."""
+        return self.model.soft and not self.pattern.full
+
+    @property
     def touching(self) -> tuple[bool, ...]:
         """Which stretches are in contact, from s = 0; of a hard wall those of the pattern."""
-        return tuple(piece.on for piece in self.pieces) if self.model.soft else self.pattern.touching
+        return tuple(piece.on for piece in self.pieces) if self._read_off else self.pattern.touching
 
     @property
     def everywhere(self) -> bool:
@@ -102,7 +107,7 @@ class PatternedState:
     @property
     def bounds(self) -> FloatArray:
         """Where the stretches begin and end, (k+1,)."""
-        if self.model.soft:
+        if self._read_off:
             return np.array([piece.left for piece in self.pieces] + [1.0])
         return np.concatenate([[0.0], self.solved.shape.breaks, [1.0]])
 

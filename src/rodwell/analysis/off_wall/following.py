@@ -21,7 +21,7 @@ from rodwell.analysis.off_wall.happening import (
     together,
     unresolved,
 )
-from rodwell.analysis.off_wall.soft import with_ends_of
+from rodwell.analysis.off_wall.soft import jumped, stopped, with_ends_of
 from rodwell.analysis.off_wall.vanishing import FARTHEST, SEARCH, about_to_vanish, opened_again, shortened, unbalanced
 from rodwell.analysis.off_wall.within import Step, driven_rate, first_event
 from rodwell.numerics.stretches.walk import (
@@ -117,8 +117,11 @@ class _Walker:
         if solved is None:
             self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
             return
-        new = PatternedState(state.pattern, state.elements, solved)
-        turned = tangent(solved, self.along)
+        if state.model.soft and jumped(state.solved, solved, min(self.size, most)):
+            self._shorten(f"the path bends sharply beyond F = {state.load:.8g} B/L²")  # the wall's push begins, or ends
+            return
+        new = stopped(PatternedState(state.pattern, state.elements, solved))
+        turned = tangent(new.solved, self.along)
         found = first_event(Step(state, self.along, new, turned, self.control, self.until, self.sense))
         if isinstance(found, str):
             self._shorten(found)

@@ -16,6 +16,7 @@ from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.barrier import Barrier, barrier
+from rodwell.analysis.path.checks import checked_value
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.plain import found_or_why
 from rodwell.analysis.path.straightening import straight_state
@@ -25,7 +26,6 @@ from rodwell.errors import InputError, NotConvergedError
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.tolerance import checked_force
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -123,8 +123,8 @@ class LoadPath(Shown):
         NotConvergedError
             If the state could not be solved for.
         """
-        value = checked_force(self.control, value)
         control = self.way
+        value = checked_value(control, self.control, value)
         found = [
             PathState(leg.name, self._on(leg, value, control), control)
             for leg in self.legs if _passes(leg, value, control)
@@ -152,7 +152,7 @@ class LoadPath(Shown):
         NotConvergedError
             If the saddle was not found, or descent from it did not confirm what it lies between.
         """
-        value = checked_force(self.control, value)
+        value = checked_value(self.way, self.control, value)
         known = self._barriers
         if (value, leg) not in known:
             taken = next((one for one in self.legs if one.name == leg), None)
