@@ -68,10 +68,12 @@ def sunk(model: RodInHole, load: float) -> PatternedState | None:
 
 def stopped(state: PatternedState) -> PatternedState:
     """The same state where a planar rod without lateral weight has come to the wall, or has left it, in a step."""
-    touches, pattern = any(state.touching), state.pattern
-    if not state.model.soft or not pattern.planar or state.problem.lateral_weight > 0.0 or pattern.stopped == touches:
+    pattern, shape = state.pattern, state.solved.shape
+    if not (state.model.soft and pattern.planar and state.problem.lateral_weight == 0.0):
         return state
-    shape = state.solved.shape
+    touches = any(state.touching)
+    if pattern.stopped == touches:
+        return state
     told = replace(pattern, stopped=touches)
     again = solved(state.model, told, np.zeros(0), shape.load, sampler(shape), elements=state.elements)
     return state if again is None else again
