@@ -16,6 +16,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+from scipy.special import ellipk
 
 import rodwell
 from rodwell.analysis.off_wall.arrange import solved
@@ -168,8 +170,41 @@ def test_a_point_of_contact(stiffness: float) -> None:
     assert behind_soft(hard, stiffness, depth) == pytest.approx(derived, rel=bending)
 
 
+def test_a_weightless_rod_comes_to_the_opposite_wall_and_back() -> None:
+    """At the load of the elastica of rise 2Δ, F = −16K² with k/K = 2Δ: what is soft about the wall is not met before.
+
+    Beyond, the wall gives way by the depth d of a parabola of the gap's curvature: P = ⁴⁄₃kd√(2d/κ). The path turns a
+    corner there, which it must not pass over on its way back either.
+    """
+    k = brentq(lambda k: k / ellipk(k * k) - 0.02, 1e-6, 0.5, xtol=1e-15)
+    stiffness, at = 1e4, -16.0 * ellipk(k * k) ** 2
+    path = load_path(rodwell.Problem(weight=0.0), until=-40.0, unload_to=-39.0, wall_stiffness=stiffness, seeds=1)
+    assert path.reached
+    assert not path.missed
+    up, down = ["critical", "lift_off", "touches"], ["contact_lost", "critical"]
+    assert [(event.leg, event.kind) for event in path.events] == [
+        *(("loading", kind) for kind in up), *(("unloading", kind) for kind in down)
+    ]  # fmt: skip
+    for event in path.events[2:4]:
+        assert event.force.value == pytest.approx(at, rel=1e-11)
+        assert event.s == pytest.approx((0.5,), abs=1e-9)
+        assert event.state.certificate.passed
+    assert path.at(-39.2)[1].state.kind == "straight"
+    state = path.at(-39.9)[0].state
+    assert (state.stability_index, len(state.contacts)) == (0, 1)
+    assert state.certificate.passed
+    middle = {name: value[0] for name, value in state.fields(np.array([0.5])).items()}
+    depth, bend = -middle["gap"] * 0.01, abs(middle["curvature"])
+    push = 4.0 / 3.0 * stiffness * depth * np.sqrt(2.0 * depth / bend)
+    assert state.contacts[0].force.value == pytest.approx(push, rel=0.02)
+
+
 def test_what_is_refused() -> None:
-    for weight, stiffness in ((15.0, 0.0), (15.0, float("nan")), (15.0, 1e30), (0.0, 1e6)):
-        with pytest.raises(InputError) as caught:
-            load_path(rodwell.Problem(weight=weight), until=-60.0, wall_stiffness=stiffness)
+    """A wall that does not hold the rod, 2w/Δ = 3000 here; and ends that prefer a plane, without weight."""
+    for stiffness in (0.0, float("nan"), 1e30, 5.0, 2999.0):
+        with pytest.raises(InputError, match="from 3000 to") as caught:
+            load_path(rodwell.Problem(weight=15.0), until=-60.0, wall_stiffness=stiffness)
         assert caught.value.field == "wall_stiffness"
+    with pytest.raises(InputError, match="no weight presses to a soft wall") as caught:
+        load_path(rodwell.Problem(weight=0.0, ends="pinned-pinned"), until=-60.0, wall_stiffness=1e6)
+    assert (caught.value.field, caught.value.value) == ("ends", "pinned-pinned")

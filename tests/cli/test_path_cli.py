@@ -113,6 +113,14 @@ def test_steps_of_the_clearance(tmp_path: Path) -> None:
     assert isinstance(run("liftoff", *steps).exception, InputError)
 
 
+@pytest.mark.parametrize("option", ["--at", "--barrier"])
+def test_a_shortening_that_is_controlled_is_no_end_force(option: str) -> None:
+    done = run(*COMMON, "--until", "0.002", "--control", "shortening", option, "0.001,-127")
+    assert isinstance(done.exception, InputError)
+    assert (done.exception.field, done.exception.value) == (option, -127.0)
+    assert "from 0 to 1: a shortening in L" in str(done.exception)
+
+
 @pytest.mark.parametrize("given", ["", "nan", "-147,inf"])
 def test_loads_of_barriers_are_finite_numbers(given: str) -> None:
     done = run(*COMMON, "--until", "-126", "--barrier", given)

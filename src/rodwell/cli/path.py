@@ -89,12 +89,17 @@ def path(
     back. The rod may leave the wall; frictionless and without inertia. End force at s = 1 in B/L², tension positive;
     places in parts of the length, gaps in parts of the clearance.
     """
+    from rodwell.analysis.path.checks import checked_control, checked_value  # noqa: PLC0415
     from rodwell.analysis.path.follow import load_path  # noqa: PLC0415
 
     read = _case(case)
     problem, rtol = (make_problem(given), rtol) if read is None else (read.problem, _tolerance(read, rtol))
     begin, back = _range(problem, read, until, unload_to, control)
     forces, barriers = _numbers("--at", at, read, control), _numbers("--barrier", barrier, read, control)
+    way = checked_control(problem, control, axial_stiffness, spring)
+    for option, values in (("--at", forces), ("--barrier", barriers)):
+        for value in values:
+            checked_value(way, option, value)
     if wall_stiffness is None:
         wall_stiffness = math.inf if read is None else read.wall_stiffness
     if out is not None:

@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodwell.analysis.off_wall.conditions import PatternedState
+from rodwell.analysis.off_wall.conditions import PatternedState, slope_at
 from rodwell.numerics.stretches.carry import Sampler
-from rodwell.numerics.stretches.chain import ANGLE_RATE
 from rodwell.quantities.arrays import FloatArray
 
 Bump = Callable[[FloatArray], FloatArray]
@@ -97,10 +96,10 @@ def at_step(state: PatternedState, stretch: int, s: float) -> StepGap:
 
     The contact force is taken as the mean of those on the two sides, and both as constant.
     """
-    model, shape = state.model, state.solved.shape
+    model = state.model
     below, above = (float(b) for b in model.problem.rod.stiffness(sides(s)))
     stiff, soft, sense = max(below, above), min(below, above), 1.0 if below > above else -1.0
-    kappa = float(shape.nodes[int(np.searchsorted(shape.places, s)), ANGLE_RATE]) ** 2
+    kappa = slope_at(state.solved.shape, s) ** 2
     push = max(-float(np.mean(pressure_at(state, stretch, sides(s)))) / model.problem.clearance, 1e-3 * kappa)
     a, factor = step_gap_sizes(soft / stiff)
     length = math.sqrt(2.0 * (stiff - soft) * kappa * factor / push)

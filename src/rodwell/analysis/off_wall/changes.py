@@ -28,11 +28,19 @@ from rodwell.analysis.off_wall.conditions import (
     Condition,
     PatternedState,
     conditions,
-    watched,
 )
-from rodwell.analysis.off_wall.steps import Plan, cross, edge_at, open_at, release
+from rodwell.analysis.off_wall.steps import (
+    Plan,
+    cross,
+    edge_at,
+    length_with_slope,
+    open_at,
+    release,
+    shortest_with_slope,
+)
 from rodwell.numerics.stretches.carry import sampler
 from rodwell.numerics.stretches.newton import Solved
+from rodwell.numerics.stretches.walk import Motion, step, tangent_in_load
 
 SPLITS = "splits"
 """What a point of contact does that cannot grow to a stretch, since that would pull."""
@@ -42,6 +50,9 @@ FIRST_GAP = 0.25
 
 FIRST_CONTACT = 5e-4
 """Length of a contact stretch, in L, below which it is taken for a point: Newton's method is stiff there."""
+
+PROBE = 1e-3
+"""Arclength over which it is seen what grows in a new pattern."""
 
 SHORTEST_CONTACT = 1.2e-4
 """Length below which no contact stretch starts, though what happens next is passed over with it."""
@@ -233,8 +244,7 @@ def _release(plan: Plan, condition: Condition) -> None:
         release(plan, condition)
         return
     problem = plan.state.model.problem
-    weight = max(problem.lateral_weight, 1e-3)
-    length = float(np.clip(2.0 * abs(condition.value) * np.sqrt(problem.clearance / weight), 2e-3, 0.3))
+    length = float(np.clip(length_with_slope(problem, condition.value), shortest_with_slope(problem), 0.3))
     if problem.ends[int(condition.s)] == "loose":
         plan.edges.append(condition.s)
     if condition.number:
@@ -251,48 +261,9 @@ _EDITS = {UNHELD: _release, OPENS: _open, TOUCHES: _touch, LOST: _lose, GROWS: _
           GROWS_AT_END: _grow_at_end, CROSSES: cross, LEAVES_EDGE: _leave_edge}  # fmt: skip
 
 
-def shortened(state: PatternedState, stretches: list[int]) -> tuple[Changed, Condition] | None:
-    """The pattern without stretches that have become very short, and the condition that vanishes where the first goes.
-
-    A contact stretch becomes a point, or nothing at an end; a gap closes; two points of contact with a gap between them
-    become one.
-    """
-    shape, bounds = state.solved.shape, state.bounds
-    touching, breaks = list(state.pattern.touching), list(shape.breaks)
-    first, where = stretches[0], float(np.mean(bounds[stretches[0] : stretches[0] + 2]))
-    for i in sorted(stretches, reverse=True):
-        last = i == len(state.pattern.touching) - 1
-        if touching[i] and i > 0 and not last:
-            del touching[i]
-            breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
-        elif touching[i]:
-            del touching[i], breaks[-1 if last else 0]
-        elif state.pattern.between_points(i):
-            del touching[i]
-            breaks[i - 1 : i + 1] = [0.5 * (breaks[i - 1] + breaks[i])]
-        else:
-            _close(touching, breaks, i)
-    closed = [end for end, on in zip((0.0, 1.0), (touching[0], touching[-1]), strict=True) if on]
-    edges = tuple(edge for edge in state.pattern.edges if edge not in closed)
-    new = replace(state.pattern, touching=tuple(touching), edges=edges)
-    found = solved(state.model, new, np.array(breaks), state.load, sampler(shape))
-    if found is None:
-        return None
-    on, ends = state.pattern.touching[first], first in (0, len(state.pattern.touching) - 1)
-    merged = state.pattern.between_points(first)
-    kind = (GROWS_AT_END if ends else GROWS) if on or merged else OPENS
-    name = ("contact_lost" if ends else "contact_point") if on else "contacts_merge" if merged else "gap_closes"
-    near = [one for one in conditions(found) if one.kind == kind]
-    if not near:
-        return None
-    condition = min(near, key=lambda one: abs(one.s - where))
-    return Changed(found, lambda one: watched(condition, PatternedState(new, found.elements, one)), name), condition
-
-
-def _close(touching: list[bool], breaks: list[float], i: int) -> None:
-    """Close a gap: its stretch and the contact beside it become one."""
-    touching[i] = True
-    if i + 1 < len(touching) and touching[i + 1]:
-        del touching[i + 1], breaks[i]
-    if i > 0 and touching[i - 1]:
-        del touching[i - 1], breaks[i - 1]
+def growing_direction(after: Changed, load_sense: float) -> Motion:
+    """The sense in which a new pattern exists; along the load's if what grows there cannot be seen."""
+    start = after.state
+    along = tangent_in_load(start.solved, load_sense)
+    ahead = step(start.model, start.solved, along, PROBE)[1]
+    return along.times(-1.0) if ahead is not None and after.grows(ahead) < after.grows(start.solved) else along

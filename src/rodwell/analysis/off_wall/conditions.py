@@ -27,7 +27,7 @@ import numpy as np
 from rodwell.analysis.off_wall.depth import Piece, contact_pieces, least_gaps
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Elements, Pattern
-from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS
+from rodwell.numerics.stretches.chain import ANGLE_RATE, RADIUS, Shape
 from rodwell.numerics.stretches.minima import CLOSER, lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
 from rodwell.problem.ends import OFF_WALL_ENDS
@@ -48,7 +48,7 @@ BESIDE_STEP = 2e-4
 """Distance from a step of a string, in L, at which an end of a stretch or a point of contact has reached it."""
 
 NO_SLOPE = 1e-7
-"""Slope φ′ in rad/L at a step of the stiffness that is as good as none."""
+"""Slope φ′ in rad/L that is as good as none at a step of the stiffness, and at an end that is not radially held."""
 
 
 class Condition(NamedTuple):
@@ -90,9 +90,14 @@ class PatternedState:
         return contact_pieces(self.solved.shape)
 
     @property
+    def _read_off(self) -> bool:
+        """Whether contact is read off the shape: behind a soft wall, but of the straight rod that nothing presses."""
+        return self.model.soft and not self.pattern.full
+
+    @property
     def touching(self) -> tuple[bool, ...]:
         """Which stretches are in contact, from s = 0; of a hard wall those of the pattern."""
-        return tuple(piece.on for piece in self.pieces) if self.model.soft else self.pattern.touching
+        return tuple(piece.on for piece in self.pieces) if self._read_off else self.pattern.touching
 
     @property
     def everywhere(self) -> bool:
@@ -102,7 +107,7 @@ class PatternedState:
     @property
     def bounds(self) -> FloatArray:
         """Where the stretches begin and end, (k+1,)."""
-        if self.model.soft:
+        if self._read_off:
             return np.array([piece.left for piece in self.pieces] + [1.0])
         return np.concatenate([[0.0], self.solved.shape.breaks, [1.0]])
 
@@ -164,8 +169,7 @@ def at_steps(state: PatternedState) -> list[Condition]:
         for k in inner:
             s = float(rod.breaks[1 + k])
             if state.pattern.touching[i] and below[k] != above[k]:
-                slope = float(shape.nodes[int(np.searchsorted(shape.places, s)), ANGLE_RATE])
-                found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope), s))
+                found.append(Condition(UNHELD, 2 + k, NO_SLOPE - abs(slope_at(shape, s)), s))
         if inner:  # the ends of the stretch, upwards to its first step and downwards to its last
             first, last = float(rod.breaks[1 + inner.start]), float(rod.breaks[inner.stop])
             for number, s, end in ((2 * i - 1, first, state.bounds[i]), (2 * i, last, state.bounds[i + 1])):
@@ -173,6 +177,11 @@ def at_steps(state: PatternedState) -> list[Condition]:
                     found.append(Condition(CROSSES, number, abs(float(end) - s) - BESIDE_STEP, s))
         section += len(pieces) - 1
     return found
+
+
+def slope_at(shape: Shape, s: float) -> float:
+    """The slope φ′ in rad/L at an end of the rod, or a step, in contact."""
+    return float(shape.nodes[int(np.searchsorted(shape.places, s)), ANGLE_RATE])
 
 
 def _pushing(state: PatternedState, i: int) -> float:
@@ -187,7 +196,7 @@ def _at_end(state: PatternedState, last: bool) -> Condition | None:
     node = -1 if last else 0
     if state.pattern.touching[node]:
         ball = state.model.problem.ends[node] in OFF_WALL_ENDS
-        return Condition(UNHELD, int(last), -abs(float(shape.nodes[node, 3])), float(last)) if ball else None
+        return Condition(UNHELD, int(last), NO_SLOPE - abs(slope_at(shape, float(last))), float(last)) if ball else None
     if not (shape.chain.held[node, 2] and shape.chain.held[node, 0]):
         return None
     element = shape.chain.elements - 1 if last else 0

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import needs_new_elements, wavenumber, with_new_elements
-from rodwell.analysis.off_wall.changes import FIRST_CONTACT, Changed, changed, shortened
-from rodwell.analysis.off_wall.conditions import LEAVES, PatternedState, conditions
+from rodwell.analysis.off_wall.arrange import needs_new_elements, with_new_elements
+from rodwell.analysis.off_wall.changes import Changed, changed, growing_direction
+from rodwell.analysis.off_wall.conditions import LEAVES, UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.happening import (
     BRANCH_POINT,
@@ -21,9 +21,9 @@ from rodwell.analysis.off_wall.happening import (
     together,
     unresolved,
 )
-from rodwell.analysis.off_wall.soft import with_ends_of
-from rodwell.analysis.off_wall.turning import driven_rate, growing_direction
-from rodwell.analysis.off_wall.within import Step, first_event
+from rodwell.analysis.off_wall.soft import jumped, stopped, with_ends_of
+from rodwell.analysis.off_wall.vanishing import FARTHEST, SEARCH, about_to_vanish, opened_again, shortened, unbalanced
+from rodwell.analysis.off_wall.within import Step, driven_rate, first_event
 from rodwell.numerics.stretches.walk import (
     Motion,
     Passed,
@@ -46,12 +46,6 @@ MOST_SHRUNK = 0.6
 
 PAST = 0.02
 """Part of a step by which a place is passed where something happens that ends nothing."""
-
-SHORT_GAP = 0.3
-"""Length of a gap, times the wavenumber, below which it is about to close."""
-
-SEARCH, FARTHEST = 1e-4, 0.4
-"""First and longest step in which the place is sought where a short stretch has vanished."""
 
 SMALLEST_PART = 0.1
 """A gap that opens is tried down to this part of its usual first length."""
@@ -123,8 +117,11 @@ class _Walker:
         if solved is None:
             self._shorten(f"{outcome.value}, beyond F = {state.load:.8g} B/L²")
             return
-        new = PatternedState(state.pattern, state.elements, solved)
-        turned = tangent(solved, self.along)
+        if state.model.soft and jumped(state.solved, solved, min(self.size, most)):
+            self._shorten(f"the path bends sharply beyond F = {state.load:.8g} B/L²")  # the wall's push begins, or ends
+            return
+        new = stopped(PatternedState(state.pattern, state.elements, solved))
+        turned = tangent(new.solved, self.along)
         found = first_event(Step(state, self.along, new, turned, self.control, self.until, self.sense))
         if isinstance(found, str):
             self._shorten(found)
@@ -138,8 +135,9 @@ class _Walker:
             self._turned(found, new, turned)
         elif found.kind == END:
             self._accept(found.state, turned)
-            self.result.events.append(found)
-            self.result.ended = END
+            if self.result.last is found.state:
+                self.result.events.append(found)
+                self.result.ended = END
         else:
             self._change(found)
 
@@ -242,23 +240,12 @@ class _Walker:
             self.result.ended = FOLD
             self.result.events.append(PathEvent(FOLD, self.result.last))
         else:
-            self.result.states.append(self.state)
+            self._take(self.state)
 
     def _short_stretch(self) -> bool:
         """Whether a stretch was about to vanish, and the pattern without it has been entered."""
-        state = self.state
-        lengths, rates = self._lengths()
-        short = SHORT_GAP / wavenumber(state.model, state.load)
-        vanishing = [
-            i for i, on in enumerate(state.pattern.touching)
-            if lengths[i] < (
-                FIRST_CONTACT if on or state.pattern.between_points(i) else (short if self._beside_line(i) else 0.0)
-            ) and rates[i] < 0.0
-        ]  # fmt: skip
-        if not vanishing:
-            return False
-        first = min(vanishing, key=lambda i: lengths[i])
-        return self._without([first, *(i for i in vanishing if i != first and lengths[i] < 1.05 * lengths[first])])
+        vanishing = about_to_vanish(self.state, self._lengths()[1])
+        return bool(vanishing) and self._without(vanishing)
 
     def _without(self, stretches: list[int]) -> bool:
         """Enter the pattern without stretches that vanish, at the place where they do; False if that was not found."""
@@ -273,22 +260,40 @@ class _Walker:
         there = PatternedState(after.state.pattern, after.state.elements, at)
         if any(one.value < -NEARLY * max(abs(there.load), 1.0) for one in conditions(there)):
             return False
-        places = tuple(sorted(one.s for one in together(there, [condition], 0, strict=False)))
-        self.result.events.append(PathEvent(after.name, there, places, after.grows, along=along))
-        self._enter(Changed(there, after.grows, after.name))
+        at_once = together(there, [condition], 0, strict=False)
+        places = tuple(sorted(one.s for one in at_once))
+        event = PathEvent(after.name, there, places, after.grows, together=at_once, along=along)
+        self.result.events.append(event)
+        after = Changed(there, after.grows, after.name)
+        if condition.kind == UNHELD:
+            self._open_again(event, after)
+        else:
+            self._enter(after)
         return True
 
-    def _beside_line(self, i: int) -> bool:
-        """Whether a gap has a stretch in contact beside it, that it can close up to."""
-        touching = self.state.pattern.touching
-        return any(touching[k] for k in (i - 1, i + 1) if 0 <= k < len(touching))
+    def _open_again(self, event: PathEvent, closed: Changed) -> None:
+        """Enter the pattern in which a gap is open again that opens with the slope, where it has closed."""
+        self.state = event.state
+        self.result.states.append(event.state)
+        opened = opened_again(closed, event.together, self.along.load)
+        if opened is None:
+            self.result.ended = unresolved(event)
+        else:
+            self.result.events.append(replace(event, kind=opened.name))
+            self._enter(opened)
 
     def _accept(self, new: PatternedState, along: Motion) -> None:
         self.before = self.state.solved, self.along
         self.state, self.along, self.close = new, along, False
-        self.result.states.append(new)
-        if self.progress is not None and (enough := self.progress(new.load)):
+        self._take(new)
+        if not self.result.ended and self.progress is not None and (enough := self.progress(new.load)):
             self.result.ended = enough
+
+    def _take(self, new: PatternedState) -> None:
+        """A state of the path; before one that misses its balance the path ends."""
+        self.result.ended = unbalanced(new) or ""
+        if not self.result.ended:
+            self.result.states.append(new)
 
     def _shorten(self, why: str) -> None:
         self.size *= 0.4

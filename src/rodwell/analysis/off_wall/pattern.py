@@ -32,7 +32,8 @@ class Pattern:
     ends and the hole's axis, and nothing but a disturbance takes it out. ``fixed``: where elements end too, of a rod
     behind a soft wall, which is one free stretch: there its contact ends. ``edges``: steps of the clearance, within
     free stretches, at which the rod touches the edge of the narrower part, and loose ends of it that touch the wall:
-    points of contact whose place is known.
+    points of contact whose place is known. ``stopped``: a planar rod without lateral weight touches a soft wall, which
+    keeps it from turning about the line between its ends.
     """
 
     touching: tuple[bool, ...]
@@ -40,6 +41,7 @@ class Pattern:
     planar: bool = False
     fixed: tuple[float, ...] = ()
     edges: tuple[float, ...] = ()
+    stopped: bool = False
 
     @property
     def breaks(self) -> int:
@@ -147,7 +149,7 @@ def chain(
         if touching[-1 if last else 0]:
             held[node, [RADIUS, RADIAL_SLOPE]] = True
             values[node, [RADIUS, RADIAL_SLOPE]] = around[node], 0.0
-    if pattern.planar and pattern.touching == (False,) and problem.lateral_weight == 0.0:
+    if pattern.planar and not pattern.stopped and pattern.touching == (False,) and problem.lateral_weight == 0.0:
         # it may turn about the line between its ends at no cost
         held[total // 2, ANGLE] = True  # the second coordinate, Y: a plane is as good as another
     moving = first[1:-1].astype(np.int64)

@@ -22,7 +22,7 @@ from rodwell.numerics.stretches.carry import angle_of, sampler
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.minima import lowest
 from rodwell.numerics.stretches.newton import Solved, gap_curvature
-from rodwell.numerics.stretches.walk import between, locate, tangent
+from rodwell.numerics.stretches.walk import between, length, locate, tangent
 from rodwell.quantities.arrays import FloatArray
 
 WINDOW = 33
@@ -39,6 +39,9 @@ MOST_ALIGNED, ALIGNED = 6, 1e-10
 
 NEXT_TO_NOTHING = 1e-4
 """Length in L of pieces for which no elements are made."""
+
+JUMPED, NOT_FAR = 3.0, 2e-3
+"""A step that ends farther away than it is long by this factor has missed a bend of the path; but not so close by."""
 
 GAP, CONTACT = False, True
 
@@ -63,10 +66,33 @@ def sunk(model: RodInHole, load: float) -> PatternedState | None:
     return solved(model, Pattern((False,), planar=problem.twist == 0.0), np.zeros(0), load, sample)
 
 
+def stopped(state: PatternedState) -> PatternedState:
+    """The same state where a planar rod without lateral weight has come to the wall, or has left it, in a step."""
+    pattern, shape = state.pattern, state.solved.shape
+    if not (state.model.soft and pattern.planar and state.problem.lateral_weight == 0.0):
+        return state
+    touches = any(state.touching)
+    if pattern.stopped == touches:
+        return state
+    told = replace(pattern, stopped=touches)
+    again = solved(state.model, told, np.zeros(0), shape.load, sampler(shape), elements=state.elements)
+    return state if again is None else again
+
+
 def settled(model: RodInHole, low: Solved) -> PatternedState | None:
     """A minimum to which a rod has gone, on elements made for it."""
     shape = low.shape
     return solved(model, Pattern((False,)), np.zeros(0), shape.load, sampler(shape))
+
+
+def jumped(first: Solved, second: Solved, size: float) -> bool:
+    """Whether a step of this size has missed a bend of the path, or come to another one.
+
+    Where an arch without weight comes to the wall its path turns a corner.
+    """
+    shape = first.shape
+    far = length(between(shape, second.shape), shape.chain, shape.load)
+    return far > max(JUMPED * size, NOT_FAR)
 
 
 def with_ends_of(state: PatternedState, other: PatternedState) -> PatternedState | None:
@@ -116,11 +142,15 @@ _NAMES = {
 
 
 def _located(one: PatternedState, other: PatternedState, piece: Piece, appears: bool) -> PathEvent | None:
-    """Where a piece appears, or vanishes, between two states; found again on elements that end where contact does."""
+    """Where a piece appears, or vanishes, between two states; found again on elements that end where contact does.
+
+    Sought from the state without it.
+    """
     value, place = _extreme(piece)
-    at, along = other, None
+    without, at = (one, other) if appears else (other, one)
+    beyond, along = at, None
     for _ in range(CLOSER):
-        first, second = with_ends_of(one, at), with_ends_of(other, at)
+        first, second = with_ends_of(without, at), with_ends_of(beyond, at)
         if first is None or second is None:
             return None
         found = locate(first.model, first.solved, second.solved, value)

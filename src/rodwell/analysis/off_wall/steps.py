@@ -17,6 +17,7 @@ import numpy as np
 from rodwell.analysis.off_wall.bumps import Bump, at_step, beside, pressure_at, sides
 from rodwell.analysis.off_wall.conditions import BESIDE_STEP, Condition, PatternedState
 from rodwell.problem.ends import OFF_WALL_ENDS
+from rodwell.problem.problem import Problem
 
 OVER = 2.0
 """How far beyond a step an end is set, in distances at which it counts as having reached it."""
@@ -24,6 +25,9 @@ OVER = 2.0
 ROOM = 0.9
 """Part of the room up to the ends of a stretch that a gap may take as it opens."""
 
+
+FIRST_WITH_SLOPE, SLIGHT = 2e-3, 0.1
+"""Least length of a gap that opens with the slope, in L; less where that takes a slope φ′ of more than the second."""
 
 SHARE = 0.1
 """Part of a gap that opens at a step of the weight on the side where contact still pushes."""
@@ -65,6 +69,16 @@ def closes_with_slope(state: PatternedState, stretch: int) -> bool:
     ends = [end for end, bound in zip(problem.ends, (left == 0.0, right == 1.0), strict=True) if bound]
     steps = problem.rod.stiffness_steps
     return not set(OFF_WALL_ENDS).isdisjoint(ends) or bool(np.any((steps > left) & (steps < right)))
+
+
+def length_with_slope(problem: Problem, slope: float) -> float:
+    """About how long the gap is, in L, over which a rod with a slope φ′ leaves the wall at its end: 2|φ′|√(Δ/wₗ)."""
+    return 2.0 * abs(slope) * float(np.sqrt(problem.clearance / max(problem.lateral_weight, 1e-3)))
+
+
+def shortest_with_slope(problem: Problem) -> float:
+    """The length with which such a gap starts, and below which it is about to close."""
+    return min(FIRST_WITH_SLOPE, length_with_slope(problem, SLIGHT))
 
 
 def edge_at(state: PatternedState, s: float) -> float | None:

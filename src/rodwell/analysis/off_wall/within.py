@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rodwell.analysis.off_wall.conditions import PatternedState, conditions
 from rodwell.analysis.off_wall.control import Control
-from rodwell.analysis.off_wall.happening import BRANCH_POINT, END, TOGETHER, PathEvent, together, watch
-from rodwell.analysis.off_wall.turning import turning_points
+from rodwell.analysis.off_wall.happening import (
+    BRANCH_POINT,
+    END,
+    FOLD,
+    LOAD_PEAK,
+    TOGETHER,
+    PathEvent,
+    load_rate,
+    together,
+    watch,
+)
+from rodwell.numerics.stretches.newton import Solved, softest, stiffness_along
 from rodwell.numerics.stretches.walk import Motion, between, locate, row_of, tangent
 from rodwell.quantities.arrays import FloatArray
 
@@ -19,6 +30,9 @@ MOST_EARLIER = 6
 
 AT_ONCE = 1e-6
 """Part of a step within which two things happen in the same place."""
+
+Place = tuple[PatternedState, Motion]
+"""A state and the direction of the path there."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,6 +92,31 @@ def _located(step: Step) -> PathEvent | str | None:
         return event
     at_once = together(event.state, broken, list(first.values())[number])
     return replace(event, s=tuple(sorted(one.s for one in at_once)), together=at_once)
+
+
+def turning_points(
+    control: Control, start: Place, end: Place, sense: float
+) -> list[tuple[str, Callable[[Solved], float]]]:
+    """Extrema of the load and of what is controlled, and changes of the stability index, within a step.
+
+    Each with the function whose zero it is.
+    """
+    (state, along), (new, turned) = start, end
+    found: list[tuple[str, Callable[[Solved], float]]] = []
+    if along.load * turned.load < 0.0:
+        found.append((FOLD if control.by_force else LOAD_PEAK, load_rate(along)))
+    if not control.by_force and control.rate(new.solved, turned) * sense < 0.0:
+        found.append((FOLD, driven_rate(control, along)))
+    before = control.index(state.solved, along, sense)
+    if before != control.index(new.solved, turned, sense) and not any(kind == FOLD for kind, _ in found):
+        direction = softest(new.solved)
+        found.append((BRANCH_POINT, lambda one: stiffness_along(one, direction)))
+    return found
+
+
+def driven_rate(control: Control, along: Motion) -> Callable[[Solved], float]:
+    """How fast the controlled quantity changes along the path: zero where it turns."""
+    return lambda one: control.rate(one, tangent(one, along))
 
 
 def _steadier(step: Step) -> bool:

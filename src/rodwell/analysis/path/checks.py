@@ -13,8 +13,15 @@ from rodwell.quantities.tolerance import checked_force
 SOFTEST, STIFFEST = 1e-6, 1e18
 """Range of stiffnesses in series, in units B = L = 1."""
 
-SOFTEST_WALL, STIFFEST_WALL = 1.0, 1e10
-"""Range of the stiffness of a soft wall in B/L⁴: stiffer ones are told from a hard one by nothing but the cost."""
+SOFTEST_WALL, STIFFEST_WALL = 1e3, 1e10
+"""Range of the stiffness of a soft wall in B/L⁴.
+
+A rod that has buckled at 4π² presses its wall by about F²Δ/4 per length: a softer one gives way by half the clearance
+and more. Stiffer ones are told from a hard one by nothing but the cost.
+"""
+
+DEEPEST = 0.5
+"""Depth in Δ to which the weight may press the straight rod into the wall."""
 
 MOST_DRIVEN = 1e9
 """Largest shortening, in L, of a driven end behind something soft."""
@@ -77,20 +84,25 @@ def refuse_loose(problem: Problem, where: str) -> None:
 
 def checked_wall(problem: Problem, stiffness: float) -> float:
     """Return the stiffness of the wall in B/L⁴, infinite for a hard one, or raise."""
-    allowed = f"from {SOFTEST_WALL:g} to {STIFFEST_WALL:g} in B/L⁴, or infinite: a hard wall"
     if stiffness == math.inf:
         return stiffness
+    softest = max(SOFTEST_WALL, problem.lateral_weight / (DEEPEST * problem.clearance))
+    allowed = (
+        f"from {softest:.6g} to {STIFFEST_WALL:g} in B/L⁴ for this rod, or left out: a hard wall (a softer one gives "
+        "way to its weight, or as it buckles, by half the clearance and more, and holds it no longer)"
+    )
     refuse_sections(
         problem.sections,
         "a soft wall is for uniform rods: leave wall_stiffness out, for a hard wall, or take one section",
     )
     refuse_loose(problem, "behind a soft wall, where ends stand at the clearance")
-    if problem.lateral_weight == 0.0:
+    if problem.lateral_weight == 0.0 and not problem.isotropic_ends:
         raise InputError(
-            "wall_stiffness", stiffness, "a soft wall is for rods that weight presses to it: leave it out, for a hard "
-            "wall, or give the rod some lateral weight",
+            "ends", "-".join(problem.ends), "a rod that no weight presses to a soft wall is followed where every plane "
+            "is as good as another for it to buckle in: take clamped or ball ends, or leave wall_stiffness out, for a "
+            "hard wall",
         )  # fmt: skip
-    return checked_number("wall_stiffness", stiffness, SOFTEST_WALL, STIFFEST_WALL, allowed)
+    return checked_number("wall_stiffness", stiffness, softest, STIFFEST_WALL, allowed)
 
 
 def checked_control(problem: Problem, control: str, axial_stiffness: float | None, spring: float | None) -> Control:
@@ -118,13 +130,26 @@ def checked_range(control: Control, until: float, unload_to: float | None) -> tu
         if unload_to is not None and unload_to <= until:
             raise InputError("unload_to", unload_to, f"must be above until, {until:g} B/L²: less compression")
         return until, unload_to
-    high = MOST_DRIVEN if control.compliance else 1.0
+    high = _longest(control)
     allowed = f"above 0 and below {high:g}: a shortening in L"
     until = checked_number("until", until, 0.0, high, allowed)
     if until in (0.0, high):
         raise InputError("until", until, f"must be {allowed}")
     if unload_to is not None:
-        unload_to = checked_number("unload_to", unload_to, 0.0, high, f"from 0 to {high:g}: a shortening in L")
+        unload_to = checked_value(control, "unload_to", unload_to)
         if unload_to >= until:
             raise InputError("unload_to", unload_to, f"must be below until, {until:g} L: less shortening")
     return until, unload_to
+
+
+def checked_value(control: Control, field: str, value: object) -> float:
+    """Return a value of what is controlled that can be asked for, or raise: an end force, or a shortening."""
+    if control.by_force:
+        return checked_force(field, value)
+    high = _longest(control)
+    return checked_number(field, value, 0.0, high, f"from 0 to {high:g}: a shortening in L, which is controlled")
+
+
+def _longest(control: Control) -> float:
+    """The largest shortening, in L, that can be asked for."""
+    return MOST_DRIVEN if control.compliance else 1.0

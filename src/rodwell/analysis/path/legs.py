@@ -67,8 +67,6 @@ def walked(start: PatternedState | None, model: RodInHole, begin: float, target:
             continue
         leg.runs.append(path.states)
         out.last = path.last
-        if model.soft:
-            path.events = with_contact(path)
         _tell(out, path, how)
         if path.ended == END:
             out.ended = END
@@ -113,8 +111,9 @@ def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
     first = first_still(path)
     if first is None:
         return False
-    out.leg.runs.append(path.states[:first])
-    path.events = [event for event in path.events if event.state in path.states[:first]]
+    path.states = path.states[:first]
+    path.events = [event for event in path.events if event.state in path.states]
+    out.leg.runs.append(path.states)
     _tell(out, path, how)
     out.events.append(PathPoint(CRITICAL, Value(how.mode.force, how.mode.error), (), out.leg.name))
     out.last = None
@@ -123,6 +122,8 @@ def _came_to_rest(out: Walked, path: Followed, how: How) -> bool:
 
 def _tell(out: Walked, path: Followed, how: How) -> None:
     """Events of a path, located to the tolerance; loss of stability is told by what follows it."""
+    if path.states[0].model.soft:
+        path.events = with_contact(path)
     for event in path.events:
         if event.kind == END or (event.kind == BRANCH_POINT and event is not path.events[-1]):
             continue
@@ -165,7 +166,7 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
     held = load.value if how.control.by_force else how.control.value(finer.solved)
     beside = _beside_plane(path, sense, how, held)
     if beside is not None:
-        kind = CRITICAL if last.model.soft else BRANCH_POINT
+        kind = CRITICAL if last.model.soft and last.problem.lateral_weight > 0.0 else BRANCH_POINT
         out.events.append(PathPoint(kind, load, (), out.leg.name, None, contact_state(beside)))
         out.last = beside
         return

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodwell.analysis.off_wall.certificate import LIMIT
 from rodwell.analysis.off_wall.conditions import conditions
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.barrier import Barrier, barrier
+from rodwell.analysis.path.checks import checked_value
 from rodwell.analysis.path.events import LIFT_OFF, LOADING, SNAP, UNLOADING, Leg, PathPoint, PathState
 from rodwell.analysis.path.plain import found_or_why
 from rodwell.analysis.path.straightening import straight_state
@@ -24,7 +26,6 @@ from rodwell.errors import InputError, NotConvergedError
 from rodwell.faces import Shown, drawn, face
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
-from rodwell.quantities.tolerance import checked_force
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -122,8 +123,8 @@ class LoadPath(Shown):
         NotConvergedError
             If the state could not be solved for.
         """
-        value = checked_force(self.control, value)
         control = self.way
+        value = checked_value(control, self.control, value)
         found = [
             PathState(leg.name, self._on(leg, value, control), control)
             for leg in self.legs if _passes(leg, value, control)
@@ -151,7 +152,7 @@ class LoadPath(Shown):
         NotConvergedError
             If the saddle was not found, or descent from it did not confirm what it lies between.
         """
-        value = checked_force(self.control, value)
+        value = checked_value(self.way, self.control, value)
         known = self._barriers
         if (value, leg) not in known:
             taken = next((one for one in self.legs if one.name == leg), None)
@@ -188,11 +189,16 @@ class LoadPath(Shown):
         model = RodInHole(self.problem, self.wall_stiffness)
         if _straight(leg, value, control):
             return contact_state(straight_state(model, control.straight_load(value) or 0.0))
+        missed = ""
         for near in leg.near(value, control):
             state = control.at(near, value)
-            if state is not None and all(one.value > -1e-9 for one in conditions(state)):
-                return contact_state(state)
-        raise NotConvergedError(f"no state of the {leg.name} path was found at {control.name} = {value:.8g}")
+            if state is None or any(one.value <= -1e-9 for one in conditions(state)):
+                continue
+            found = contact_state(state)
+            if found.certificate.worst <= LIMIT:
+                return found
+            missed = f": what was found misses its balance by {found.certificate.worst:.1e}"
+        raise NotConvergedError(f"no state of the {leg.name} path was found at {control.name} = {value:.8g}{missed}")
 
     @cached_property
     def curve(self) -> dict[str, FloatArray]:

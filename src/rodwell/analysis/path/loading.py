@@ -20,7 +20,7 @@ BEFORE = 0.2
 def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     """The leg of growing compression."""
     problem, leg, top = model.problem, Leg(LOADING), max(0.0, 0.5 * how.mode.force)
-    if model.soft:
+    if model.soft and problem.lateral_weight > 0.0:
         return _into_soft_wall(model, until, leg, how)
     control, sense = how.control, -1.0 if how.control.by_force else 1.0
     if (until - control.of_straight(how.mode.force)) * sense <= 0.0:
@@ -32,7 +32,7 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
 
     begun, start = None, None
     if problem.lateral_weight == 0.0:
-        start = arched(problem, how.mode)
+        start = arched(model, how.mode)
     elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
     elif problem.pressed:

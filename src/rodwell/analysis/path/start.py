@@ -11,12 +11,11 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.off_wall.arrange import arranged, solved
-from rodwell.analysis.off_wall.changes import changed
+from rodwell.analysis.off_wall.changes import changed, growing_direction
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
-from rodwell.analysis.off_wall.turning import growing_direction
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.bordered import Row
 from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
@@ -144,14 +143,14 @@ def released(problem: Problem, mirror: bool, rtol: float) -> PatternedState | No
     return None
 
 
-def arched(problem: Problem, mode: Mode) -> PatternedState | None:
+def arched(model: RodInHole, mode: Mode) -> PatternedState | None:
     """The first state of a rod that nothing presses to the wall and that arches away from it; None if it cannot.
 
     Where its ends hold all lateral directions alike one plane of buckling is as good as another until the rod touches
     the wall. In the plane through the hole's axis it does so last, and to that plane contact turns it. None where
     the mode lies on both sides of the straight rod: there the wall is in its way at once.
     """
-    if problem.lateral_weight > 0.0 or not problem.isotropic_ends:
+    if model.problem.lateral_weight > 0.0 or not model.problem.isotropic_ends:
         return None
     sense = 1.0 if np.sum(mode.shape(_EVENLY)) > 0.0 else -1.0
     if np.min(sense * mode.shape(_EVENLY)) < -ONE_SIDED:
@@ -164,7 +163,7 @@ def arched(problem: Problem, mode: Mode) -> PatternedState | None:
         fields[0, 0] -= 1.0
         return fields, angle_of(fields)
 
-    model, pattern = RodInHole(problem), Pattern((False,), planar=True)
+    pattern = Pattern((False,), planar=True)
     shape, elements = arranged(model, pattern, np.zeros(0), mode.force, sample)
     weights = np.zeros_like(shape.nodes)
     weights[1:-1, RADIUS] = 1.0  # X there

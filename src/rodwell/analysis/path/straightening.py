@@ -78,7 +78,8 @@ def without_jump(path: Followed, target: float, sense: float, how: How) -> Follo
     if first is None:
         return path
     past = (path.states[first - 1].load - how.mode.force) * load_sense > 0.0
-    if not past and flat(path.states[first - 1]):
+    before = path.states[first - 1]
+    if not past and (flat(before) or (before.pattern.planar and not any(before.touching))):  # an arch
         return path
     begin = max(first - 3, 0)
     kept = path.states[:begin]
@@ -90,7 +91,7 @@ def without_jump(path: Followed, target: float, sense: float, how: How) -> Follo
 def flat(state: PatternedState, angle: float = FLAT) -> bool:
     """Whether the rod lies within an angle around the hole in contact, or no farther from its ends' place, in Δ."""
     shape, pattern = state.solved.shape, state.pattern
-    if state.model.soft:
+    if state.model.soft and state.problem.lateral_weight > 0.0:
         return False  # it has sunk into the wall: states of its own, which are followed
     if not pattern.full:
         return float(np.max(np.abs(shape.cartesian[:, :2] - [-1.0, 0.0]))) < angle
