@@ -144,6 +144,7 @@ def _check_sheets(out: Path) -> None:
         assert least == pytest.approx(weight if state == "at buckling" else 0.0, abs=1e-3)
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_run_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     case = tmp_path / "case.toml"
     case.write_text("[dimensionless]\nweight = 15.0\n[load]\nuntil = -150.0\n", encoding="utf-8")
@@ -154,6 +155,7 @@ def test_run_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
     assert data["converged"] is True
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_quiet_prints_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

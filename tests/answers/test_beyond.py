@@ -141,6 +141,7 @@ def test_the_load_that_acts_is_told(answer: Answer) -> None:
     assert "(frictionless, without inertia)" in said
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_report_table_and_json_hold_the_same(answer: Answer, tmp_path: Path) -> None:
     names = write_results(answer, tmp_path / "out", path=True)
     assert {"load-path.png", "load-path.svg", "load-path.csv"} <= set(names)
@@ -175,6 +176,7 @@ def test_without_being_asked_nothing_is_followed(answer: Answer) -> None:
 
 
 @pytest.mark.parametrize("failure", [NotConvergedError("no state was found"), FloatingPointError("overflow")])
+@pytest.mark.usefixtures("nothing_drawn")
 def test_a_path_that_fails_loses_nothing(failure: Exception, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     def fails(*_: object, **__: object) -> LoadPath:
         raise failure

@@ -140,6 +140,7 @@ def test_an_angle_may_be_smaller_than_its_uncertainty() -> None:
     assert given.up is not None
 
 
+@pytest.mark.usefixtures("nothing_drawn")
 def test_answer_and_report_carry_it(tmp_path) -> None:
     from rodwell.answers.words.meaning import sentences
     from rodwell.report.folders.case import write_results
