@@ -568,7 +568,7 @@ def makes_a_case_or_says_why(data: dict[str, Any]) -> None:
 
 
 @given(ANYTHING)
-@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=100, suppress_health_check=[HealthCheck.too_slow])
 def test_any_dictionary(data: dict[str, Any]) -> None:
     makes_a_case_or_says_why(data)
 
