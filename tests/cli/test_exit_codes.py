@@ -74,7 +74,7 @@ BRANCHES = {
 
 
 @pytest.mark.parametrize("command", BRANCHES.values(), ids=BRANCHES.keys())
-@pytest.mark.usefixtures("files", "lift_off_missed")
+@pytest.mark.usefixtures("files", "lift_off_missed", "nothing_drawn")
 def test_a_lift_off_that_misses_its_tolerance(
     command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -88,7 +88,7 @@ def test_a_lift_off_that_misses_its_tolerance(
 
 
 @pytest.mark.parametrize("command", BRANCHES.values(), ids=BRANCHES.keys())
-@pytest.mark.usefixtures("files")
+@pytest.mark.usefixtures("files", "nothing_drawn")
 def test_all_is_well(command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(monkeypatch, capsys, *command)[::2] == (0, "")
 
