@@ -14,7 +14,8 @@ from rodwell.numerics.stretches.assembly import assemble, bubbles_of
 from rodwell.numerics.stretches.basis import bent, tabulate
 from rodwell.numerics.stretches.carry import fields_at, fit, rim_fields, sampler
 from rodwell.numerics.stretches.chain import Shape, cartesian, cartesian_curvature, cartesian_derivatives
-from rodwell.numerics.stretches.descent import way_from
+from rodwell.numerics.stretches.descent import pressed_in, way_from
+from rodwell.numerics.stretches.walk import zero_within
 from rodwell.problem.problem import Problem
 
 PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), ((2,), (2,), (1,), (1,), (1,), (2,))
@@ -59,6 +60,38 @@ def test_a_way_downhill_is_joined_from_where_it_lingered_last() -> None:
     assert way.passes(np.array([5.0, 0.9e-3]))
     assert not way.passes(np.array([5.0, 1.1e-3]))
     assert not way.passes(np.array([0.01, 0.3]))
+
+
+@pytest.mark.parametrize("bend", [-3.0, 0.5, 8.0])
+def test_a_zero_is_located_as_closely_as_asked_for_with_few_values(bend: float) -> None:
+    asked: list[float] = []
+
+    def value(place: float) -> float:
+        asked.append(place)
+        return float(np.expm1(bend * (place - 0.3)))
+
+    ends = value(0.0), value(1.0)
+    assert zero_within(value, ends, 1e-10) == pytest.approx(0.3, abs=1e-10)
+    assert len(asked) <= 12  # of 34 by halves
+
+
+def test_a_soft_rim_pushes_by_the_derivatives_of_its_energy() -> None:
+    """Beyond the rim, against differences; within it, at the middle too, not at all."""
+    place = np.array([[0.6, -0.3, 0.0], [-0.9, 0.2, 0.0]])
+
+    def pushed(at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        gradient, hessian = np.zeros((2, 3, 3)), np.zeros((2, 3, 2, 3, 3))
+        return pressed_in(50.0, at, gradient, hessian), gradient[:, 0], hessian[:, 0, :, 0]
+
+    h, (energy, slope, curvature) = 1e-6, pushed(place)
+    assert energy[0] == pytest.approx(25.0 * (np.hypot(0.6, 0.9) - 1.0) ** 2)
+    for i in range(2):
+        step = h * np.eye(2)[i][:, None]
+        up, down = pushed(place + step), pushed(place - step)
+        assert (up[0] - down[0]) / (2.0 * h) == pytest.approx(slope[i], abs=1e-8)
+        assert (up[1] - down[1]) / (2.0 * h) == pytest.approx(curvature[i], abs=1e-7)
+    assert not slope[:, 1:].any()
+    assert not curvature[..., 1:].any()
 
 
 def _disturbed(model: RodInHole) -> Shape:

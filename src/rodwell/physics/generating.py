@@ -34,7 +34,7 @@ def generated(
     rates = sp.symbols([f"{p.name}_rate" for p in parameters], real=True)
 
     def along_rates(expression: sp.Expr) -> sp.Expr:
-        return sum(r * sp.diff(expression, p) for r, p in zip(rates, parameters, strict=True))
+        return sp.Add(*(r * sp.diff(expression, p) for r, p in zip(rates, parameters, strict=True)))
 
     outputs |= {f"mixed{i}": along_rates(g) for i, g in enumerate(gradient)}
     outputs["rate"] = along_rates(density)

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -139,11 +139,12 @@ class PatternedState:
         return range(self._starts[stretch], self._starts[stretch + 1])
 
 
-def conditions(state: PatternedState) -> list[Condition]:
-    """All conditions of a state."""
+@lru_cache(maxsize=16)
+def conditions(state: PatternedState) -> tuple[Condition, ...]:
+    """All conditions of a state, kept: those at the ends of a step and at what happens within are asked again."""
     found: list[Condition] = []
     if state.model.soft:
-        return found  # the wall's push is part of the energy: nothing is left to be asked
+        return ()  # the wall's push is part of the energy: nothing is left to be asked
     solved, pattern = state.solved, state.pattern
     found += pressing(state, [i for i, on in enumerate(pattern.touching) if on])
     found += apart(state, [i for i, on in enumerate(pattern.touching) if not on])
@@ -157,7 +158,7 @@ def conditions(state: PatternedState) -> list[Condition]:
         Condition(LEAVES_EDGE, i, float(force), s)
         for i, (s, force) in enumerate(zip(pattern.edges, state.edge_forces, strict=True))
     ]
-    return found + at_steps(state)
+    return (*found, *at_steps(state))
 
 
 def at_steps(state: PatternedState) -> list[Condition]:
@@ -237,7 +238,7 @@ def pressure_on(state: PatternedState, elements: IntArray) -> Callable[[FloatArr
     """The contact pressure p on elements in contact (k,) as a function of ξ (k, n), negative in contact."""
     shape = state.solved.shape
     left, right = shape.places[elements, None], shape.places[elements + 1, None]
-    given = shape.chain.given[elements].T[:, :, None]
+    given = shape.chain.given_to(elements)
 
     def pressure(xi: FloatArray) -> FloatArray:
         return state.model.pressure(left + (right - left) * xi, shape.along(elements, xi)[0], shape.load, given)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -102,12 +103,18 @@ def _farther(shape: Shape, left: FloatArray, length: FloatArray, on: bool) -> Ca
 
 def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
     """z(s) in L at ``places`` (k,), by Gauss's rule on a fine grid."""
+    return np.asarray(np.interp(places, *_axis(state)))
+
+
+@lru_cache(maxsize=4)
+def _axis(state: PatternedState) -> tuple[FloatArray, FloatArray]:
+    """Places (k,) of the grid and z there: a search for the largest stress asks for z again and again."""
     grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), state.bounds, state.problem.rod.breaks]))
     points, weights = np.polynomial.legendre.leggauss(4)
     s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
-    x, y, _ = position(state, s)
-    rate = np.sqrt(1.0 - x[1] ** 2 - y[1] ** 2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
-    return np.asarray(np.interp(places, grid, np.concatenate([[0.0], np.cumsum(rate)])))
+    x1, y1 = state.model.problem.clearance * fields_at(state.solved.shape, s)[0][:, 1]
+    rate = np.sqrt(1.0 - x1**2 - y1**2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
+    return grid, np.concatenate([[0.0], np.cumsum(rate)])
 
 
 def _inside(state: PatternedState, elements: IntArray) -> Callable[[FloatArray], FloatArray]:

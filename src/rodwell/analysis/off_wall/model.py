@@ -21,6 +21,7 @@ from rodwell.analysis.discrete.family import polynomials
 from rodwell.numerics.stretches.descent import pressed_in
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.off_wall.forces import radially_at_wall
+from rodwell.physics.on_wall._density import rod_density
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, COUNT, FORCE, LATERAL_WEIGHT, SIDE, TWIST
 from rodwell.physics.on_wall.sections import of_section, section_density
 from rodwell.physics.on_wall.strand import contact_pressure
@@ -31,7 +32,7 @@ from rodwell.quantities.arrays import FloatArray
 _FREE = ((0, 1), (0, 2), (1, 1), (1, 2))
 """Field and derivative that the Hessian off the wall belongs to."""
 
-_BY_FORCE = np.eye(COUNT)[FORCE]
+_BY_FORCE = np.eye(COUNT)[FORCE].tolist()
 """Rates of the parameters as the end force grows."""
 
 
@@ -42,10 +43,15 @@ class RodInHole:
     problem: Problem
     stiffness: float = math.inf
 
-    @property
+    @cached_property
     def soft(self) -> bool:
         """Whether the wall gives way."""
         return math.isfinite(self.stiffness)
+
+    @cached_property
+    def tapered(self) -> bool:
+        """Whether what is given in an element are polynomials."""
+        return self.problem.tapered
 
     @cached_property
     def _unloaded(self) -> FloatArray:
@@ -58,14 +64,14 @@ class RodInHole:
     def given(self) -> FloatArray:
         """b, q, d and ρ of each section, (n, 4); where sections taper their polynomials and ρ, (n, 18)."""
         rod = self.problem.rod
-        if self.problem.tapered:
+        if self.tapered:
             return np.concatenate([polynomials(rod), rod.clearance.coefficients[:, :1]], axis=1)
         offset, weight = rod.lever.coefficients.T
         return np.stack([rod.stiffness.coefficients[:, 0], weight, offset, rod.clearance.coefficients[:, 0]], axis=1)
 
     def _at(self, s: FloatArray, given: FloatArray) -> Any:
         """b, q, d and ρ at places."""
-        return (*here(s, given), given[-1]) if self.problem.tapered else given
+        return (*here(s, given), given[-1]) if self.tapered else given
 
     def drift(self, s: FloatArray, u: FloatArray, mixed: FloatArray, given: FloatArray) -> FloatArray:
         """The derivative of the gradient of a density by s at the same fields (f, 3, e, q) and load.
@@ -73,7 +79,7 @@ class RodInHole:
         The density is linear in b, N and q wₗ, and N′ = q wₐ: in a section of constants nothing else depends on s.
         """
         out = self._at(s, given)[1] * self.problem.axial_weight * mixed
-        if not self.problem.tapered:
+        if not self.tapered:
             return np.asarray(out)
         own, lateral, d, radius = self._beside(0.0, given), np.zeros(COUNT), self.problem.clearance, given[-1]
         lateral[LATERAL_WEIGHT] = self.problem.foundation
@@ -98,22 +104,25 @@ class RodInHole:
 
     def _beside(self, load: float, given: FloatArray) -> list[Any]:
         """Parameters at an end force, with the clearance beside each element."""
-        out = list(self.parameters(load))
+        out = self.parameters(load).tolist()
         out[CLEARANCE] = self.problem.clearance * given[-1]
         return out
 
     def rim(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
-        d, radius, given = self.problem.clearance, given[-1], self._at(s, given)
-        y = (d * radius) * u[0]
-        e, rate, g, m, h = section_density(s, y[0], y[1], y[2], given[:3], self._beside(load, given), _BY_FORCE)
-        shape = s.shape
-        hessian = np.empty((1, 3, 1, 3, *shape))
+        d, radius, loads = self.problem.clearance, given[-1], self._beside(load, given)
+        given = self._at(s, given)
+        b, y = given[0], (d * radius) * u[0]
+        own, along = (of_section(given[:3], one, 1.0 / b) for one in (loads, _BY_FORCE))
+        e, rate, g, m, h = rod_density(s, *y, own, along)
+        gradient, mixed, hessian = *np.empty((2, 1, 3, *s.shape)), np.empty((1, 3, 1, 3, *s.shape))
+        slope, curvature = b * radius / d, b * radius**2
         for i in range(3):
+            np.multiply(g[i], slope, out=gradient[0, i])
+            np.multiply(m[i], slope, out=mixed[0, i])
             for j in range(3):
-                hessian[0, i, 0, j] = h[i][j]
-        gradient, mixed = radius * _stacked(g, shape) / d, radius * _stacked(m, shape) / d
-        return e / d**2, rate / d**2, gradient, mixed, radius**2 * hessian
+                np.multiply(h[i][j], curvature, out=hessian[0, i, 0, j])
+        return b / d**2 * e, b / d**2 * rate, gradient, mixed, hessian
 
     def interior(self, s: FloatArray, u: FloatArray, load: float, given: FloatArray) -> tuple[FloatArray, ...]:
         """Density off the wall and its derivatives, from X and Y with two derivatives, (2, 3, e, q)."""
@@ -123,18 +132,17 @@ class RodInHole:
         b = given[0]  # of the softness 1/b under every load, as in the sections of a rod on the wall
         own = of_section(given[:3], self._beside(load, given), 1.0 / b)
         e, rate, g, m, h = hole_density(s, x, x1, x2, y1, y2, own, _BY_FORCE)
-        shape = s.shape
-        gradient, mixed = np.zeros((2, 3, *shape)), np.zeros((2, 3, *shape))
-        gradient[0, 0], mixed[0, 0] = g[0], m[0]
-        hessian = np.zeros((2, 3, 2, 3, *shape))
+        gradient, mixed, hessian = *np.zeros((2, 2, 3, *s.shape)), np.zeros((2, 3, 2, 3, *s.shape))
+        energy, slope = b / d**2 * e, b / d
+        gradient[0, 0], mixed[0, 0] = slope * g[0], m[0] / d
         for i, (f, k) in enumerate(_FREE):
-            gradient[f, k], mixed[f, k] = g[1 + i], m[1 + i]
+            np.multiply(g[1 + i], slope, out=gradient[f, k])
+            np.divide(m[1 + i], d, out=mixed[f, k])
             for j, (other, order) in enumerate(_FREE):
-                hessian[f, k, other, order] = h[i][j]
-        energy, gradient, hessian = b * e / d**2, b * gradient / d, b * hessian
+                np.multiply(h[i][j], b, out=hessian[f, k, other, order])
         if self.soft:
             energy = energy + pressed_in(self.stiffness, u[:, 0], gradient, hessian)
-        return energy, rate / d**2, gradient, mixed / d, hessian
+        return energy, rate / d**2, gradient, mixed, hessian
 
     def rim_reaction(
         self, s: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
@@ -144,7 +152,7 @@ class RodInHole:
         From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`. Where the stiffness tapers, the
         moment changes with it too: b′ is that of bending alone, twist is refused beside tapers.
         """
-        stiffer = stiffness_rates(s, given)[0] if self.problem.tapered else 0.0
+        stiffer = stiffness_rates(s, given)[0] if self.tapered else 0.0
         given = self._at(s, given)
         d, radius = self.problem.clearance, self.problem.clearance * given[3]
         moment, by_rate, outward = radially_at_wall(rate, bend, radius, self.problem.twist, given[0])
@@ -155,7 +163,7 @@ class RodInHole:
         y, at = self.problem.clearance * given[-1] * angle, self._at(s, given)
         own = of_section(at[:3], self._beside(load, given))
         pressure = contact_pressure(s, y[0], y[1], y[2], y[3], own, at[0])
-        if self.problem.tapered:
+        if self.tapered:
             pressure = pressure + more_pressure(y[1], y[2], y[3], own[CLEARANCE], *stiffness_rates(s, given))
         return np.asarray(pressure)
 

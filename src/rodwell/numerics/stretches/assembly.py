@@ -4,7 +4,7 @@ A model offers, in units where the disc has radius 1,
 
 * ``rim(s, u, load, given)`` and ``interior(s, u, load, given)``: energy density, its derivative by the load, gradient
   (f, 3), mixed derivative (f, 3) and Hessian (f, 3, f, 3) at places ``s`` (e, q), from ``u`` (f, 3, e, q), the fields
-  and two derivatives, and from what is ``given`` in each element, (g, e, 1);
+  and two derivatives, and from what is ``given`` in each element, (g, e, 1), or g numbers where all are alike;
 * ``drift(s, u, mixed, given)``: the derivative of that gradient by s at the same u and load, (f, 3, e, q); that of the
   density's derivative by the load vanishes;
 * ``rim_reaction(s, rate, bend, given)``: what a free rod of the rim's shape would exert radially at a cut, from φ′ and
@@ -28,6 +28,9 @@ RIM_SLOTS = np.array([1, 3, 5, 7])
 
 _ORDERS = np.arange(3.0)
 
+_SLOPES = {1: np.array([1, 3]), 2: np.array([2, 3, 6, 7])}
+"""Which of the coordinates of an element's ends are slopes, by how many fields it has."""
+
 
 @dataclass(repr=False)
 class Condensed:
@@ -37,7 +40,7 @@ class Condensed:
     ``vectors`` (k, c, 5): residual, derivatives by length, start and load, and the gradient before bubbles are
     condensed. ``back`` (k, f·b, c + 4): columns of ends, residual, length, start, load; ``bubbles`` (k, f·b, f·b): the
     Hessian of what was condensed. ``work`` (k, 4): what the derivative of the energy by the load changes by with those
-    four.
+    four. In a chain in which no node moves the columns of length and start are left out.
     """
 
     group: IntArray
@@ -73,7 +76,6 @@ class Assembled:
     work_by_load: float
     work_residual: float
     groups: tuple[Condensed, ...]
-    largest_bubble_residual: float
     moments: FloatArray
     moment_rates: FloatArray
     forces: FloatArray
@@ -87,101 +89,109 @@ class Assembled:
 def assemble(model: Any, shape: Shape) -> Assembled:
     """Energy, gradient and Hessian of a chain."""
     chain = shape.chain
-    groups, energy, by_load, bubble = [], 0.0, 0.0, 0.0
-    entered, columns, work = np.zeros((chain.elements, 8, 8)), np.zeros((chain.elements, 8, 5)), np.zeros(4)
-    work_by_break = np.zeros(chain.moving.size)
+    groups, energy, by_load, moves = [], 0.0, 0.0, chain.moving.size > 0
+    work, work_by_break = np.zeros(4 if moves else 2), np.zeros(chain.moving.size)
+    entered = np.zeros((chain.elements, 8, 8 + work.size + 1))
     for group, density in ((chain.on_rim, model.rim), (chain.free, model.interior)):
         if group.size:
-            one, e, e_load, worst = _condensed(model, density, shape, group)
+            one, e, e_load = _condensed(model, density, shape, group)
             groups.append(one)
-            energy, by_load, bubble = energy + e, by_load + e_load, max(bubble, worst)
-            work += np.sum(one.work, axis=0)
-            work_by_break += one.work[:, 1] @ chain.longer[group] + one.work[:, 2] @ chain.shares[group]
-            _enter(shape, one, entered, columns)
-    blocks, vectors = entered.reshape(-1, 2, 4, 2, 4), columns.reshape(-1, 2, 4, 5)
-    nodal = _at_nodes(vectors)
-    shift = vectors[..., 1, None] * chain.longer[:, None, None] + vectors[..., 2, None] * chain.shares[:-1, None, None]
+            energy, by_load = energy + e, by_load + e_load
+            work += one.work.sum(axis=0)
+            if moves:
+                work_by_break += one.work[:, 1] @ chain.longer[group] + one.work[:, 2] @ chain.shares[group]
+            _enter(shape, one, entered)
+    halves = entered.reshape(-1, 2, 4, entered.shape[2])
+    nodal, shift = _at_nodes(halves[..., 8:]), np.zeros((chain.elements + 1, 4, chain.moving.size))
+    if moves:
+        longer, shares = chain.longer[:, None, None], chain.shares[:-1, None, None]
+        shift = _at_nodes(halves[..., 9, None] * longer + halves[..., 10, None] * shares)
+    diagonal = np.zeros((chain.elements + 1, 4, 4))
+    diagonal[:-1] = halves[:, 0, :, :4]
+    diagonal[1:] += halves[:, 1, :, 4:8]
     out = Assembled(
-        shape, energy, by_load, _at_nodes(blocks[:, [0, 1], :, [0, 1]].transpose(1, 0, 2, 3)), blocks[:, 1, :, 0],
-        nodal[..., 0], nodal[..., 3], _at_nodes(shift), nodal[..., 4], work_by_break, float(work[3]), float(work[0]),
-        tuple(groups), bubble, *np.zeros((3, chain.moving.size)),
+        shape, energy, by_load, diagonal, halves[:, 1, :, :4], nodal[..., 0], nodal[..., -2], shift, nodal[..., -1],
+        work_by_break, float(work[-1]), float(work[0]), tuple(groups), *np.zeros((3, chain.moving.size)),
     )  # fmt: skip
     if chain.free.size:
         out.diagonal += _curvature(shape, groups[-1])
-    if chain.moving.size:
+    if moves:
         _react(model, out)
     return out
 
 
-def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple[Condensed, float, float, float]:
+def _condensed(model: Any, density: Any, shape: Shape, group: IntArray) -> tuple[Condensed, float, float]:
     element, h, a = reference_element(shape.chain.degree), shape.lengths[group], shape.local(group)
     k, fields, size = a.shape
-    q, parts = element.points.size, _parts(fields, size)
+    q, parts, moves = element.points.size, _parts(fields, size), shape.chain.moving.size > 0
     inverse = h ** -_ORDERS[:, None]  # h^-d: (3, k)
-    u = (bent(a) @ element.bending.reshape(3 * q, size).T).reshape(k, fields, 3, q).transpose(1, 2, 0, 3)
-    u = u * inverse[:, :, None]
+    u = bent(a).transpose(1, 0, 2)[:, None] @ element.bending.transpose(0, 2, 1)  # (fields, 3, k, q)
+    u *= inverse[:, :, None]
     s = shape.places[group, None] + h[:, None] * element.points
-    given = shape.chain.given[group].T[:, :, None]
+    given = shape.chain.given_to(group)
     e, e_load, g, mixed, hessian = density(s, u, shape.load, given)
-    drift = model.drift(s, u, mixed, given)
     weight = h[:, None] * element.weights  # (k, q)
     scaled = inverse.T[:, :, None] * weight[:, None]  # w h h^-d: (k, 3, q)
-    # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
-    fall = u * (-_ORDERS[:, None] / h)[:, :, None]
-    lengthen = np.einsum("fdlekq,lekq->fdkq", hessian, fall) + g * ((1.0 - _ORDERS[:, None]) / h)[:, :, None]
-    lengthen += drift * element.points
-    rows = np.empty((4, k, fields, 3, q))
-    for row, part in zip(rows, (g, lengthen, drift, mixed), strict=True):
+    sides = [g, mixed]
+    if moves:
+        drift = model.drift(s, u, mixed, given)
+        # at fixed coefficients the derivatives u_d go like h^-d, the place of a point like ξ h
+        fall = u * (-_ORDERS[:, None] / h)[:, :, None]
+        lengthen = (hessian * fall).sum(axis=(2, 3)) + g * ((1.0 - _ORDERS[:, None]) / h)[:, :, None]
+        lengthen += drift * element.points
+        sides[1:1] = [lengthen, drift]
+    more = len(sides)
+    rows = np.empty((more, k, fields, 3, q))
+    for row, part in zip(rows, sides, strict=True):
         np.multiply(part.transpose(2, 0, 1, 3), scaled[:, None], out=row)
-    columns = (rows.reshape(-1, 3 * q) @ element.table.reshape(3 * q, size)).reshape(4, k, fields * size)
+    columns = (rows.reshape(-1, 3 * q) @ element.table.reshape(3 * q, size)).reshape(more, k, fields * size)
     # the Hessian: all products of derivatives of two functions at all places
     inner = np.empty((k, fields, fields, 3, 3, q))
     both = scaled[:, :, None] * inverse.T[:, None, :, None]
     np.multiply(hessian.transpose(4, 0, 2, 1, 3, 5), both[:, None, None], out=inner)
-    whole = np.empty((k, fields * size, fields * size + 4))
-    whole[:, :, :-4] = (inner.reshape(-1, 9 * q) @ element.products).reshape(k, -1)[:, parts.pairs]
-    whole[:, :, -4:] = columns[:, :, parts.order].transpose(1, 2, 0)
-    # the slopes' coefficients are slopes times h
-    rate = (a[..., 1:ENDS:2] / h[:, None, None]).transpose(0, 2, 1).reshape(k, -1)
-    whole[:, :, -3] += (whole[:, :, parts.slopes] @ rate[..., None])[..., 0]
-    work = np.sum(element.weights * e_load + weight * np.einsum("fdkq,fdkq->kq", mixed, fall), axis=1)
-    work += np.sum(whole[:, parts.slopes, -1] * rate, axis=1)
-    energies = float(np.sum(weight * e)), float(np.sum(weight * e_load))
-    worst = float(np.max(np.abs(whole[:, : parts.bubbles, -4]), initial=0.0))
-    return _without_bubbles(group, fields, whole, h, work), *energies, worst
+    whole = np.empty((k, fields * size, fields * size + more))
+    whole[:, :, :-more] = (inner.reshape(-1, 9 * q) @ element.products).reshape(k, -1).take(parts.pairs, axis=1)
+    whole[:, :, -more:] = columns.take(parts.order, axis=2).transpose(1, 2, 0)
+    work = np.zeros(k)
+    if moves:  # the slopes' coefficients are slopes times h
+        rate = (a[..., 1:ENDS:2] / h[:, None, None]).transpose(0, 2, 1).reshape(k, -1)
+        whole[:, :, -3] += (whole[:, :, parts.slopes] @ rate[..., None])[..., 0]
+        work = (element.weights * e_load + weight * (mixed * fall).sum(axis=(0, 1))).sum(axis=1)
+        work += (whole[:, parts.slopes, -1] * rate).sum(axis=1)
+    return _without_bubbles(group, fields, whole, h, work), float((weight * e).sum()), float((weight * e_load).sum())
 
 
 def _without_bubbles(group: IntArray, fields: int, whole: FloatArray, h: FloatArray, work: FloatArray) -> Condensed:
-    """Condense the bubbles, which stand first in the matrices with four columns (k, n, n + 4) of elements."""
+    """Condense the bubbles, which stand first in the matrices with their columns (k, n, n + 2 or 4) of elements."""
     ends = ENDS * fields
-    bubbles = whole.shape[1] - ends
-    slopes = [1, 3] if fields == 1 else [2, 3, 6, 7]
+    bubbles, more = whole.shape[1] - ends, whole.shape[2] - whole.shape[1]
+    slopes = _SLOPES[fields]
     back = np.asarray(np.linalg.solve(whole[:, :bubbles, :bubbles], whole[:, :bubbles, bubbles:]), dtype=np.float64)
     works = -(whole[:, None, :bubbles, -1] @ back[:, :, ends:])[:, 0]
-    works[:, 1] += work
-    gradient = whole[:, bubbles:, -4]
-    left = whole[:, bubbles:, bubbles:] - whole[:, bubbles:, :bubbles] @ back
-    scale = np.ones((h.size, ends + 4))
+    left = np.empty((h.size, ends, ends + more + 1))
+    left[:, :, :-1] = whole[:, bubbles:, bubbles:] - whole[:, bubbles:, :bubbles] @ back
+    left[:, :, -1] = whole[:, bubbles:, -more]
+    scale = np.ones((h.size, ends + more + 1))
     scale[:, slopes] = h[:, None]
     left *= scale[:, None]
     left *= scale[:, :ends, None]
-    back *= scale[:, None]
-    left[:, slopes, ends + 1] += gradient[:, slopes]
-    vectors = np.concatenate([left[:, :, ends:], (gradient * scale[:, :ends])[..., None]], axis=2)
-    return Condensed(group, fields, back, whole[:, :bubbles, :bubbles], left[:, :, :ends], vectors, works)
+    back *= scale[:, None, :-1]
+    if more > 2:
+        works[:, 1] += work
+        left[:, slopes, ends + 1] += whole[:, bubbles + slopes, -more]
+    return Condensed(group, fields, back, whole[:, :bubbles, :bubbles], left[:, :, :ends], left[:, :, ends:], works)
 
 
 class _Parts(NamedTuple):
     """Of the functions of all fields, bubbles first, then those of the ends as nodes have them.
 
     ``order``: where each is among them field by field; ``pairs``: where each pair is among those of functions, by pairs
-    of fields; ``slopes``: the numbers of the slopes; ``bubbles``: how many there are.
+    of fields; ``slopes``: the numbers of the slopes.
     """
 
     order: IntArray
     pairs: IntArray
     slopes: IntArray
-    bubbles: int
 
 
 @lru_cache(maxsize=32)
@@ -191,7 +201,7 @@ def _parts(fields: int, size: int) -> _Parts:
     field, function = np.divmod(order, size)
     pair = field[:, None] * fields + field
     pairs = (pair * size + function[:, None]) * size + function
-    return _Parts(order, pairs, np.flatnonzero((function == 1) | (function == 3)), fields * (size - ENDS))
+    return _Parts(order, pairs, np.flatnonzero((function == 1) | (function == 3)))
 
 
 def _negative(blocks: FloatArray) -> int:
@@ -203,17 +213,17 @@ def _negative(blocks: FloatArray) -> int:
     return 0
 
 
-def _enter(shape: Shape, one: Condensed, blocks: FloatArray, vectors: FloatArray) -> None:
-    """Enter elements of a kind in the coordinates of their nodes: (e, 8, 8) and (e, 8, 5)."""
+def _enter(shape: Shape, one: Condensed, entered: FloatArray) -> None:
+    """Enter elements of a kind in the coordinates of their nodes: blocks and vectors side by side (e, 8, 8 + …)."""
     group = one.group
     if one.fields == 1:
-        blocks[group[:, None, None], RIM_SLOTS[:, None], RIM_SLOTS] = one.block
-        vectors[group[:, None], RIM_SLOTS] = one.vectors
+        entered[group[:, None, None], RIM_SLOTS[:, None], RIM_SLOTS] = one.block
+        entered[group[:, None], RIM_SLOTS, 8:] = one.vectors
         return
     turn = np.zeros((group.size, 8, 8))
     turn[:, :4, :4], turn[:, 4:, 4:] = shape.to_cartesian[group], shape.to_cartesian[group + 1]
     back = turn.transpose(0, 2, 1)
-    blocks[group], vectors[group] = back @ one.block @ turn, back @ one.vectors
+    entered[group, :, :8], entered[group, :, 8:] = back @ one.block @ turn, back @ one.vectors
 
 
 def _at_nodes(ends: FloatArray) -> FloatArray:
@@ -227,8 +237,8 @@ def _at_nodes(ends: FloatArray) -> FloatArray:
 def _curvature(shape: Shape, free: Condensed) -> FloatArray:
     """What the curvature of polar coordinates adds to the Hessian of free elements, (n, 4, 4)."""
     covector = np.zeros_like(shape.nodes)
-    covector[free.group] = free.vectors[:, :4, 4]
-    covector[free.group + 1] += free.vectors[:, 4:, 4]
+    covector[free.group] = free.vectors[:, :4, -1]
+    covector[free.group + 1] += free.vectors[:, 4:, -1]
     return cartesian_curvature(shape.nodes, shape.chain.polar, covector)
 
 
@@ -239,9 +249,11 @@ def bubbles_of(out: Assembled, nodes: FloatArray, breaks: FloatArray, load: floa
     """
     chain = out.shape.chain
     result = np.zeros((chain.elements, 2, chain.bubbles))
-    columns = np.empty((chain.elements, 4))
-    columns[:, 0], columns[:, 3] = residual, load
-    columns[:, 1], columns[:, 2] = chain.longer @ breaks, chain.shares[:-1] @ breaks
+    moves = chain.moving.size > 0
+    columns = np.empty((chain.elements, 4 if moves else 2))
+    columns[:, 0], columns[:, -1] = residual, load
+    if moves:
+        columns[:, 1], columns[:, 2] = chain.longer @ breaks, chain.shares[:-1] @ breaks
     for one in out.groups:
         group = one.group
         values = nodes if one.fields == 1 else (out.shape.to_cartesian @ nodes[..., None])[..., 0]

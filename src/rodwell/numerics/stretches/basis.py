@@ -84,9 +84,8 @@ def bent(a: FloatArray) -> FloatArray:
     the third would be round-off times 1e9 and the sum of all functions' derivatives. Differences are exact.
     """
     out = a.copy()
-    out[..., 2] -= a[..., 0]
+    out[..., 2:ENDS] -= a[..., :2]
     out[..., 2] -= a[..., 1]
-    out[..., 3] -= a[..., 1]
     return out
 
 

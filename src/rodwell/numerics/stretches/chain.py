@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -118,6 +118,15 @@ class Chain:
         return Cuts(number, self.moving[number] - ahead, ahead)
 
     @cached_property
+    def alike(self) -> list[float] | None:
+        """What is given, as numbers, where it is the same in all elements; else None."""
+        return self.given[0].tolist() if np.all(self.given == self.given[0]) else None
+
+    def given_to(self, elements: IntArray) -> Any:
+        """What is given in some elements (k,), each as an array (k, 1); where all are alike as numbers: far cheaper."""
+        return self.given[elements].T[:, :, None] if self.alike is None else self.alike
+
+    @cached_property
     def longer(self) -> FloatArray:
         """How much longer each element becomes as a break moves, (e, m)."""
         return np.diff(self.shares, axis=0)
@@ -148,7 +157,7 @@ class Shape:
     @cached_property
     def lengths(self) -> FloatArray:
         """How long the elements are, (e,)."""
-        return np.diff(self.places)
+        return self.places[1:] - self.places[:-1]
 
     @cached_property
     def cartesian(self) -> FloatArray:

@@ -104,16 +104,14 @@ def pressed_in(stiffness: float, place: FloatArray, gradient: FloatArray, hessia
 
     Its first and second derivatives are added to ``gradient`` (2, 3, …) and ``hessian`` (2, 3, 2, 3, …).
     """
-    radius = np.maximum(np.hypot(*place), 1e-12)
-    inside = radius <= 1.0
-    depth = np.where(inside, 0.0, radius - 1.0)
-    across = depth / radius
-    gradient[:, 0] += stiffness * across * place
-    normal = place / radius
-    hard = stiffness * np.where(inside, 0.0, 1.0 - across)
-    for i in range(2):
-        for j in range(2):
-            hessian[i, 0, j, 0] += hard * normal[i] * normal[j] + (stiffness * across if i == j else 0.0)
+    radius = np.maximum(np.hypot(*place), 1.0)  # within the rim nothing pushes: the normal there does not matter
+    depth = radius - 1.0
+    push, normal = stiffness * depth / radius, place / radius
+    gradient[:, 0] += push * place
+    pressed = (stiffness * (depth > 0.0) - push) * normal[:, None] * normal
+    pressed[0, 0] += push
+    pressed[1, 1] += push
+    hessian[:, 0, :, 0] += pressed
     return np.asarray(0.5 * stiffness * depth**2)
 
 

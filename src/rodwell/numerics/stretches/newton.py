@@ -49,15 +49,24 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solved:
-    """An equilibrium of a chain: the last assembly, moments at the breaks and forces there."""
+    """An equilibrium of a chain: its assembly, moments at the breaks and forces there.
+
+    ``found`` is that assembly, or the shape, which is assembled when first asked for: a gap or a contact pressure is
+    read off the shape.
+    """
 
     model: Any
-    out: Assembled
+    found: Assembled | Shape
 
     @property
     def shape(self) -> Shape:
         """The state itself."""
-        return self.out.shape
+        return self.found if isinstance(self.found, Shape) else self.found.shape
+
+    @cached_property
+    def out(self) -> Assembled:
+        """The assembly there."""
+        return assemble(self.model, self.found) if isinstance(self.found, Shape) else self.found
 
     @property
     def forces(self) -> FloatArray:
@@ -140,7 +149,7 @@ def solve(
         shape = shape.moved(part * nodes, part * bubbles, part * breaks, part * load)
         sure = part == 1.0 and before < np.inf and size * (size / before) ** 2 < SURE * tolerance
         if size < tolerance or sure or (size < ROUND_OFF and size > 0.3 * before and _balanced(out)):
-            return Outcome.CONVERGED, Solved(model, assemble(model, shape)), step
+            return Outcome.CONVERGED, Solved(model, shape), step
         before = size
     return Outcome.NOT_CONVERGED, None, most
 

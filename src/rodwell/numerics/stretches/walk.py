@@ -137,13 +137,44 @@ class _Lost(Exception):  # noqa: N818 - says what happened, and never leaves thi
     """Newton's method failed within a step."""
 
 
+def zero_within(value: Callable[[float], float], ends: tuple[float, float], xtol: float) -> float:
+    """A place within [0, 1] where ``value``, of opposite signs at the ``ends``, vanishes to ``xtol``.
+
+    By inverse interpolation, and by halves where that leads out of the bracket or does not halve it in three steps. A
+    value is a solve: it is not asked for once more beyond the zero only to bracket it as closely as it is known.
+    """
+    known, (low, high) = [(0.0, ends[0]), (1.0, ends[1])], (0.0, 1.0)
+    widths = [np.inf] * 2 + [1.0]
+    while high - low > xtol:
+        part = _inverse(known[-3:])
+        if not low < part < high or 2.0 * widths[-1] > widths[-3]:
+            part = 0.5 * (low + high)
+        elif len(known) > 2 and abs(part - known[-1][0]) <= xtol:
+            break
+        known.append((part, value(part)))
+        if known[-1][1] == 0.0:
+            break
+        low, high = (low, part) if known[-1][1] * ends[1] > 0.0 else (part, high)
+        widths.append(high - low)
+    return known[-1][0]
+
+
+def _inverse(known: list[tuple[float, float]]) -> float:
+    """Where the polynomial vanishes that gives the places of two or three values; NaN where values are alike."""
+    found = 0.0
+    for part, value in known:
+        others = [other for _, other in known if other != value]
+        if len(others) < len(known) - 1:
+            return math.nan
+        found += part * math.prod(other / (other - value) for other in others)
+    return found
+
+
 def locate(model: Any, first: Solved, second: Solved, function: Callable[[Solved], float]) -> Solved | None:
     """The state between two where ``function`` vanishes, sought in the part of the step from the first.
 
     None if Newton's method fails on the way, or if the function does not change its sign between the two.
     """
-    from scipy.optimize import brentq  # noqa: PLC0415 - slow to import
-
     chord = between(first.shape, second.shape)
     base = row_of(chord, first.shape.chain, first.shape.load)
     low, high = (base.of(one.shape.nodes, one.shape.breaks, one.shape.load) for one in (first, second))
@@ -164,9 +195,8 @@ def locate(model: Any, first: Solved, second: Solved, function: Callable[[Solved
         return known[part][1]
 
     try:
-        root = float(brentq(value, 0.0, 1.0, xtol=xtol, rtol=4.0 * np.finfo(float).eps))
-        value(root)
-    except (_Lost, RuntimeError):  # right at a branch point the equations are singular: as near as that is found
+        root = zero_within(value, (known[0.0][1], known[1.0][1]), xtol)
+    except _Lost:  # right at a branch point the equations are singular: as near as that is found
         size = max(abs(known[0.0][1]), abs(known[1.0][1]))
         best, left = min(known.values(), key=lambda one: abs(one[1]))
         return best if abs(left) <= AS_GOOD_AS_ZERO * size else None

@@ -10,102 +10,135 @@ def hole_density(s: Any, x: Any, x1: Any, x2: Any, y1: Any, y2: Any, parameters:
 
     The order of ``parameters`` is that of ``rodwell.physics.off_wall.parameters``. Returns the energy, its derivative
     along ``rates``, the gradient (5) by x, x', x'', y', y'', its derivative along ``rates`` (5), and the Hessian (4, 4)
-    by x', x'', y', y''; the energy is linear in x and does not depend on y. Arguments are numbers, arrays, or lanes.
+    by x', x'', y', y''; the energy is linear in x and does not depend on y. Arguments are numbers or arrays.
     """
+    twist, twist_rate = parameters[4], rates[4]
+    found = _untwisted(s, x, x1, x2, y1, y2, parameters, rates)
+    if not (np.any(twist) or np.any(twist_rate)):
+        return found
+    energy, rate, gradient, mixed, hessian = found
+    by_twist, _, slope, _, curvature = _by_twist(x1, x2, y1, y2)
+    return (
+        energy + twist * by_twist,
+        rate + twist_rate * by_twist,
+        tuple(g + twist * more for g, more in zip(gradient, slope)),
+        tuple(m + twist_rate * more for m, more in zip(mixed, slope)),
+        tuple(tuple(h + twist * more for h, more in zip(*rows)) for rows in zip(hessian, curvature)),
+    )
+
+
+def _untwisted(s: Any, x: Any, x1: Any, x2: Any, y1: Any, y2: Any, parameters: Any, rates: Any) -> Any:
+    """The same of a rod without twist."""
     force = parameters[0]
     axial_weight = parameters[1]
     lateral_weight = parameters[2]
     clearance = parameters[3]
-    twist = parameters[4]
     force_rate = rates[0]
     axial_weight_rate = rates[1]
     lateral_weight_rate = rates[2]
     clearance_rate = rates[3]
-    twist_rate = rates[4]
     z1 = np.sqrt(1.0 - x1 * x1 - y1 * y1)
     sec = 1.0 / z1
     half = 1.0 / (1.0 + z1)
+    sec2, half2 = sec * sec, half * half
+    sec4 = sec2 * sec2
+    drop = half * (x1 * x1 + y1 * y1)
     t0 = x2**2
     t1 = y2**2
     t2 = clearance + x
-    t3 = x1*y2
-    t4 = x2*y1
-    t5 = t3 - t4
-    t6 = half*twist
-    t7 = sec**2
-    t8 = x1*x2
-    t9 = y1*y2
-    t10 = t8 + t9
-    t11 = t10**2
-    t12 = x1**2
-    t13 = y1**2
-    t14 = t12 + t13
-    t15 = s - 1
-    t16 = axial_weight*t15 + force
-    t17 = half*t16
-    t18 = 2*t17
-    t19 = t10*t7
-    t20 = sec**4
-    t21 = t11*t20
-    t22 = half**2
-    t23 = sec*t22
-    t24 = t5*twist
-    t25 = t23*t24
-    t26 = t14*t23
-    t27 = t16*t26
-    t28 = 4*t12
-    t29 = sec**6*t11
-    t30 = t16*t23
-    t31 = t10*t20
-    t32 = 4*t31
-    t33 = sec**3*t22
-    t34 = t12*t33
-    t35 = t14*t16
-    t36 = t23*twist
-    t37 = 2*t36
-    t38 = t12*t7
-    t39 = 2*half**3
-    t40 = t38*t39
-    t41 = t18 + t21 + t25 + t27
-    t42 = x1*y1
-    t43 = t36*t42
-    t44 = 2*t31
-    t45 = 4*t30
-    t46 = 4*t29
-    t47 = t33*t42
-    t48 = t42*t7
-    t49 = t39*t48
-    t50 = t13*t33
-    t51 = t13*t7
-    t52 = t39*t51
-    t53 = 2*half
-    t54 = t53*x1
-    t55 = t26*x1
-    t56 = t23*t5
-    t57 = half*twist_rate
-    t58 = t53*y1
-    t59 = t26*y1
-    t60 = half*t14
-    energy = lateral_weight*t2 + (1/2)*t0 + (1/2)*t1 + (1/2)*t11*t7 + t14*t17 + t5*t6
+    t3 = s - 1
+    t4 = axial_weight*t3 + force
+    t5 = x1*x2
+    t6 = y1*y2
+    t7 = t5 + t6
+    t8 = t7**2
+    t9 = sec*t4
+    t10 = t9*x1
+    t11 = sec2*t7
+    t12 = sec4*t8
+    t13 = t12*x1
+    t14 = x1**2
+    t15 = sec2*t14
+    t16 = 4*t12
+    t17 = sec4*t7
+    t18 = 4*t17
+    t19 = t12 + t9
+    t20 = 2*t17
+    t21 = sec2*y2
+    t22 = t20*x1
+    t23 = sec2*y1
+    t24 = t22*y1
+    t25 = y1**2
+    t26 = sec2*t25
+    t27 = force_rate*sec
+    t28 = axial_weight_rate*t3
+    t29 = sec*t28
+    energy = drop*t4 + lateral_weight*t2 + (1/2)*sec2*t8 + (1/2)*t0 + (1/2)*t1
     gradient0 = lateral_weight
-    gradient1 = t18*x1 + t19*x2 + t21*x1 + t25*x1 + t27*x1 + t6*y2
-    gradient2 = t19*x1 - t6*y1 + x2
-    gradient3 = t18*y1 + t19*y2 + t21*y1 + t25*y1 + t27*y1 - t6*x2
-    gradient4 = t19*y1 + t6*x1 + y2
-    hessian11 = t0*t7 + t24*t34 + t24*t40 + t28*t29 + t28*t30 + t3*t37 + t32*t8 + t34*t35 + t35*t40 + t41
-    hessian21 = t12*t44 + t19 - t43 + t7*t8
-    hessian22 = t38 + 1
-    hessian31 = t24*t47 + t24*t49 + t3*t44 + t35*t47 + t35*t49 - t36*t8 + t36*t9 + t4*t44 + t42*t45 + t42*t46 + t7*x2*y2
-    hessian32 = 2*t10*t20*x1*y1 - t13*t36 - t6 + t7*x1*y2
-    hessian33 = t1*t7 + t13*t45 + t13*t46 + t24*t50 + t24*t52 + t32*t9 + t35*t50 + t35*t52 - t37*t4 + t41
-    hessian41 = t12*t36 + t4*t7 + t42*t44 + t6
-    hessian42 = t48
-    hessian43 = t13*t44 + t19 + t43 + t7*t9
-    hessian44 = t51 + 1
+    gradient1 = t10 + t11*x2 + t13
+    gradient2 = t11*x1 + x2
+    gradient3 = t11*y2 + t12*y1 + t9*y1
+    gradient4 = t11*y1 + y2
+    hessian11 = sec2*t0 + t15*t16 + t15*t9 + t18*t5 + t19
+    hessian21 = sec2*t5 + t11 + t14*t20
+    hessian22 = t15 + 1
+    hessian31 = t10*t23 + 4*t13*t23 + t20*x2*y1 + t21*x2 + t22*y2
+    hessian32 = t21*x1 + t24
+    hessian33 = sec2*t1 + t16*t26 + t18*t6 + t19 + t26*t9
+    hessian41 = t23*x2 + t24
+    hessian42 = t23*x1
+    hessian43 = sec2*t6 + t11 + t20*t25
+    hessian44 = t26 + 1
     mixed0 = lateral_weight_rate
-    mixed1 = axial_weight_rate*(t15*t54 + t15*t55) + force_rate*(t54 + t55) + twist_rate*(half*y2 + t56*x1)
-    mixed2 = -t57*y1
-    mixed3 = axial_weight_rate*(t15*t58 + t15*t59) + force_rate*(t58 + t59) + twist_rate*(-half*x2 + t56*y1)
-    mixed4 = t57*x1
-    rate = axial_weight_rate*t15*t60 + clearance_rate*lateral_weight + force_rate*t60 + lateral_weight_rate*t2 + t5*t57
+    mixed1 = t27*x1 + t29*x1
+    mixed2 = 0
+    mixed3 = t27*y1 + t29*y1
+    mixed4 = 0
+    rate = clearance_rate*lateral_weight + drop*force_rate + drop*t28 + lateral_weight_rate*t2
+    return energy, rate, (gradient0, gradient1, gradient2, gradient3, gradient4), (mixed0, mixed1, mixed2, mixed3, mixed4), ((hessian11, hessian21, hessian31, hessian41), (hessian21, hessian22, hessian32, hessian42), (hessian31, hessian32, hessian33, hessian43), (hessian41, hessian42, hessian43, hessian44))
+
+
+def _by_twist(x1: Any, x2: Any, y1: Any, y2: Any) -> Any:
+    """What twist adds, for a torque of 1."""
+    z1 = np.sqrt(1.0 - x1 * x1 - y1 * y1)
+    sec = 1.0 / z1
+    half = 1.0 / (1.0 + z1)
+    sec2, half2 = sec * sec, half * half
+    sec4 = sec2 * sec2
+    t0 = x1*y2
+    t1 = x2*y1
+    t2 = t0 - t1
+    t3 = half*t2
+    t4 = half2*sec
+    t5 = t2*t4
+    t6 = t5*x1
+    t7 = 2*t4
+    t8 = x1**2
+    t9 = sec2*t5
+    t10 = 2*half2*sec2*t3
+    t11 = t4*y1
+    t12 = t11*x1
+    t13 = y1**2
+    energy = t3
+    gradient0 = 0
+    gradient1 = half*y2 + t6
+    gradient2 = -half*y1
+    gradient3 = -half*x2 + half2*sec*t2*y1
+    gradient4 = half*x1
+    hessian11 = t0*t7 + t10*t8 + t5 + t8*t9
+    hessian21 = -t12
+    hessian22 = 0
+    hessian31 = sec2*t6*y1 + t10*x1*y1 + t11*y2 - t4*x1*x2
+    hessian32 = -half - t13*t4
+    hessian33 = -t1*t7 + t10*t13 + t13*t9 + t5
+    hessian41 = half + t4*t8
+    hessian42 = 0
+    hessian43 = t12
+    hessian44 = 0
+    mixed0 = 0
+    mixed1 = 0
+    mixed2 = 0
+    mixed3 = 0
+    mixed4 = 0
+    rate = 0
     return energy, rate, (gradient0, gradient1, gradient2, gradient3, gradient4), (mixed0, mixed1, mixed2, mixed3, mixed4), ((hessian11, hessian21, hessian31, hessian41), (hessian21, hessian22, hessian32, hessian42), (hessian31, hessian32, hessian33, hessian43), (hessian41, hessian42, hessian43, hessian44))

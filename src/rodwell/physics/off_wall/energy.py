@@ -34,6 +34,14 @@ class AxialRate(sp.Function):  # type: ignore[misc]
         return -self.args[argindex - 1] / AxialRate(*self.args)
 
 
+class Drop(sp.Function):  # type: ignore[misc]
+    """``1 − z' = (x'² + y'²)/(1 + z')``, without cancellation for small slopes, kept whole for its short derivative."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Return the derivative."""
+        return self.args[argindex - 1] / AxialRate(*self.args)
+
+
 def energy_density() -> sp.Expr:
     """Energy per length, relative to the straight rod at the bottom of the hole.
 
@@ -41,8 +49,7 @@ def energy_density() -> sp.Expr:
 
     * bending, ½|t'|² of the tangent t = (x', y', z'): ``½[x''² + y''² + (x'x'' + y'y'')²/z'²]``,
     * lateral weight ``wₗ (x + Δ)``,
-    * end force with axial weight, ``N(s) (1 − z')`` with ``N(s) = F + wₐ(s − 1)``; ``1 − z' = (x'² + y'²)/(1 + z')``
-      has no cancellation for small slopes,
+    * end force with axial weight, ``N(s) (1 − z')`` with ``N(s) = F + wₐ(s − 1)``,
     * dead torque ``T₁ (x'y'' − y'x'')/(1 + z')``.
 
     On the wall, x = −Δ cos φ and y = Δ sin φ, it is the density of ``rodwell.physics.on_wall``, place by place.
@@ -52,7 +59,7 @@ def energy_density() -> sp.Expr:
     return (
         (x2**2 + y2**2 + (x1 * x2 + y1 * y2) ** 2 / z1**2) / 2
         + lateral_weight * (x + clearance)
-        + axial_force * (x1**2 + y1**2) / (1 + z1)
+        + axial_force * Drop(x1, y1)
         + twist * (x1 * y2 - y1 * x2) / (1 + z1)
     )
 
@@ -60,25 +67,41 @@ def energy_density() -> sp.Expr:
 PRELUDE = """\
     z1 = np.sqrt(1.0 - x1 * x1 - y1 * y1)
     sec = 1.0 / z1
-    half = 1.0 / (1.0 + z1)"""
-z1, sec, half = sp.symbols("z1 sec half")
+    half = 1.0 / (1.0 + z1)
+    sec2, half2 = sec * sec, half * half
+    sec4 = sec2 * sec2"""
+WITH_DROP = "\n    drop = half * (x1 * x1 + y1 * y1)"
+z1, sec, half, sec2, half2, sec4, drop = sp.symbols("z1 sec half sec2 half2 sec4 drop")
+
+_POWERS = {half: {3: half * half2, 2: half2}, sec: {6: sec2 * sec4, 4: sec4, 3: sec * sec2, 2: sec2}}
+"""Powers as products: NumPy takes a square as fast as a product, but goes to ``pow`` for others."""
 
 
 def _cheap(expression: sp.Expr) -> sp.Expr:
     """Rewrite in the quantities of the prelude: one root and two divisions in all."""
     whole = AxialRate(x1, y1)
     for base, inverse in ((1 + whole, half), (whole, sec)):
+        powers = _POWERS[inverse]
         expression = expression.replace(
             lambda e, base=base: e.is_Pow and e.base == base and e.exp.is_negative,
-            lambda e, inverse=inverse: inverse ** (-e.exp),
+            lambda e, inverse=inverse, powers=powers: powers.get(-e.exp, inverse ** (-e.exp)),
         )
-    return expression.subs(whole, z1)
+    return expression.subs({whole: z1, Drop(x1, y1): drop})
 
 
 def generate() -> str:
-    """Return the text of ``_density.py``, generated from :func:`energy_density`."""
-    body = generated(energy_density(), FIELDS, SYMBOLS, _cheap, PRELUDE, linear=1)  # by x itself the density is linear
-    return _TEMPLATE.format(body=body)
+    """Return the text of ``_density.py``, generated from :func:`energy_density`.
+
+    What twist adds, to which the energy is linear, stands by itself: most rods have none.
+    """
+    density = energy_density()
+    untwisted, by_twist = density.subs(twist, 0), sp.diff(density, twist)
+    # by x itself the density is linear
+    return _TEMPLATE.format(
+        body=generated(untwisted, FIELDS, SYMBOLS, _cheap, PRELUDE + WITH_DROP, linear=1),
+        by_twist=generated(by_twist, FIELDS, (), _cheap, PRELUDE, linear=1),
+        number=SYMBOLS.index(twist),
+    )
 
 
 _TEMPLATE = '''\
@@ -94,9 +117,31 @@ def hole_density(s: Any, x: Any, x1: Any, x2: Any, y1: Any, y2: Any, parameters:
 
     The order of ``parameters`` is that of ``rodwell.physics.off_wall.parameters``. Returns the energy, its derivative
     along ``rates``, the gradient (5) by x, x', x'', y', y'', its derivative along ``rates`` (5), and the Hessian (4, 4)
-    by x', x'', y', y''; the energy is linear in x and does not depend on y. Arguments are numbers, arrays, or lanes.
+    by x', x'', y', y''; the energy is linear in x and does not depend on y. Arguments are numbers or arrays.
     """
+    twist, twist_rate = parameters[{number}], rates[{number}]
+    found = _untwisted(s, x, x1, x2, y1, y2, parameters, rates)
+    if not (np.any(twist) or np.any(twist_rate)):
+        return found
+    energy, rate, gradient, mixed, hessian = found
+    by_twist, _, slope, _, curvature = _by_twist(x1, x2, y1, y2)
+    return (
+        energy + twist * by_twist,
+        rate + twist_rate * by_twist,
+        tuple(g + twist * more for g, more in zip(gradient, slope)),
+        tuple(m + twist_rate * more for m, more in zip(mixed, slope)),
+        tuple(tuple(h + twist * more for h, more in zip(*rows)) for rows in zip(hessian, curvature)),
+    )
+
+
+def _untwisted(s: Any, x: Any, x1: Any, x2: Any, y1: Any, y2: Any, parameters: Any, rates: Any) -> Any:
+    """The same of a rod without twist."""
 {body}
+
+
+def _by_twist(x1: Any, x2: Any, y1: Any, y2: Any) -> Any:
+    """What twist adds, for a torque of 1."""
+{by_twist}
 '''
 
 
