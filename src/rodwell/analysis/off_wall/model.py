@@ -104,7 +104,7 @@ class RodInHole:
 
     def _beside(self, load: float, given: FloatArray) -> list[Any]:
         """Parameters at an end force, with the clearance beside each element."""
-        out = self.parameters(load).tolist()
+        out: list[Any] = self.parameters(load).tolist()
         out[CLEARANCE] = self.problem.clearance * given[-1]
         return out
 
@@ -112,9 +112,9 @@ class RodInHole:
         """Density on the wall and its derivatives, from the angle with two derivatives, (1, 3, e, q)."""
         d, radius, loads = self.problem.clearance, given[-1], self._beside(load, given)
         given = self._at(s, given)
-        b, y = given[0], (d * radius) * u[0]
+        b, (y, y1, y2) = given[0], (d * radius) * u[0]
         own, along = (of_section(given[:3], one, 1.0 / b) for one in (loads, _BY_FORCE))
-        e, rate, g, m, h = rod_density(s, *y, own, along)
+        e, rate, g, m, h = rod_density(s, y, y1, y2, own, along)
         gradient, mixed, hessian = *np.empty((2, 1, 3, *s.shape)), np.empty((1, 3, 1, 3, *s.shape))
         slope, curvature = b * radius / d, b * radius**2
         for i in range(3):
