@@ -161,6 +161,7 @@ fill(
     html=_late("rodwell.report.pages.notebook", "html"),
     plot=_late("rodwell.plots.methods", "plot"),
     plot_in_space=_late("rodwell.plots.methods", "plot_in_space"),
+    animation=_late("rodwell.report.folders.path", "write_animation"),
     dataset=_late("rodwell.store.datasets", "dataset"),
     plain=_late("rodwell.store.plain", "plain"),
 )

@@ -1,7 +1,7 @@
 """How results show, draw and write themselves: hooks that stand below all results and are filled from above.
 
 Results are made in rooms that know neither pages nor drawings nor files; what shows them stands above those. So the
-faces of results are five hooks here, empty at first. The door, :mod:`rodwell`, fills them when it is opened, with
+faces of results are six hooks here, empty at first. The door, :mod:`rodwell`, fills them when it is opened, with
 functions that import what they need at the first call: nothing is imported before it is used, and imports go down only.
 """
 
@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
 Face = Callable[..., Any]
 
-HOOKS = ("html", "plot", "plot_in_space", "dataset", "plain")
-"""As HTML for notebooks; drawn on axes; drawn in space; as an xarray Dataset; as plain data for JSON."""
+HOOKS = ("html", "plot", "plot_in_space", "animation", "dataset", "plain")
+"""As HTML for notebooks; drawn on axes; drawn in space; as an animation in a file; as an xarray Dataset; as plain data
+for JSON."""
 
 _faces: dict[str, Face] = {}
 

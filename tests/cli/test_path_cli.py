@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.cli.main import INTERRUPTED, cli, main
@@ -42,13 +43,23 @@ def test_as_json() -> None:
 
 def test_as_text_with_files(tmp_path: Path) -> None:
     out = tmp_path / "path"
-    done = run(*COMMON, "--until", "-124", "--at", "-123.5", "--out", str(out))
+    moving = tmp_path / "path.gif"
+    done = run(*COMMON, "--until", "-124", "--at", "-123.5", "--out", str(out), "--animation", str(moving))
     assert done.exit_code == 0, done.output
     assert "the rod lifts off the wall, s/L = 0.5" in done.output
     assert "without inertia" in done.output
     assert "at the end of a stretch in contact" in done.output
     files = ["load-path-3d.html", "load-path.csv", "load-path.json", "load-path.nc", "load-path.png", "load-path.svg"]
     assert sorted(file.name for file in out.iterdir()) == files
+    with Image.open(moving) as animation:
+        assert animation.n_frames > 10
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["path", "path.gif"]
+
+
+def test_an_animation_has_a_suffix_that_is_one(tmp_path: Path) -> None:
+    done = run(*COMMON, "--until", "-124", "--animation", str(tmp_path / "path.mp4"))
+    assert isinstance(done.exception, InputError)
+    assert "must end in .gif or .webp" in str(done.exception)
 
 
 def test_a_spring_in_series() -> None:

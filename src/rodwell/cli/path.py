@@ -64,6 +64,9 @@ if TYPE_CHECKING:
 @click.option("--mirror", is_flag=True, help="The other arm of the buckling mode: it differs with twist.")
 @click.option("--seeds", default=3, show_default=True, help="Random disturbances tried, either way, at each snap.")
 @click.option("--out", type=OutPath(), help="Folder for a figure of the path, load against shortening.")
+@click.option(
+    "--animation", type=OutPath(), help="File for the rod as it moves along the path, GIF or WebP by its suffix."
+)
 @rtol_option
 @json_option
 def path(
@@ -79,6 +82,7 @@ def path(
     mirror: bool,
     seeds: int,
     out: Path | None,
+    animation: Path | None,
     rtol: float,
     as_json: bool,
     **given: Any,
@@ -102,10 +106,7 @@ def path(
             checked_value(way, option, value)
     if wall_stiffness is None:
         wall_stiffness = math.inf if read is None else read.wall_stiffness
-    if out is not None:
-        from rodwell.store.folder import check_writable  # noqa: PLC0415
-
-        check_writable(out)
+    _check_files(out, animation)
     span = abs(-100.0 if begin is None else begin) + 1e-12
 
     with progress_bar(not as_json, "buckling") as tell:
@@ -115,10 +116,8 @@ def path(
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
     barriers, interrupt = _computed(result, barriers)
-    if out is not None:
-        from rodwell.report.folders.path import write_path  # noqa: PLC0415
-
-        write_path(result, out, forces, read, barriers)
+    if out is not None or animation is not None:
+        _write(result, out, animation, (forces, barriers), read, shown=not as_json)
     if as_json:
         from rodwell.problem.words import ends_text  # noqa: PLC0415
 
@@ -140,12 +139,44 @@ def path(
             print_states(result, force)
         for force in barriers:
             print_barrier(result, force, read)
-        if out is not None:
-            print_written(out)
+        for written in (out, animation):
+            if written is not None:
+                print_written(written)
     if interrupt is not None:
         interrupt.kept = "the path was told, with what had been computed of its barriers"  # type: ignore[attr-defined]
         raise interrupt
     check_missed(result.missed, rtol)
+
+
+def _check_files(out: Path | None, animation: Path | None) -> None:
+    """Refuse what cannot be written before anything is computed."""
+    if out is not None:
+        from rodwell.store.folder import check_writable  # noqa: PLC0415
+
+        check_writable(out)
+    if animation is not None:
+        from rodwell.report.folders.path import check_animation  # noqa: PLC0415
+
+        check_animation(animation)
+
+
+def _write(
+    result: LoadPath,
+    out: Path | None,
+    animation: Path | None,
+    at: tuple[list[float], list[float]],
+    case: Case | None,
+    *,
+    shown: bool,
+) -> None:
+    """Write the folder and the animation that are asked for, with states and barriers ``at`` these loads."""
+    from rodwell.report.folders.path import write_animation, write_path  # noqa: PLC0415 - imports Matplotlib
+
+    if out is not None:
+        write_path(result, out, at[0], case, at[1])
+    if animation is not None:
+        with progress_bar(shown, "drawing") as tell:
+            write_animation(result, animation, case, field="--animation", progress=lambda done: tell("drawing", done))
 
 
 def _computed(result: LoadPath, barriers: list[float]) -> tuple[list[float], BaseException | None]:

@@ -18,11 +18,11 @@ from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.space.geometry import Geometry
 from rodwell.analysis.space.scene import drawn
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.plots.paths.axes import described
 from rodwell.plots.units import axis
 from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.text import number_text, plain
 from rodwell.quantities.value import Peak, Value
-from rodwell.report.pages.path import described
 from rodwell.report.pages.viewer import View, view
 from rodwell.report.reports.texts import PLAIN_UNITS
 from rodwell.web import off_wall

@@ -29,6 +29,8 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import xarray as xr
 
     from rodwell.faces import Axes
@@ -259,6 +261,19 @@ class LoadPath(Shown):
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw load against shortening, with events and snaps."""
         return drawn(self, ax)
+
+    def animate(self, file: str | Path) -> Path:
+        """Write the states in order as an animation: load against shortening, the rod along the hole and from its end.
+
+        Returns the file, a GIF or WebP by its suffix.
+
+        Raises
+        ------
+        InputError
+            If the suffix is another one, or the file cannot be written.
+        """
+        written: Path = face("animation")(self, file)
+        return written
 
 
 def _straight(leg: Leg, value: float, control: Control) -> bool:

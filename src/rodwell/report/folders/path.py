@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import matplotlib as mpl
+from PIL import Image
 
 from rodwell.analysis.off_wall.state import contact_state
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.case.case import Case
+from rodwell.errors import InputError
+from rodwell.plots.paths.animation import pictures
 from rodwell.plots.paths.bridging import plot_bridging
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
@@ -19,6 +22,9 @@ from rodwell.report.pages.path import PAGE, write_path_page
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_load_path
 from rodwell.store.text import write_json
+
+MOVING = ".gif", ".webp"
+"""Suffixes of animations."""
 
 
 def write_path(
@@ -56,3 +62,59 @@ def write_path(
             for row in zip(*curve.values(), strict=True):
                 writer.writerow([*(repr(float(cell)) for cell in row[:3]), int(row[3])])
         return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def check_animation(file: Path, field: str = "--animation") -> None:
+    """Refuse a file whose suffix is not that of an animation.
+
+    Raises
+    ------
+    InputError
+        If so; ``field`` is the name of the file's input.
+    """
+    if file.suffix.lower() not in MOVING:
+        raise InputError(field, str(file), f"must end in {' or '.join(MOVING)}")
+
+
+def write_animation(
+    result: LoadPath,
+    file: str | Path,
+    case: Case | None = None,
+    *,
+    field: str = "file",
+    progress: Callable[[float], None] | None = None,
+) -> Path:
+    """Write the states of a load path in order of happening as an animation, and return the file.
+
+    Parameters
+    ----------
+    result
+        The load path.
+    file
+        A GIF or WebP by its suffix, written whole or not at all.
+    case
+        In whose units numbers stand; None: B = L = 1.
+    field
+        Name of the file's input, for errors.
+    progress
+        Called with the part of the pictures that are drawn.
+
+    Raises
+    ------
+    InputError
+        If the suffix is another one, or the file cannot be written.
+    """
+    file = Path(file)
+    check_animation(file, field)
+    drawn: list[Image.Image] = []
+    times: list[int] = []
+    with mpl.rc_context(RC):
+        for picture, milliseconds, done in pictures(result, case):
+            # one palette for all: colours do not flicker, and a picture takes a tenth of the time
+            drawn.append(picture.quantize(palette=drawn[0]) if drawn else picture.quantize(dither=Image.Dither.NONE))
+            times.append(milliseconds)
+            if progress is not None:
+                progress(done)
+    with whole_folder(file.absolute().parent, field) as folder:
+        drawn[0].save(folder / file.name, save_all=True, append_images=drawn[1:], duration=times, loop=0)
+    return file

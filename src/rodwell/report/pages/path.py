@@ -2,87 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from rodwell.analysis.off_wall.arrange import turns_of
-from rodwell.analysis.off_wall.conditions import PatternedState
-from rodwell.analysis.off_wall.measured import measured
-from rodwell.analysis.off_wall.model import RodInHole
-from rodwell.analysis.off_wall.state import HELIX, kind_of
-from rodwell.analysis.path.events import LOADING, SNAP, Leg, PathPoint
+from rodwell.analysis.path.events import SNAP, PathPoint
+from rodwell.analysis.path.frames import Frame, frames
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.analysis.path.straightening import straight_state
 from rodwell.analysis.space.scene import drawn
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.numerics.stretches.carry import sampler
-from rodwell.plots.paths.axes import Units, units_of
+from rodwell.plots.paths.axes import Units, units_of, words
 from rodwell.problem.words import ends_text
-from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.as_json import as_json
 from rodwell.quantities.forces import Forces
-from rodwell.quantities.scales import Scales
-from rodwell.quantities.text import plain
 from rodwell.report.pages.templates import HERE, template
 from rodwell.report.pages.viewer import View, view, viewer
 
 PAGE = "load-path-3d.html"
 """Name of the page in a folder of results."""
 
-MOST = 60
-"""States that are shown: of each run by how far the load goes and how many states were found, first and last always."""
-
 PLACES, SIDES = 121, 10
 """Places along the rod and sides around it: what a page of many states can carry."""
-
-
-ENDS = 2
-"""The first state and the last: of the straight rod no others are needed."""
-
-
-@dataclass(frozen=True)
-class Frame:
-    """A state that is shown: its leg, the number of its run (a snap begins a new one), and the state."""
-
-    leg: str
-    run: int
-    state: PatternedState
-
-
-def frames(path: LoadPath) -> list[Frame]:
-    """The states of a path that are shown, in order of happening."""
-    runs = [(leg.name, run) for leg in path.legs for run in _runs(path, leg) if run]
-    loads = [state.load for _, run in runs for state in run]
-    whole = max(max(loads) - min(loads), 1e-300)
-    total = sum(len(run) for _, run in runs)
-    travelled = [_travelled(run, whole, total) for _, run in runs]
-    each = sum(float(way[-1]) for way, (_, run) in zip(travelled, runs, strict=True) if len(run) > ENDS) / MOST
-    out = []
-    for number, ((leg, run), way) in enumerate(zip(runs, travelled, strict=True)):
-        wanted = np.linspace(0.0, way[-1], min(len(run), ENDS + round(float(way[-1]) / (each or 1.0))))
-        chosen = np.unique([int(np.argmin(np.abs(way - at))) for at in wanted])
-        out += [Frame(leg, number, run[i]) for i in chosen]
-    return out
-
-
-def _travelled(run: list[PatternedState], whole: float, total: int) -> FloatArray:
-    """How far each state of a run is from its first: by load, and by number, for they lie close where much happens."""
-    by_load = np.cumsum(np.abs(np.diff([state.load for state in run]))) / whole
-    return np.concatenate([[0.0], by_load + np.arange(1, len(run)) / total])
-
-
-def _runs(path: LoadPath, leg: Leg) -> Iterator[list[PatternedState]]:
-    """Runs of a leg with the straight rod before it buckles, or after it has fallen back."""
-    model = RodInHole(path.problem, path.wall_stiffness)
-    straight = [[straight_state(model, force) for force in ends] for ends in leg.straight]
-    yield from straight if leg.name == LOADING else ()
-    yield from leg.runs
-    yield from () if leg.name == LOADING else straight
 
 
 def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title: str = "") -> None:
@@ -133,27 +75,6 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
         assumptions=path.assumptions, ends=ends_text(path.problem), reached=path.ended_because,
     )  # fmt: skip
     file.write_text(page, encoding="utf-8")
-
-
-def words(frame: Frame, said: Forces) -> str:
-    """What is shown, in one line."""
-    return f"{frame.leg}, {said.label(frame.state.load)}: {described(frame.state, said.scales)}"
-
-
-def described(state: PatternedState, scales: Scales | None) -> str:
-    """What a state is: its kind, gaps, the largest point force, stability."""
-    turns = turns_of(state.model, sampler(state.solved.shape))
-    kind, numbers = kind_of(state, turns), measured(state)
-    parts = [f"{kind} of {abs(turns)} turn{'s' if abs(turns) != 1 else ''}" if kind == HELIX else kind]
-    gaps = [float(gap) for gap, on in zip(numbers.gaps, state.touching, strict=True) if not on]
-    if gaps:
-        parts.append(f"{len(gaps)} gap{'s' if len(gaps) != 1 else ''} up to {plain(max(gaps), 3)} of the clearance")
-    if numbers.points.size:
-        largest = float(np.max(np.abs(numbers.points)))
-        text = f"{plain(largest, 3)} B/L²" if scales is None else scales.text(largest, "force", 3)
-        parts.append(f"largest point force {text}")
-    parts.append("stable" if state.solved.index == 0 else f"unstable (index {state.solved.index})")
-    return ", ".join(parts)
 
 
 def _at(frame: Frame, units: Units) -> dict[str, float]:
