@@ -225,6 +225,22 @@ def test_keys_move_load_branch_and_special_point(page: Any) -> None:
     assert not page.locator("#help").is_visible()
 
 
+def test_both_curves_have_one_cursor_and_the_rod_its_true_scale(page: Any) -> None:
+    assert page.inner_text("#cursor") == "Point at a curve to read it."
+    page.locator("#push").focus()
+    page.keyboard.press("ArrowRight")
+    assert page.inner_text("#cursor").startswith("s = ")
+    push, side = (page.locator(f"#{name} line.at") for name in ("push", "side"))
+    assert push.get_attribute("x1") == side.get_attribute("x1")
+    enlarged = page.inner_text("#rod .scale")
+    assert enlarged.startswith("× ")
+    page.locator("#true-scale").check()
+    assert page.inner_text("#rod .scale") == "true scale"
+    until(page, "location.hash.includes('scale=true')")
+    page.locator("#true-scale").uncheck()
+    assert page.inner_text("#rod .scale") == enlarged
+
+
 def test_branches_can_be_focused_clicked_and_tell_what_they_are(page: Any) -> None:
     labels = page.evaluate("[...document.querySelectorAll('#diagram path.hit')].map(p => p.getAttribute('aria-label'))")
     assert len(labels) == 5  # straight, three modes, a secondary branch
