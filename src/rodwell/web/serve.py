@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import secrets
+import signal
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from rodwell.errors import InputError
 from rodwell.web.worker import Start
+
+if TYPE_CHECKING:
+    from uvicorn import Server
 
 ADDRESS = "127.0.0.1"
 """This machine only."""
@@ -49,7 +55,9 @@ def serve(start: Start, port: int, opened: Callable[[str], None]) -> None:
         )  # fmt: skip
         desk.ready()
         opened(f"http://{ADDRESS}:{number}/{token}/")
-        uvicorn.Server(config).run(sockets=[listening])
+        server = uvicorn.Server(config)
+        with _hung_up(server):
+            server.run(sockets=[listening])
     finally:
         desk.stop()
         listening.close()
@@ -61,6 +69,28 @@ def check_installed() -> None:
         if find_spec(name) is None:  # importing them waits until the engine's process has begun
             what = f"needs {name}, which is not installed: pip install 'rodwell[explore]'"
             raise InputError("rodwell explore", None, what)
+
+
+@contextlib.contextmanager
+def _hung_up(server: Server) -> Iterator[None]:
+    """A terminal that is closed ends the server as Ctrl-C does: what it breaks off otherwise is told as errors."""
+    hang_up = getattr(signal, "SIGHUP", None)  # Windows has none
+    if hang_up is None or signal.getsignal(hang_up) == signal.SIG_IGN:
+        yield
+        return
+    heard = False
+
+    def hear(*_: object) -> None:
+        nonlocal heard
+        heard = server.should_exit = True
+
+    before = signal.signal(hang_up, hear)
+    try:
+        yield
+    finally:
+        signal.signal(hang_up, before)
+    if heard:
+        signal.raise_signal(hang_up)  # the command ends by it
 
 
 def _listening(port: int) -> socket.socket:
