@@ -108,3 +108,9 @@ def test_critical_says_what_a_bend_asks_of_the_wall_at_a_step() -> None:
     (step,) = json.loads(run("critical", *BENT_STRING, "--json")[1])["lying"]["steps"]
     assert step["couple"]["value"] == pytest.approx(0.7 * 0.3 / 1.003, rel=1e-12)
     assert step["leaves_wall"]
+
+
+def test_certify_says_which_numbers_are_taken_exactly() -> None:
+    code, text = run("certify", "--weight", "0", "--build", "0.5", "--modes", "1", "--digits", "8")
+    assert code == 0
+    assert "Clearance and build are taken as the decimals given." in " ".join(text.split())
