@@ -87,14 +87,17 @@ def shown(data: dict[str, Any]) -> int:
         if force <= 0.0:
             continue
         exact, lift = data["critical_compression"][i], data["lift_off_compression"][i]
+        error, bent = data["critical_error"][i], data["critical_compression_in_build"][i]
+        if bent is not None:
+            exact, lift, error = bent, None, data["critical_error_in_build"][i]
         if any(limit is not None and force > limit for limit in (exact, lift)):
             return 4
         if exact is None:
             worst = max(worst, 1)
-        elif force >= exact - data["critical_error"][i]:
+        elif force >= exact - error:
             worst = max(worst, 2)
         bend, straight = curved["he_kyllingstad"][i], curved["dawson_paslay"][i]
-        if bend < 0.99 * straight and force > bend:
+        if bent is None and bend < 0.99 * straight and force > bend:
             worst = max(worst, 3)
     return worst
 

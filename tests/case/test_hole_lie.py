@@ -137,3 +137,28 @@ def test_a_range_of_build_is_a_study() -> None:
     assert varied.numbers == (0.0, 2.0, 4.0, 6.0)
     assert varied.values[1] == "2.0 deg/30 m"
     assert varied.label == "build of the hole [deg/30 m]"
+
+
+def string_case(folder: Path, outer: str, **hole: Any) -> Case:
+    lower = {"outer_diameter": outer, "inner_diameter": "76.2 mm", "material": "steel", "length": "20 m"}
+    upper = {"outer_diameter": "127 mm", "inner_diameter": "108.6 mm", "material": "steel", "length": "40 m"}
+    return Case.from_dict({"string": [lower, upper], "hole": {"diameter": "216 mm"} | hole}, folder=folder)
+
+
+@pytest.mark.parametrize(
+    "hole", [{"survey": "well.csv", "to": "1300 m"}, {"build": "3 deg/30 m", "walk": "1 deg/30 m"}]
+)
+def test_a_string_lies_along_a_curved_hole(folder: Path, hole: dict[str, str]) -> None:
+    """The stiffer section hangs below a third of the length; weight goes like the metal's area, stiffness like I."""
+    extra = {} if "survey" in hole else {"angle_from_vertical": "40 deg"}
+    problem = string_case(folder, "127 mm", **hole, **extra).problem
+    assert problem.hole is not None
+    (length, stiffness, weight, *_), (_, light, hangs, *_) = problem.sections
+    assert length == pytest.approx(1.0 / 3.0)
+    assert stiffness / light == pytest.approx((127.0**4 - 76.2**4) / (127.0**4 - 108.6**4), rel=1e-9)
+    assert weight / hangs == pytest.approx((127.0**2 - 76.2**2) / (127.0**2 - 108.6**2), rel=1e-9)
+
+
+def test_a_string_of_several_clearances_in_a_curved_hole_is_refused_with_the_remedy(folder: Path) -> None:
+    with pytest.raises(InputError, match=r"string = .*one clearance for all sections, as hole\.clearance"):
+        string_case(folder, "171 mm", build="3 deg/30 m", angle_from_vertical="40 deg")

@@ -47,7 +47,7 @@ def test_critical_as_json() -> None:
         (("critical", "--build", "150"), "must be above the clearance"),
         (("critical", "--build", "7"), "makes the hole run into itself"),
         (("critical", "--build", "0.2", "--ends", "ball-ball"), "leaves the wall at a ball end"),
-        (("critical", "--build", "0.2", "--sections", "0.5:1,0.5:2"), "are computed in straight holes"),
+        (("critical", "--build", "0.2", "--sections", "0.5:1:1:1.2,0.5:2"), "must have one clearance in a curved hole"),
         (("certify", "--build", "0.2"), "loads are proved of a rod without weight"),
         (("sensitivity", "--build", "0.2", "--walk", "0.1"), "no critical load"),
         (("twist", "--build", "0.2"), "in straight holes only"),
@@ -92,3 +92,25 @@ def test_out_of_the_vertical_plane_and_its_mirror_image() -> None:
     own = data["lift_off_own_places"]
     assert abs(own["value"] - lift["force"]) < 1e-2
     assert own["error"] < 1e-6
+
+
+BENT_STRING = ("--weight", "15", "--alpha", "60", "--build", "0.3", "--sections", "0.6:1:1,0.4:0.3:0.5", "--modes", "1")
+
+
+def test_critical_says_what_a_bend_asks_of_the_wall_at_a_step() -> None:
+    """The couple is 0.7 κ/(1 + κΔ); the load that of shooting from section to section."""
+    code, text = run("critical", *BENT_STRING)
+    text = " ".join(text.split())
+    assert code == 0
+    assert "−99.57424418" in text
+    assert "has a step (s/L = 0.6) the wall would have to hold the rod by a couple, of up to 0.2094 B/L" in text
+    assert "off the wall beside the step, over about 0.099 L or more" in text
+    (step,) = json.loads(run("critical", *BENT_STRING, "--json")[1])["lying"]["steps"]
+    assert step["couple"]["value"] == pytest.approx(0.7 * 0.3 / 1.003, rel=1e-12)
+    assert step["leaves_wall"]
+
+
+def test_certify_says_which_numbers_are_taken_exactly() -> None:
+    code, text = run("certify", "--weight", "0", "--build", "0.5", "--modes", "1", "--digits", "8")
+    assert code == 0
+    assert "Clearance and build are taken as the decimals given." in " ".join(text.split())

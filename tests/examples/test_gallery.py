@@ -93,21 +93,31 @@ def two_casings() -> None:
 
 
 def build_section() -> None:
-    """E r κ/(1 + κΔ), and the stress of the lying pipe of its effective force, the mud being at rest, by hand."""
+    """E r κ/(1 + κΔ), and the stress of the lying pipe of its effective force, the mud being at rest, by hand.
+
+    That is largest in the drill pipe at its lower end, where the effective force is that at the bottom less what the
+    heavy-weight pipe weighs over its rise, and −b κᵣ² of the drill pipe.
+    """
     found = run("build_section")
     case = found["case"]
-    outer, inner, length = 3.5 * 0.0254, 2.25 * 0.0254, 93.0 * 0.3048
-    area, inertia = np.pi / 4.0 * (outer**2 - inner**2), np.pi / 64.0 * (outer**4 - inner**4)
+    (half, heavy, weight, *_), (_, light, *_) = case.problem.sections
+    outer, bores, length = 3.5 * 0.0254, (2.25 * 0.0254, 2.764 * 0.0254), 124.0 * 0.3048
+    area, inertias = np.pi / 4.0 * (outer**2 - bores[1] ** 2), [np.pi / 64.0 * (outer**4 - bore**4) for bore in bores]
     kappa = np.radians(12.0) / (100.0 * 0.3048)
     curvature = kappa / (1.0 + kappa * 0.5 * (6.125 - 3.5) * 0.0254)
-    modulus = case.scales.stiffness / inertia
+    modulus = case.scales.stiffness * heavy / inertias[0]
     assert modulus == pytest.approx(30e6 * 6894.757, rel=1e-6)
+    assert modulus == pytest.approx(case.scales.stiffness * light / inertias[1], rel=1e-9)
     assert found["lying"] == pytest.approx(modulus * 0.5 * outer * curvature, rel=1e-9)
-    # at the bottom of the lying pipe the outer fibre on the low side is pressed most; the mud presses on all sides
-    effective = 30000.0 * 4.4482216152605 + case.scales.stiffness * curvature**2
+    # on the low side the outer fibre of the lying pipe is pressed most; the mud presses on all sides
+    slopes = np.radians(30.0) - curvature * length * np.array([0.5, 0.0])
+    rise = np.diff(-np.cos(slopes))[0] / curvature
+    hung = weight * case.problem.weight * case.scales.factor("force_per_length") * rise
+    effective = 30000.0 * 4.4482216152605 - hung + modulus * inertias[1] * curvature**2
     assert found["largest"][0] == pytest.approx(effective / area + modulus * 0.5 * outer * curvature, rel=1e-6)
     assert np.all(np.diff(found["largest"]) > 0.0)
     assert length == pytest.approx(case.scales.length, rel=1e-12)
+    assert half == 0.5
 
 
 def bent_vessel() -> None:

@@ -63,8 +63,9 @@ def screening(**changes: Any) -> rodwell.Screening:
     force = None if changes.get("force") is None else np.asarray(changes["force"]) * 1e3
     critical = Loads(exact, errors, reasons, 4, 0.0, 1e-3)
     string = rodwell.screen(case, survey).string
+    bent = Loads(np.asarray(changes.get("bent", [math.nan] * n)) * 1e3, errors, {}, 4, 0.0, 1e-3)
     return rodwell.Screening(
-        case, survey, string, critical, Loads(lift, errors, {}, 4, 0.0, 1e-2), formulas, force, {60.0: 0.0}
+        case, survey, string, critical, Loads(lift, errors, {}, 4, 0.0, 1e-2), bent, formulas, force, {60.0: 0.0}
     )
 
 
@@ -103,6 +104,13 @@ NAN = math.nan
         ({"force": [1, 2, -3, 4], "exact": [100, 100, NAN, 100]}, verdict.STRAIGHT, "By the straight-hole loads"),
         ({"force": [1, 2, 3, 101], "exact": [100, 100, NAN, 100]}, verdict.BUCKLES, "The string buckles:"),
         ({"force": [1, 2, 160, 4], "exact": [100, 100, NAN, 100]}, verdict.BUCKLES, "The string buckles"),
+        (
+            {"force": [1, 2, 160, 4], "bent": [NAN, NAN, 170, NAN]},
+            verdict.STRAIGHT,
+            "By the exact loads, with the hole",
+        ),
+        ({"force": [1, 2, 26, 4], "bent": [NAN, NAN, 25, NAN]}, verdict.BUCKLES, "The string buckles:"),
+        ({"force": [1, 2, 24, 4], "bent": [NAN, NAN, 25, NAN], "curved": [95, 95, 20, 95]}, verdict.STRAIGHT, "By the"),
     ],
 )
 def test_the_worst_line_leads(changes: dict[str, Any], level: int, headline: str) -> None:

@@ -17,8 +17,9 @@ from hypothesis import strategies as st
 from scipy.special import ai_zeros
 
 import rodwell
-from rodwell import Case, InputError, Survey
+from rodwell import Case, InputError, Problem, Survey, critical_loads
 from rodwell.analysis.loads.by_inclination import Precision, angle_at, loads_at, place
+from rodwell.analysis.loads.in_bends import loads_in_bends
 from rodwell.analysis.loads.long_rod import (
     HALF_WAVES,
     LocalLoad,
@@ -179,6 +180,51 @@ def test_curvature_of_the_well(well: rodwell.Screening) -> None:
     assert "curvature" in well.remarks(int(np.nonzero(well.dropping)[0][0]))
 
 
+def test_loads_in_the_build_are_those_of_the_arc(well: rodwell.Screening) -> None:
+    """`rodwell critical --build` of that arc, put together by hand; elsewhere they are those of the straight hole."""
+    i = 30
+    build, alpha = float(well.survey.build[i]), float(well.local[i])
+    root = math.sqrt(build**2 + PIPE.weight * math.sin(math.radians(alpha)) * PIPE.clearance / PIPE.stiffness)
+    length = 20.0 * math.pi * math.sqrt(PIPE.clearance / (build + root))
+    turned = 0.5 * math.degrees(build * length / (1.0 + build * PIPE.clearance))
+    arc = Problem(
+        PIPE.weight * length**3 / PIPE.stiffness, alpha - turned, PIPE.clearance / length, build=build * length
+    )
+    load = (arc.hung_weight - critical_loads(arc, 1)[0].force) * PIPE.stiffness / length**2
+    assert well.bent.values[i] == pytest.approx(load, rel=1e-9)
+    straight = well.formulas["dawson_paslay"]
+    alike = np.abs(well.formulas["he_kyllingstad"] - straight) <= 0.01 * straight
+    assert np.all(np.isnan(well.bent.values[alike]))
+    known = np.isfinite(well.bent.values)
+    assert well.bent.values[known] == pytest.approx(well.formulas["he_kyllingstad"][known], rel=0.4)
+    assert np.array_equal(well.limit[0][known], well.bent.values[known])
+    assert not np.any(well.turning)
+
+
+def test_loads_of_many_stations_are_interpolated_to_the_error_that_is_told() -> None:
+    """A load that goes like that of a bent pipe, in closed form: its table, and where there is none."""
+    draw = np.random.default_rng(5)
+    pairs = list(zip(draw.uniform(20.0, 90.0, 300), draw.uniform(1e-4, 4e-3, 300), strict=True))
+
+    def formula(alpha: float, build: float) -> float:
+        return 1e5 * (1.0 + 300.0 * build) * math.sin(math.radians(alpha))
+
+    def solve(alpha: float, build: float) -> LocalLoad:
+        if build > 3.5e-3 and alpha < 30.0:
+            return LocalLoad(None, reason="none here")
+        return LocalLoad(Value(formula(alpha, build) * (1.0 + 0.3 * math.exp(-500.0 * build - alpha / 90.0)), 1.0))
+
+    loads = loads_in_bends(pairs, solve, formula, 1e-3)
+    assert loads.solved <= 17 * 17 + 24
+    lost = np.isnan(loads.values)
+    assert set(np.flatnonzero(lost)) == set(loads.reasons)
+    assert 0 < np.sum(lost) < 30
+    for i in np.flatnonzero(~lost):
+        exact = solve(*pairs[i]).compression
+        assert exact is not None
+        assert abs(loads.values[i] - exact.value) <= loads.errors[i] <= 3e-3 * exact.value
+
+
 def test_forces_of_the_well(well: rodwell.Screening) -> None:
     """Force at the bit and force at the hook describe the same string; weight acts along the vertical."""
     assert well.compression is not None
@@ -277,7 +323,8 @@ def test_plain_data_hold_no_nan(well: rodwell.Screening) -> None:
     data = screening_dict(well)
     json.dumps(data, allow_nan=False)
     assert len(data["critical_compression"]) == len(data["critical_error"]) == 90
-    assert data["summary"][0].startswith("By the straight-hole loads the string does not buckle")
+    assert data["summary"][0].startswith("By the exact loads, with the hole's build, the string does not buckle")
+    assert len(data["critical_compression_in_build"]) == 90
 
 
 @pytest.mark.parametrize(("count", "missed"), [(60, 0), (20_000, 1)])

@@ -187,6 +187,7 @@ def _problem(
             "walk": "hole.walk",
             "axis": "hole.centerline" if hole.survey is None else "hole.survey",
             "floats": "mud.outside",
+            "sections": "string",
         }
         name = names.get(error.field, error.field)
         what = error.reason
@@ -195,6 +196,8 @@ def _problem(
             what += "units of length, weight or density, stiffness or diameters, and gravity"
         if error.field == "clearance":
             what = f"makes Δ/L = {clearance / rod.length:.3g}, which {what}: check its unit and that of the length"
+        if error.field == "sections" and "clearance" in what:
+            what += ", as hole.clearance"
         if error.field == "floats":
             what = "lifts the rod, and rods that float are computed in straight holes only: check density and diameters"
         raise InputError(name, None if error.field in ("weight", "floats") else error.value, what) from None

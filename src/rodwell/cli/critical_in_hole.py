@@ -41,7 +41,9 @@ def lying_numbers(loads: CriticalLoads, tensile: CriticalLoads) -> Numbers:
 
 
 def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:
+    from rodwell.analysis.state.wall import lying_step_loads  # noqa: PLC0415
     from rodwell.analysis.straight.lying import least_contact, lies_between  # noqa: PLC0415
+    from rodwell.answers.words.steps import steps_data  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem = loads[0].problem
@@ -58,6 +60,7 @@ def _data(loads: CriticalLoads, tensile: CriticalLoads) -> dict[str, Any]:
             "least_contact": [_peak(least_contact(problem, mode.force)) for mode in loads],
             "least_contact_tensile": [_peak(least_contact(problem, mode.force)) for mode in tensile],
             "contact_unit": "B/L^3",
+            **({"steps": steps_data(lying_step_loads(problem))} if problem.sections else {}),
         },
         "unit": "B/L^2",
         "convention": "end force along the tangent of the rod on the wall at s = 1, tension positive; "
@@ -70,6 +73,9 @@ def _peak(peak: Peak | None) -> dict[str, float] | None:
 
 
 def _print(loads: CriticalLoads, tensile: CriticalLoads) -> None:
+    from rodwell.analysis.state.wall import lying_step_loads  # noqa: PLC0415
+    from rodwell.analysis.straight.lying import off_at_steps  # noqa: PLC0415
+    from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     problem = loads[0].problem
@@ -80,6 +86,9 @@ def _print(loads: CriticalLoads, tensile: CriticalLoads) -> None:
     for mode in tensile:
         click.echo(f"  in tension, {mode.number}  {with_error(mode.load)}   {_symmetry(mode)}{_pulls(problem, mode)}")
     wrapped(_range(problem))
+    note = steps_note(lying_step_loads(problem), bent=True, off=off_at_steps(problem, loads[0].force))
+    if note:
+        wrapped(note)
 
 
 def _hole(problem: Problem) -> str:

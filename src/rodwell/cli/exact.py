@@ -62,9 +62,10 @@ def _print_certified(loads: CertifiedLoads) -> None:
         closed = f"; {load.closed_form} changes sign" if load.closed_form else ""
         several = "" if load.multiplicity == 1 else f"; {load.multiplicity} loads agree to these digits"
         click.echo(f"  mode {load.number:>2}  {value}   {load.number - 1} above{several}{closed}")
+    given = "Weight, angle and clearance" if problem.hole is None else "Clearance and build"
     wrapped(
         "Proved for each: that it exists, that no other load lies within its bounds, and how many lie above it. "
-        "Weight, angle and clearance are taken as the decimals given."
+        f"{given} are taken as the decimals given."
     )
 
 

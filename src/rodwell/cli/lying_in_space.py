@@ -146,6 +146,7 @@ def _ways(lying: LyingRod) -> tuple[tuple[str, Value, SpecialPoint | None, Branc
 
 
 def _print(lying: LyingRod) -> None:
+    from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     p = lying.problem
@@ -160,6 +161,9 @@ def _print(lying: LyingRod) -> None:
         places = "" if end is None else places_text(end.s)
         beyond = "below" if name == "lowest" else "above"
         click.echo(f"  {name:<8}  {with_error(load)}{places}   {beyond} {_what_ends(end, branch, lying)}")
+    note = steps_note(lying.rest.step_loads, bent=True)
+    if note:
+        wrapped(note)
 
 
 def _numbers(name: str, data: dict[str, Any], lying: LyingRod) -> Numbers:

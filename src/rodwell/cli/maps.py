@@ -125,7 +125,7 @@ def _print_diagram(result: Diagram) -> None:
     if result.problem.twist != 0.0 and result.problem.untouched:
         wrapped(KEPT)
     first = next((p for branch in result for p in branch.special_points if p.kind in ("lift_off", "end")), None)
-    note = "" if first is None else steps_note(first.solution.step_loads)
+    note = "" if first is None else steps_note(first.solution.step_loads, bent=result.problem.hole is not None)
     if note:
         wrapped(note)
     for branch in result:

@@ -119,7 +119,7 @@ def _print_liftoff(
     _print_arms(lift.load, other)
     if branch.lift_off_at_buckling:
         wrapped("Lift-off coincides with buckling: no lateral weight presses the rod to the wall.")
-    note = steps_note(lift.solution.step_loads)
+    note = steps_note(lift.solution.step_loads, bent=problem.hole is not None)
     if note:
         wrapped(note)
     if load != lift.load:

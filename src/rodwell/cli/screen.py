@@ -198,7 +198,7 @@ def _stations(screening: Screening) -> object:
 
     depth, metre, force, newton = units(screening)
     table = Table(box=None, pad_edge=False, header_style="bold")
-    heads = [f"MD [{depth}]", "incl.", f"buckles [{force}]", "lifts off"]
+    heads = [f"MD [{depth}]", "incl.", f"buckles [{force}]", "lifts off", "in the build"]
     heads += [BESIDE[key].head for key in screening.formulas]
     used = screening.utilisation
     heads += [] if used is None else ["the string", "used"]
@@ -207,7 +207,8 @@ def _stations(screening: Screening) -> object:
     mark = screening.weakest if screening.worst is None else screening.worst
     count = len(screening.survey)
     shown = sorted({mark, *(int(i) for i in np.linspace(0, count - 1, min(SHOWN, count)).round())})
-    columns = [screening.critical.values, screening.lift_off.values, *screening.formulas.values()]
+    exact = (screening.critical, screening.lift_off, screening.bent)
+    columns = [*(loads.values for loads in exact), *screening.formulas.values()]
     columns += [] if screening.compression is None else [screening.compression]
     for i in shown:
         cells = [plain(screening.survey.md[i] / metre, 6), f"{plain(screening.survey.inclination[i], 3)}°"]

@@ -69,10 +69,10 @@ def check(problem: Any) -> None:
             f"a rod of this length cannot wind around so often at clearance {problem.clearance:g}",
         )
     _check_ends(problem)
+    if not isinstance(problem.axis, tuple) and len(problem.axis) == 0:
+        object.__setattr__(problem, "axis", ())
     if problem.build != 0.0 or problem.walk != 0.0 or len(problem.axis) > 0:
         _check_hole(problem)
-    elif not isinstance(problem.axis, tuple):
-        object.__setattr__(problem, "axis", ())
     _ask_for_degrees(problem.alpha)
 
 
@@ -145,9 +145,12 @@ def _check_hole(problem: Any) -> None:
     refuse_off_wall(problem.ends, "the states of a rod in a curved hole")
     if problem.turns != 0:
         raise InputError("turns", problem.turns, "must be 0 in a curved hole: coils are computed in straight ones")
-    if problem.sections:
-        why = "are computed in straight holes: give a uniform rod, or leave build, walk and axis out"
-        raise InputError("sections", f"{len(problem.sections)} of them", why)
+    if problem.tapered:
+        why = "must have one stiffness, weight and torsion in each in a curved hole: sections that taper are computed "
+        raise InputError("sections", "tapered", why + "in straight holes; cut the taper into steps")
+    if problem.bridges:
+        why = "must have one clearance in a curved hole: strings that bridge its steps are computed in straight holes; "
+        raise InputError("sections", f"{len(problem.sections)} of them", why + "give one clearance for all sections")
 
 
 def _ask_for_degrees(alpha: float) -> None:

@@ -12,6 +12,9 @@ from rodwell.quantities.arrays import FloatArray
 GRID = 2571
 """Places on the axis between which its curvature is integrated, with eight points each."""
 
+SQUARED = 1e-9
+"""Step of Newton's method after which the error is below round-off."""
+
 MARGIN = 0.05
 """How far beyond S = 0 and S = 1 these reach: a rod on the inside of a bend is beside more than its length."""
 
@@ -25,8 +28,11 @@ def places_of_lying_rod(hole: Hole, reach: float, s: FloatArray) -> FloatArray:
         return np.asarray(0.5 + (s - 0.5) / (1.0 + reach * hole.curvatures(np.array([0.5]))[0, 0]))
     grid, along = _lengths(hole, reach)
     found = np.interp(s, along, grid)
-    for _ in range(3):  # Newton's method
-        found = found - (lying_rod_beside(hole, reach, found) - s) / _stretch(hole, reach, found)
+    for _ in range(3):  # Newton's method, which squares the error
+        step = (lying_rod_beside(hole, reach, found) - s) / _stretch(hole, reach, found)
+        found = found - step
+        if np.max(np.abs(step), initial=0.0) <= SQUARED:
+            break
     return np.asarray(found)
 
 
@@ -57,9 +63,7 @@ def _stretch(hole: Hole, reach: float, places: FloatArray) -> FloatArray:
     return 1.0 + reach * hole.curvatures(places.ravel())[:, 0].reshape(places.shape)
 
 
-def rise_of_lying_rod(hole: Hole, reach: float) -> float:
-    """Height of the end s = 1 of a rod on that generator above the end s = 0, in L."""
-    places = places_of_lying_rod(hole, reach, np.array([0.0, 1.0]))
-    _, frames, points = hole.at(places)
-    heights = points[:, 2] - reach * frames[:, 0, 2]
-    return float(heights[1] - heights[0])
+def heights_of_lying_rod(hole: Hole, reach: float, s: FloatArray) -> FloatArray:
+    """Heights (m,) at ``s`` (m,) of a rod on that generator, in L, above S = 0 of the hole's axis."""
+    _, frames, points = hole.at(places_of_lying_rod(hole, reach, s))
+    return np.asarray(points[:, 2] - reach * frames[:, 0, 2])

@@ -8,11 +8,13 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from rodwell.errors import InputError
 from rodwell.problem.checks import check
 from rodwell.problem.ends import HOLD_ANGLE, OFF_WALL_ENDS
 from rodwell.problem.hole import Hole
-from rodwell.problem.lying import rise_of_lying_rod
+from rodwell.problem.lying import heights_of_lying_rod
 from rodwell.problem.points import Rows
 from rodwell.problem.profile import Ratio
 from rodwell.problem.rod import Rod
@@ -62,7 +64,8 @@ class Problem:
         uniform rod of weight ratio 1, B, in which everything is measured, that of stiffness ratio 1, and ``torsion`` or
         ``poisson`` give C of torsion ratio 1. A clearance ratio that all share goes into ``clearance``; where it has
         steps the string bridges them, off the wall: :func:`rodwell.load_path` follows it until it buckles, and what is
-        computed of rods that stay on the wall is refused. None given: a uniform rod.
+        computed of rods that stay on the wall is refused. In a curved hole each section has one stiffness, weight and
+        torsion, and all have one clearance. None given: a uniform rod.
     build, walk
         Curvature of the hole in 1/L, constant along it: ``build`` > 0 where it is concave upward, ``walk`` > 0 where it
         turns to the right, looking towards s = 0: see :class:`rodwell.problem.hole.Hole`. ``alpha`` is then the
@@ -172,7 +175,8 @@ class Problem:
         """
         loose = self.lateral_weight == 0.0 and not self.holds_angle
         if self.hole is not None:
-            return not self.axis and self.axial_weight == 0.0 and self.ends[0] == self.ends[1]
+            alike = self.ends[0] == self.ends[1] and self.rod.symmetric
+            return not self.axis and self.axial_weight == 0.0 and alike
         if self.axial_weight != 0.0 or self.ends[0] != self.ends[1] or loose or not self.same_sides:
             return False
         return not self.sections or self.rod.symmetric
@@ -200,10 +204,13 @@ class Problem:
     @cached_property
     def hung_weight(self) -> float:
         """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one, γ times its rise in a curved hole."""
-        if self.hole is not None and self.axial_weight == 0.0 and not self.axis:
+        if self.hole is not None and self.axial_weight == 0.0 and not self.axis and self.rod.symmetric:
             return 0.0  # a level arc is alike from both ends
         if self.hole is not None:
-            return self.weight * rise_of_lying_rod(self.hole, -self.clearance if self.on_top else self.clearance)
+            reach = -self.clearance if self.on_top else self.clearance
+            breaks = self.rod.breaks
+            rises = np.diff(heights_of_lying_rod(self.hole, reach, breaks))
+            return self.weight * float(self.rod.weight(breaks[:-1]) @ rises)
         return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
 
     @property

@@ -5,6 +5,7 @@ it. The group ``restart`` holds what the branch is made of, bit by bit:
 
 ==================  ======================================================================================
 ``breaks``          mesh points of the coarse meshes, one mesh after the other; ``mesh_elements`` (mesh): how many each
+``kinked``          1 at those that are kinks, elsewhere 0; in files without it kinks are at steps of a string
 ``mesh_parity``     parity that states on it keep; ``mesh_floor``: excess of errors below which refining does not help
 ``coefficients``    of all states in turn: spline coefficients, tangent and its covector, each of the size of the space
 ``state``           (state, 5): λ, its parts of tangent and covector, stability index, energy; coarse and fine in turn
@@ -120,11 +121,12 @@ def _write(branch: Branch, group: Any) -> None:
     trace = branch.trace
     pairs = [*zip(trace.points, trace.meshes, strict=True), *((event.point, event.meshes) for event in trace.found)]
     meshes = list({id(mesh): mesh for _, mesh in pairs}.values())
-    number = {id(mesh): i for i, mesh in enumerate(meshes)}
+    number, spaces = {id(mesh): i for i, mesh in enumerate(meshes)}, [mesh.coarse.space for mesh in meshes]
     states = [state for point, _ in pairs for state in (point.coarse, point.fine)]
     events = [(e.lam_error, e.index_before, e.index_after, e.rising, e.fold, e.certain, e.after) for e in trace.found]
     arrays = {
-        "breaks": np.concatenate([mesh.coarse.space.breaks for mesh in meshes]),
+        "breaks": np.concatenate([space.breaks for space in spaces]),
+        "kinked": np.concatenate([np.isin(space.breaks, space.kinks).astype(float) for space in spaces]),
         "mesh_elements": np.array([mesh.coarse.space.elements for mesh in meshes]),
         "mesh_parity": np.array([mesh.coarse.parity for mesh in meshes]),
         "mesh_floor": np.array([mesh.floor for mesh in meshes]),
@@ -199,12 +201,12 @@ class _Reading:
         return made(self.problem, origin, trace, *ending, str(about["parameter"]))
 
     def _meshes(self) -> list[TwoMeshes]:
-        about, out, start = self.about, [], 0
+        about, out, start, every = self.about, list[TwoMeshes](), 0, self.arrays["breaks"]
+        marks = self.arrays.get("kinked", np.isin(every, self.problem.rod.breaks[1:-1]).astype(float))
         for i, elements in enumerate(self.arrays["mesh_elements"]):
-            breaks = self.arrays["breaks"][start : start + int(elements) + 1]
+            breaks, kinked = (one[start : start + int(elements) + 1] for one in (every, marks))
             start += int(elements) + 1
-            kinks = self.problem.rod.breaks[1:-1] if self.problem.sections else None
-            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]), kinks)
+            space = SplineSpace(breaks, int(about["degree"]), int(about["per_element"]), breaks[kinked > 0.0])
             equilibria = family(
                 self.problem, space, parity=int(self.arrays["mesh_parity"][i]), wavenumber=1.0,
                 scale=float(about["lam_scale"]), parameter=str(about["parameter"]), force=float(about["force"]),

@@ -120,7 +120,7 @@ def test_other_parameters_and_what_is_refused(branch: Branch) -> None:
 
 
 def test_the_model_names_what_it_is_given() -> None:
-    assert len(curved.GIVEN) == 2 + len(curved.FUNCTIONS) * curved.TERMS
+    assert len(curved.GIVEN) == curved.FIRST + len(curved.FUNCTIONS) * curved.TERMS
 
 
 @pytest.mark.parametrize(

@@ -211,7 +211,7 @@ def test_the_largest_contact_force_is_held_to_the_tolerance(tilted: LyingRod) ->
         numbers, scales, _ = measure(family, on)
         field = fields_at(TILTED, family, on, np.linspace(0.0, 1.0, 20001), balance=False)["contact_pressure"]
         assert numbers[AS_FIELD] == pytest.approx(float(np.min(field)), rel=1e-7)
-        assert numbers[AS_FIELD] <= float(np.min(field))
+        assert numbers[AS_FIELD] <= float(np.min(field)) * (1.0 - 4.0 * np.finfo(float).eps)  # kernels round otherwise
         assert numbers[Measured.P_MAX] > 0.1 * numbers[AS_FIELD]
         assert scales[AS_FIELD] <= 0.5 * abs(numbers[AS_FIELD])
     for force in (tilted.lowest.value, tilted.rest.force):

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from rodwell import InputError, NotConvergedError, Problem, critical_loads
-from rodwell.analysis.discrete.curved import along_rod, linear_space
+from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.curved_meshes import linear_space
 from rodwell.analysis.straight.critical import tensile_loads
 from rodwell.analysis.straight.lying import least_contact, lies_between, lying_contact, lying_fields
 from rodwell.analysis.straight.lying_loads import _Pencil

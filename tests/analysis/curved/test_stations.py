@@ -29,14 +29,28 @@ WELL = Survey.of([0.0, 38.0, 100.0], [83.0, 86.0, 86.0])
 """A build of 3 degrees along the upper 38 % of the rod, straight below: the curvature vanishes at the station."""
 
 
-def rod(weight: float = 15.0, survey: Survey = WELL) -> Problem:
-    return Problem(weight, clearance=D, axis=path_of_survey(survey).piece(0.0, 100.0).axis)
+STRING = ((0.3, 1.0, 1.0), (0.4, 0.4, 0.6), (0.3, 2.0, 1.5))
+"""Sections in that well: length, stiffness, weight."""
+
+
+def rod(weight: float = 15.0, survey: Survey = WELL, sections: tuple[tuple[float, ...], ...] = ()) -> Problem:
+    axis = path_of_survey(survey).piece(0.0, 100.0).axis
+    return Problem(weight, clearance=D, axis=axis, sections=sections)  # type: ignore[arg-type]
+
+
+def rod_at(problem: Problem, s: float) -> tuple[float, float]:
+    """Stiffness and weight at a place, as ratios."""
+    for length, stiffness, weight, *_ in problem.sections:
+        if s < length:
+            return float(stiffness), float(weight)  # type: ignore[arg-type]
+        s -= length
+    return 1.0, 1.0
 
 
 def between(problem: Problem) -> list[tuple[float, float, Chebyshev, Chebyshev, Chebyshev]]:
-    """Each stretch of the rod between stations: ends, slope ψ, curvature κᵣ and height there as polynomials in s."""
+    """Each stretch between stations and steps: ends, slope ψ, curvature κᵣ and height as polynomials in s."""
     assert problem.hole is not None
-    ends = [0.0, *curved.stations_along(problem), 1.0]
+    ends = np.union1d(curved.stations_along(problem), [0.0, *np.cumsum([x[0] for x in problem.sections]), 1.0])
     out = []
     for low, high in itertools.pairwise(ends):
         s = 0.5 * (low + high) - 0.5 * (high - low) * np.cos(np.pi * np.arange(25) / 24)
@@ -51,24 +65,36 @@ def between(problem: Problem) -> list[tuple[float, float, Chebyshev, Chebyshev, 
 
 
 def determinant(force: float, problem: Problem) -> float:
-    """Zero where v⁗ − (A v′)′ + (P/Δ) v = 0 has a solution that is clamped at both ends.
+    """Zero where (b v″)″ − (A v′)′ + (P/Δ) v = 0 has a solution that is clamped at both ends.
 
-    Balance of the rod in the plane: tension N − κᵣ² with N = F − w[h(1) − h(s)] + ½κᵣ² − ½κᵣ(1)², see the page on
-    curved holes, and shear κᵣ′; so P = w cos ψ − κᵣ(N − κᵣ²) + κᵣ″, and A = N − 2κᵣ².
+    Balance of the rod in the plane: tension N − bκᵣ² with N′ = q w ψ-rise + b κᵣκᵣ′ and N(1) = F, see the page on
+    curved holes, and shear bκᵣ′; so P = q w cos ψ − κᵣ(N − bκᵣ²) + bκᵣ″, and A = N − 2bκᵣ². At a step of b the wall's
+    couple −[b]κᵣ and force [b]κᵣ′ are part of that contact: b v″ jumps by −[b]κᵣv/Δ, the shear by [b](κᵣv′ − κᵣ′v)/Δ.
     """
-    stretches = between(problem)
-    last, top = stretches[-1][3](1.0), stretches[-1][4](1.0)
-    states = np.zeros((4, 2))
+    stretches, drive, drives = between(problem), force, []
+    for low, high, _, curvature, height in stretches[::-1]:
+        b, q = rod_at(problem, 0.5 * (low + high))
+        along = q * problem.weight * height + 0.5 * b * curvature**2
+        drives.append(along - along(high) + drive)
+        drive = drives[-1](low)
+    states, before = np.zeros((4, 2)), None
     states[2, 0] = states[3, 1] = 1.0
-    for low, high, slope, curvature, height in stretches:
-        bend = curvature.deriv(2)
+    for (low, high, slope, curvature, _), tension in zip(stretches, drives[::-1], strict=True):
+        b, q = rod_at(problem, 0.5 * (low + high))
+        first, bend = curvature.deriv(), curvature.deriv(2)
+        if before is not None:
+            step, (v, v1, *_) = (b - before) / D, states.copy()
+            states[2] -= step * curvature(low) * v
+            states[3] += step * (curvature(low) * v1 - first(low) * v)
+        before = b
 
-        def rate(s: float, flat: FloatArray, c=curvature, h=height, psi=slope, b=bend) -> FloatArray:  # type: ignore[no-untyped-def]
-            kr = c(s)
-            drive = force - problem.weight * (top - h(s)) + 0.5 * (kr**2 - last**2)
-            contact = problem.weight * math.cos(psi(s)) - kr * (drive - kr**2) + b(s)
-            v, v1, v2, q = flat.reshape(4, 2)
-            return np.concatenate([v1, v2, q + (drive - 2.0 * kr**2) * v1, -contact / D * v])
+        def rate(  # type: ignore[no-untyped-def]
+            s: float, flat: FloatArray, c=curvature, n=tension, psi=slope, k2=bend, b: float = b, q: float = q
+        ) -> FloatArray:
+            kr, here = c(s), n(s)
+            contact = q * problem.weight * math.cos(psi(s)) - kr * (here - b * kr**2) + b * k2(s)
+            v, v1, moment, shear = flat.reshape(4, 2)
+            return np.concatenate([v1, moment / b, shear + (here - 2.0 * b * kr**2) * v1, -contact / D * v])
 
         states = solve_ivp(rate, (low, high), states.ravel(), method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
         states = states.reshape(4, 2)
@@ -101,6 +127,13 @@ def errors_on_meshes(problem: Problem, load: float, kinks: FloatArray) -> FloatA
             for mesh in (space, space.refined())
         ]
     )
+
+
+def test_critical_loads_of_a_string_along_stations_are_those_of_the_second_method() -> None:
+    problem = rod(sections=STRING)
+    found = critical_loads(problem, 1)[0]
+    load = brentq(determinant, found.force - 0.1, found.force + 0.1, args=(problem,), xtol=1e-12)
+    assert found.force == pytest.approx(load, rel=1e-10)
 
 
 def test_critical_loads_converge_in_the_order_of_the_splines_to_that_of_the_second_method() -> None:

@@ -19,6 +19,7 @@ from rodwell.errors import checked_whole
 from rodwell.numerics.continuation.location import bracketed_root
 from rodwell.problem.problem import Problem
 from rodwell.problem.rod import lower_half
+from rodwell.problem.sections import seen_from_s_1
 from rodwell.problem.varying import Along, Parameter, ParameterPath, limits_of, throughout, varied
 from rodwell.quantities.tolerance import RTOL, checked_rtol
 
@@ -282,5 +283,5 @@ def _half_in_arc(problem: Problem, parity: int) -> Problem:
     turn = math.degrees(0.25 * problem.build / (1.0 + reach * problem.build))
     return problem.but(
         weight=problem.weight / 8.0, clearance=2.0 * problem.clearance, build=0.5 * problem.build,
-        alpha=90.0 - turn, ends=(middle, problem.ends[1]),
+        alpha=90.0 - turn, ends=(middle, problem.ends[1]), sections=seen_from_s_1(lower_half(problem.sections)),
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""A curved hole along the rod that lies in it: what kernels are given, and first meshes.
+"""A curved hole along the rod that lies in it: what kernels are given.
 
 Coefficients are taken where the rod is before it buckles: at the place S₀(s) on the hole's axis, with dS₀/ds =
 1/(1 + Δκₙ) of a rod on the generator θ = 0, and S₀(½) = ½. Of a buckled rod the place S(s) is another, by the end
@@ -13,19 +13,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from rodwell.analysis.discrete.choices import (
-    DEGREE,
-    ELEMENTS_PER_RADIAN,
-    LEAST_WAVENUMBER,
-    LINEAR_ELEMENTS_PER_RADIAN,
-    MOST_ELEMENTS_OF_BRANCH,
-    POINTS_OF_BRANCH,
-)
-from rodwell.numerics.splines.spaces import SplineSpace, graded_mesh, running_integral
-from rodwell.physics.on_wall.curved import TERMS
+from rodwell.physics.on_wall.curved import CENTRE, FIRST, SCALE, TERMS
 from rodwell.problem.hole import Hole
 from rodwell.problem.lying import lying_rod_beside, places_of_lying_rod
 from rodwell.problem.problem import Problem
+from rodwell.problem.rod import Rod
 from rodwell.quantities.arrays import FloatArray
 
 PIECES = 64
@@ -51,17 +43,14 @@ BESIDE_NODES = np.array([0.03, 0.21, 0.37, 0.52, 0.68, 0.83, 0.97])  # places in
 PIECES_PER_RADIAN = 12.0
 """More pieces where the hole turns more."""
 
+BESIDE_STEP = 1e-4
+"""Part of the longest piece by which a station is beside a step of a string, which takes its place: the second
+derivative of the curvature jumps there, which so close to an end a polynomial has to 1e-6 of itself."""
+
 NO_PIECE = 1e-9
 """Breaks of the axis nearer to an end of the rod, in L, make no piece of their own."""
 
-APART = 0.12
-"""Radians of the local wavenumber by which kinks of a mesh are apart, and from its ends: round-off in the contact grows
-like h⁻³. Of stations closer together some are left to the mesh as it is."""
-
-MOST_PIECES = MOST_ELEMENTS_OF_BRANCH // 4
-"""More pieces of a hole, as through very many points, are left to the mesh as it is."""
-
-PLACES = np.linspace(0.0, 1.0, 257)  # at which the local wavenumber is looked at
+PLACES = np.linspace(0.0, 1.0, 257)  # fine enough to interpolate between
 
 Along = Callable[[FloatArray], FloatArray]
 """Something along the rod: values at places (m,), of several (k, m)."""
@@ -76,25 +65,26 @@ class HoleAlong:
     breaks
         Ends of the pieces, rising from 0 to 1, (n + 1,).
     rows
-        What :data:`rodwell.physics.on_wall.curved.GIVEN` names of each piece, (n, 44).
+        What :data:`rodwell.physics.on_wall.curved.GIVEN` names of each piece, (n, 45).
     """
 
     breaks: FloatArray
     rows: FloatArray
 
     def __call__(self, places: FloatArray) -> FloatArray:
-        """Coefficients of the pieces in which places (m,) lie, (m, 44)."""
+        """Coefficients of the pieces in which places (m,) lie, (m, 45)."""
         return np.ascontiguousarray(self.rows[np.searchsorted(self.breaks[1:-1], places, side="right")])
 
 
-def hole_along(breaks: FloatArray, functions: Along) -> HoleAlong:
-    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m), or the first of these, on pieces."""
+def hole_along(rod: Rod, breaks: FloatArray, functions: Along) -> HoleAlong:
+    """Tabulate k₁, k₂, g₁, g₂, A, C as functions of s (6, m), or the first of these, on pieces; each in one section."""
     half, centre = 0.5 * np.diff(breaks), 0.5 * (breaks[1:] + breaks[:-1])
     nodes = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
     values = functions((centre[:, None] + half[:, None] * nodes).ravel()).reshape(-1, TERMS)
     coefficients = np.linalg.solve(np.vander(nodes, increasing=True), values.T).T
     by_piece = coefficients.reshape(-1, half.size, TERMS).transpose(1, 0, 2).reshape(half.size, -1)
-    return HoleAlong(breaks, np.concatenate([np.stack([centre, 1.0 / half], axis=1), by_piece], axis=1))
+    about = np.stack([rod.stiffness(centre), centre, 1.0 / half], axis=1)
+    return HoleAlong(breaks, np.concatenate([about, by_piece], axis=1))
 
 
 NODES = 12
@@ -193,21 +183,34 @@ def height_of_rod(problem: Problem, places: FloatArray, angle: FloatArray) -> Fl
 def along_rod(problem: Problem) -> HoleAlong:
     """The hole along the undeformed rod of a problem.
 
-    A(s) = ∫ₛ¹ T·k ds is by how much higher the loaded end lies than the rod at s. The rod has the curvature κᵣ =
-    k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = ½κᵣ²(s) − ½κᵣ²(1).
+    A(s) = ∫ₛ¹ q T·k ds, of a uniform rod by how much higher the loaded end lies than the rod at s. The rod has the
+    curvature κᵣ = k₁/(1 + Δk₁): what moves on bends with it, which gives C(s) = −∫ₛ¹ b κᵣκᵣ′ ds.
     """
-    rise = lifted(_breaks(problem), lambda s: hole_at(problem, undeformed_place(problem, s))[1])
+    rod, rise = problem.rod, hung(problem, pieces_of(problem))
 
     def bending(k1: FloatArray) -> FloatArray:
         return np.asarray(0.5 * (k1 / (1.0 + problem.clearance * k1)) ** 2)
 
-    last = bending(hole_at(problem, undeformed_place(problem, np.array([1.0])))[0][0])
+    ends = bending(hole_at(problem, undeformed_place(problem, rod.breaks[1:]))[0][0])
+    stiffness = rod.stiffness(rod.breaks[:-1])  # of each section; C by parts: b κᵣ²/2, and what its steps leave
+    left = np.cumsum(np.append(np.diff(stiffness) * ends[:-1], -stiffness[-1] * ends[-1])[::-1])[::-1]
 
     def functions(s: FloatArray) -> FloatArray:
-        here = hole_at(problem, undeformed_place(problem, s))[0]
-        return np.concatenate([here, rise(s)[None], (bending(here[0]) - last)[None]])
+        here, weight = hole_at(problem, undeformed_place(problem, s))[0], rod.weight(s)
+        here[2:] *= weight
+        driven = rod.stiffness(s) * bending(here[0]) + left[rod.stiffness.piece_of(s)]
+        return np.concatenate([here, rise(s)[None], driven[None]])
 
-    return hole_along(_breaks(problem), functions)
+    return hole_along(rod, pieces_of(problem), functions)
+
+
+def hung(problem: Problem, breaks: FloatArray) -> PiecewisePolynomial:
+    """A(s) = ∫ₛ¹ q T·k ds of the undeformed rod, between ``breaks``."""
+
+    def climb(s: FloatArray) -> FloatArray:
+        return problem.rod.weight(s) * hole_at(problem, undeformed_place(problem, s))[1]
+
+    return lifted(breaks, climb)
 
 
 def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
@@ -216,22 +219,31 @@ def lifted(breaks: FloatArray, rate: Along) -> PiecewisePolynomial:
 
 
 @lru_cache(maxsize=64)
-def _breaks(problem: Problem) -> FloatArray:
-    """Ends of the pieces of the rod, rising from 0 to 1: even, or between stations or points, and no piece long."""
-    hole, stations = _hole(problem), stations_along(problem)
+def pieces_of(problem: Problem) -> FloatArray:
+    """Ends of the pieces of the rod, rising from 0 to 1: even, or between steps and stations or points; none long."""
+    hole, stations, steps = _hole(problem), stations_along(problem), problem.rod.breaks[1:-1]
     count = max(PIECES, 2 * int(np.ceil(0.5 * PIECES_PER_RADIAN * hole.turning)))
     if stations.size:
-        breaks = _pieces(stations, count)
+        breaks = _pieces(_with_steps(steps, stations, count), count)
         allowed = BETWEEN_STATIONS * (problem.weight + hole.sharpest * (stations.size + 1) ** 2) / SHARPENED
         for _ in range(MOST_HALVINGS):
             if _missed(breaks, problem) * (breaks.size - 1) ** 2 <= allowed:
                 break
             breaks = np.insert(breaks, np.arange(1, breaks.size), 0.5 * (breaks[1:] + breaks[:-1]))
         return breaks
-    even = np.linspace(0.0, 1.0, count + 1)
+    even = _pieces(steps, count) if steps.size else np.linspace(0.0, 1.0, count + 1)
     if not hole.breaks.size or _missed(even, problem) <= RESOLVED * hole.sharpest:
         return even
-    return _pieces(_inside(np.interp(hole.breaks, undeformed_place(problem, PLACES), PLACES)), count)
+    points = _inside(np.interp(hole.breaks, undeformed_place(problem, PLACES), PLACES))
+    return _pieces(_with_steps(steps, points, count), count)
+
+
+def _with_steps(steps: FloatArray, places: FloatArray, count: int) -> FloatArray:
+    """Steps of a string (k,) and places (m,), rising; of the places those that are not beside a step."""
+    if not steps.size:
+        return places
+    away = np.min(np.abs(places[:, None] - steps), axis=1) * count >= BESIDE_STEP
+    return np.sort(np.concatenate([steps, places[away]]))
 
 
 def _pieces(ends: FloatArray, count: int) -> FloatArray:
@@ -250,8 +262,8 @@ def _missed(breaks: FloatArray, problem: Problem) -> float:
         return _hole(problem).curvatures(undeformed_place(problem, s)).T
 
     s = (breaks[:-1, None] + np.diff(breaks)[:, None] * BESIDE_NODES).ravel()
-    rows = hole_along(breaks, curvatures)(s)
-    x, coefficients = (s - rows[:, 0]) * rows[:, 1], rows[:, 2:].reshape(s.size, -1, TERMS)
+    rows = hole_along(problem.rod, breaks, curvatures)(s)
+    x, coefficients = (s - rows[:, CENTRE]) * rows[:, SCALE], rows[:, FIRST:].reshape(s.size, -1, TERMS)
     pieces = np.polynomial.polynomial.polyval(x, coefficients.T, tensor=False)
     return float(np.max(np.abs(pieces - curvatures(s))))
 
@@ -259,40 +271,3 @@ def _missed(breaks: FloatArray, problem: Problem) -> float:
 def _hole(problem: Problem) -> Hole:
     """The hole of a problem; a straight one as an arc without curvature."""
     return Hole.arc(problem.alpha) if problem.hole is None else problem.hole
-
-
-def linear_space(problem: Problem, loads: tuple[float, float]) -> SplineSpace:
-    """Spline space for modes between two end forces, tension positive."""
-    return _space(problem, _wavenumber(problem, loads) + LEAST_WAVENUMBER, LINEAR_ELEMENTS_PER_RADIAN)
-
-
-def first_space(problem: Problem, compression: float, tension: float) -> SplineSpace:
-    """Spline space for branches between the most compressive and the most tensile end force, tension positive."""
-    wavenumber = _wavenumber(problem, (compression, tension)) + 2.0 * np.pi
-    return _space(problem, wavenumber, ELEMENTS_PER_RADIAN, POINTS_OF_BRANCH)
-
-
-def _space(problem: Problem, wavenumber: FloatArray, per_radian: float, per_element: int | None = None) -> SplineSpace:
-    """Space that resolves a wavenumber at PLACES, no element on two pieces of the hole; with kinks at stations."""
-    if not problem.axis:  # the pieces of an arc go over into each other
-        return SplineSpace(graded_mesh(wavenumber, PLACES, per_radian), DEGREE, per_element)
-    kinks, last = [], 0.0
-    stations = stations_along(problem)
-    phase = np.interp([*stations, 1.0], PLACES, running_integral(wavenumber, PLACES))
-    for place, reached in zip(stations, phase[:-1], strict=True):
-        if reached - last >= APART <= phase[-1] - reached:
-            kinks.append(place)
-            last = reached
-    pieces = _breaks(problem)[1:-1]
-    breaks = pieces if pieces.size <= MOST_PIECES else np.array(kinks)
-    mesh = graded_mesh(wavenumber, PLACES, per_radian, breaks=breaks)
-    return SplineSpace(mesh, DEGREE, per_element, np.array(kinks))
-
-
-def _wavenumber(problem: Problem, loads: tuple[float, float]) -> FloatArray:
-    """√|N| + (p/Δ)^¼ with the largest contact p per length between two end forces, at PLACES places."""
-    k1, k2, g1, g2 = hole_at(problem, undeformed_place(problem, PLACES))[0]
-    hung = problem.weight * lifted(PLACES, lambda s: hole_at(problem, undeformed_place(problem, s))[1])(PLACES)
-    axial = np.maximum(*(np.abs(load - hung) for load in loads))
-    pressed = problem.weight * np.hypot(g1, g2) + np.hypot(k1, k2) * axial
-    return np.asarray(np.sqrt(axial) + (pressed / problem.clearance) ** 0.25)

@@ -210,7 +210,7 @@ def given_along(problem: Problem) -> Given | None:
     """What kernels are given along s: of sections, b, q and d of :mod:`rodwell.physics.on_wall.sections`, (m, 3).
 
     Of sections that taper, what :mod:`rodwell.physics.on_wall.tapered` names, (m, 17); of a curved hole, what
-    :mod:`rodwell.physics.on_wall.curved` does, (m, 44).
+    :mod:`rodwell.physics.on_wall.curved` does, (m, 45).
     """
     if problem.hole is not None:
         return along_rod(problem)

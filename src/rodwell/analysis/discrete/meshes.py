@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rodwell.analysis.discrete import curved, sectioned
+from rodwell.analysis.discrete import curved_meshes, sectioned
 from rodwell.analysis.discrete.choices import (
     DEGREE,
     ELEMENTS_PER_RADIAN,
@@ -75,7 +75,7 @@ def first_space(problem: Problem, compression: float, tension: float = 0.0) -> S
     Elements grow where states have died away: beyond the part of the rod in which the lowest end force makes waves.
     """
     if problem.hole is not None:
-        return curved.first_space(problem, compression, tension)
+        return curved_meshes.first_space(problem, compression, tension)
     if problem.sections:
         return sectioned.first_space(problem, compression, tension)
     if problem.axial_weight < 0.0:

@@ -43,7 +43,7 @@ wavenumber, so high a degree; of critical loads (False) and of branches. Round-o
 the fourth power of that ratio, and more the higher the degree, and in short elements a low degree resolves as much."""
 
 
-def _places(problem: Problem) -> tuple[FloatArray, IntArray]:
+def places_along(problem: Problem) -> tuple[FloatArray, IntArray]:
     """Places (m,), rising, each step twice, and the section (m,) that each belongs to."""
     breaks = problem.rod.breaks
     lengths = np.diff(breaks)
@@ -64,7 +64,7 @@ def _local(problem: Problem, places: FloatArray, section: IntArray) -> tuple[Flo
 
 def wkb_load(problem: Problem, number: float) -> float:
     """Compression −F at s = 1 at which about ``number`` modes have been met: ∫ (k₃ − k₁) ds = number · π."""
-    places, section = _places(problem)
+    places, section = places_along(problem)
     stiffness, axial, foundation = _local(problem, places, section)
     steps = np.diff(places)
     floor = 2.0 * np.sqrt(np.maximum(foundation, 0.0) / stiffness)
@@ -116,14 +116,20 @@ def first_space(problem: Problem, compression: float, tension: float) -> SplineS
 
 def _space(problem: Problem, loads: tuple[float, float], least: float, per_radian: float, branch: bool) -> SplineSpace:
     """Space that resolves √(|P|/b) + (a/b)^¼ and ``least`` at compressions −F from one load to the other."""
-    places, section = _places(problem)
+    places, section = places_along(problem)
     stiffness, axial, foundation = _local(problem, places, section)
     most = np.maximum(np.abs(loads[0] - axial), np.abs(loads[1] - axial))
     wavenumber = np.sqrt(most / stiffness) + (np.abs(foundation) / stiffness) ** 0.25 + least
     breaks = problem.rod.breaks
     mesh = graded_mesh(wavenumber, places, per_radian, LEAST_ELEMENTS, breaks[1:-1])
-    shortest = float(np.min(np.diff(breaks))) * float(np.trapezoid(wavenumber, places))
+    return kinked_space(mesh, breaks[1:-1], float(np.trapezoid(wavenumber, places)), branch)
+
+
+def kinked_space(mesh: FloatArray, kinks: FloatArray, radians: float, branch: bool) -> SplineSpace:
+    """Spline space on a mesh with kinks (k,), of so many radians of the local wavenumber in all."""
+    ends = np.concatenate([[0.0], kinks, [1.0]])
+    shortest = float(np.min(np.diff(ends))) * radians
     degree = min([DEGREE, *(lower for most, lower in LOWER_DEGREES[branch] if shortest < most)])
-    inside = np.diff(np.searchsorted(mesh, breaks))  # elements of each section
+    inside = np.diff(np.searchsorted(mesh, ends))  # elements between kinks
     few = branch and degree == DEGREE and int(np.min(inside)) >= SMOOTH
-    return SplineSpace(mesh, degree, POINTS_OF_BRANCH if few else None, breaks[1:-1])
+    return SplineSpace(mesh, degree, POINTS_OF_BRANCH if few else None, kinks)

@@ -4,6 +4,9 @@ The rod starts at the station, its lower end, and goes uphill in a straight hole
 force at the lower end its loads tend to limits as it grows longer: upwards the axial weight takes the compression away.
 The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole, where the approach
 is slowest, n half waves between clamped ends add 2/n² of the load.
+
+In a hole that builds or drops the rod lies along an arc of the station's curvature κ, which begins with the station's
+inclination. Its wave is that of He and Kyllingstad's load, F = (2B/r)[κ + √(κ² + r w sin α/B)]: π √(2B/F).
 """
 
 from __future__ import annotations
@@ -13,6 +16,8 @@ from dataclasses import dataclass
 
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.straight.critical import critical_loads
+from rodwell.analysis.straight.lying import least_contact
+from rodwell.analysis.straight.lying_slopes import beside
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
@@ -30,6 +35,12 @@ RTOL_CRITICAL, RTOL_LIFT_OFF = 1e-6, 1e-4
 """Relative tolerances of the two exact loads."""
 
 
+MOST_TURN = 1.0
+"""By how many radians the arc of a local rod turns at most."""
+
+HANGS = "no force keeps the pipe on this side of the bend, along which it hangs"
+"""Why there may be no load in a bend."""
+
 STEP = 0.15
 """Longest step of the branch that is followed to lift-off, which is located exactly whatever the steps."""
 
@@ -43,19 +54,29 @@ class PipeString:
     clearance: float
     ends: tuple[str, str] = ("clamped", "clamped")
 
-    def length(self, alpha: float, half_waves: float = HALF_WAVES) -> float:
-        """Length of the local rod in m at an inclination in degrees."""
+    def length(self, alpha: float, half_waves: float = HALF_WAVES, build: float = 0.0) -> float:
+        """Length of the local rod in m at an inclination in degrees, in a hole with a build in 1/m."""
         longest = LONGEST * (self.stiffness / self.weight) ** (1.0 / 3.0) * half_waves / HALF_WAVES
         lateral = self.weight * math.sin(math.radians(alpha))
+        if build != 0.0:
+            root = math.sqrt(build**2 + self.clearance * lateral / self.stiffness)
+            wavenumber = math.sqrt((build + root) / self.clearance)  # √(F/2B)
+            longest = min(longest, MOST_TURN / abs(build))
+            return float(longest if wavenumber == 0.0 else min(half_waves * math.pi / wavenumber, longest))
         if lateral == 0.0:
             return float(longest)
         return float(min(half_waves * math.pi * (self.stiffness * self.clearance / lateral) ** 0.25, longest))
 
-    def problem(self, alpha: float, half_waves: float = HALF_WAVES) -> tuple[Problem, float]:
+    def problem(self, alpha: float, half_waves: float = HALF_WAVES, build: float = 0.0) -> tuple[Problem, float]:
         """The local rod at an inclination from 0 to 90 degrees, and its unit of force B/L² in N."""
-        length = self.length(alpha, half_waves)
-        weight = self.weight * length**3 / self.stiffness
-        return Problem(weight, alpha, self.clearance / length, ends=self.ends), self.stiffness / length**2
+        length = self.length(alpha, half_waves, build)
+        weight, unit = self.weight * length**3 / self.stiffness, self.stiffness / length**2
+        rod = Problem(weight, alpha, self.clearance / length, ends=self.ends)
+        if build == 0.0:
+            return rod, unit
+        bent = rod.but(build=build * length)
+        turned = 0.5 * bent.build / (1.0 + bent.clearance * bent.build)  # from the lower end to mid-length
+        return beside(bent, "alpha", -math.degrees(turned)), unit
 
 
 @dataclass(frozen=True)
@@ -66,14 +87,25 @@ class LocalLoad:
     reason: str = ""
 
 
-def critical_compression(string: PipeString, alpha: float, half_waves: float = HALF_WAVES) -> LocalLoad:
-    """First critical load: compression −N(0) = −F + γ cos α at the lower end, in N; error of this length's load."""
-    problem, unit = string.problem(alpha, half_waves)
+def critical_compression(
+    string: PipeString, alpha: float, half_waves: float = HALF_WAVES, build: float = 0.0
+) -> LocalLoad:
+    """First critical load: compression −N(0) at the lower end, in N, in a hole with a build in 1/m.
+
+    Its error is that of this length's load.
+    """
     try:
+        problem, unit = string.problem(alpha, half_waves, build)
         mode = critical_loads(problem, 1, rtol=RTOL_CRITICAL)[0]
     except NotConvergedError as error:
+        return LocalLoad(None, reason=HANGS if build != 0.0 else str(error))
+    except InputError as error:
+        if build == 0.0:
+            raise
         return LocalLoad(None, reason=str(error))
-    return LocalLoad(Value((problem.axial_weight - mode.force) * unit, mode.error * unit))
+    if problem.hole is not None and least_contact(problem, mode.force).value < 0.0:
+        return LocalLoad(None, reason="the curve takes the pipe off the wall before it buckles")
+    return LocalLoad(Value((problem.hung_weight - mode.force) * unit, mode.error * unit))
 
 
 def lift_off_compression(string: PipeString, alpha: float, half_waves: float = LIFT_OFF_HALF_WAVES) -> LocalLoad:

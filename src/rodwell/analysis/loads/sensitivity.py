@@ -190,9 +190,9 @@ def of_critical_load(mode: Mode) -> Sensitivity:
 
 
 def _by_sections(mode: Mode) -> tuple[Derivatives, ...]:
-    """Derivatives of a critical load by the data of each section."""
+    """Derivatives of a critical load by the data of each section; none in a curved hole."""
     problem = mode.problem
-    if not problem.sections:
+    if not problem.sections or problem.hole is not None:
         return ()
     rod = problem.rod
     fine, coarse = (section_slopes(problem, *on) for on in ((mode.space, mode.coefficients), mode.coarse))
@@ -272,7 +272,7 @@ def of_lift_off(lift: SpecialPoint) -> Sensitivity:
             several = "lifts off at several places at once: the derivative by α is that towards smaller α"
             note = f"{several}; {OF_THE_BRANCH}" if solution.problem.hole is not None else several
     by_section = []
-    for i in range(len(solution.problem.sections)):
+    for i in range(len(solution.problem.sections) if solution.problem.hole is None else 0):
         each = {}
         for name in SECTION_RATIOS:
             rates, errors = (np.array(part) for part in section_pressure_rates(solution, lift.s, i, name))

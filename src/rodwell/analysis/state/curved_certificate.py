@@ -6,6 +6,9 @@ balance weight and contact as vectors:
 
     r′ = t,   t′ = M × t of the rod's bending,   n − n(0) = ∫ (w k + p d₁) ds,   M′ + t × n = 0.
 
+At steps between sections the wall exerts a force along d₁ and a couple c about u₁, two opposite forces that the rod
+turns: c d₁′ = c (ω₁u₁ − ω₃t₁) is left of them. The moment about d₁ does not jump.
+
 The state is solved with every cross-section at its own place first (:mod:`rodwell.analysis.state.own_places`): a branch
 takes the hole where the undeformed rod is, and by how much its numbers are off is told beside.
 """
@@ -56,10 +59,14 @@ def residuals(problem: Problem, family: Family, state: State) -> dict[str, float
     force, moment = (_vector(fields, kind, frame) for kind in ("F", "M"))
     largest = float(np.max(np.linalg.norm(force, axis=1)))  # a rod that lies still has no shear
     weight = np.zeros_like(force)
-    weight[:, 2] = rod.parameters[AXIAL_WEIGHT]
+    weight[:, 2] = rod.parameters[AXIAL_WEIGHT] * problem.rod.weight(s)
     bent = fields["omega3"][:, None] * d1 - fields["omega2"][:, None] * u1
     loads = weight + fields["contact_pressure"][:, None] * d1
     gained, whole_gain = integral(loads)
+    steps = problem.rod.breaks[1:-1]
+    if steps.size:
+        at_steps = _at_steps(rod, steps)
+        gained, whole_gain = gained + at_steps[np.searchsorted(steps, s)], whole_gain + at_steps[-1]
     middle = s.size // 2  # where third derivatives of a spline are known best
     first = force[middle] - gained[middle]
     out = {
@@ -68,7 +75,24 @@ def residuals(problem: Problem, family: Family, state: State) -> dict[str, float
         "force balance": left(force - first, -gained, least=max(float(np.max(np.abs(weight))), _TINY)),
         "moment balance": left(rate(moment), np.cross(tangent, force), least=largest),
     }
+    if steps.size:
+        out["moment at steps"] = _moment_at_steps(rod, steps, float(np.max(np.abs(fields["rod_M2"]))))
     return out | _ends(problem, rod, np.array([first, first + whole_gain]))
+
+
+def _at_steps(rod: InHole, steps: FloatArray) -> FloatArray:
+    """What the wall at steps (k,) makes of the rod's force, added up from s = 0, (k + 1, 3)."""
+    couple, radial = rod.steps()
+    tangent, d1, u1 = rod.frames(steps)[1].transpose(1, 0, 2)
+    bent = rod.strand(steps)
+    turned = bent["omega1"][:, None] * u1 - bent["omega3"][:, None] * tangent
+    forces = radial[:, None] * d1 + couple[:, None] * turned
+    return np.concatenate([np.zeros((1, 3)), np.cumsum(-forces, axis=0)])
+
+
+def _moment_at_steps(rod: InHole, steps: FloatArray, size: float) -> float:
+    below, above = (rod.strand(s)["rod_M2"] for s in (np.nextafter(steps, 0.0), steps))
+    return float(np.max(np.abs(above - below))) / max(size, _TINY)
 
 
 def _vector(fields: dict[str, FloatArray], kind: str, frame: FloatArray) -> FloatArray:
@@ -80,7 +104,7 @@ def _ends(problem: Problem, rod: InHole, forces: FloatArray) -> dict[str, float]
     """What ends hold, and the moment and the force around the hole that they leave free, relative to the largest.
 
     ``forces`` (2, 3) are those at s = 0 and s = 1 by the balance of the whole. The force that goes with y is n·u₂ +
-    (ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
+    (b ω₃ sin η + T₁(cos η − 1))/Δ: a step around the hole turns the rod, too.
     """
     everywhere = np.concatenate([[0.0, 1.0], np.linspace(0.0, 1.0, 201)])
     (y, y1), fields = rod.shape(everywhere, 2), rod.strand(everywhere)
@@ -88,7 +112,7 @@ def _ends(problem: Problem, rod: InHole, forces: FloatArray) -> dict[str, float]
     tangent, _, u1 = rod.frames(everywhere[:2])[1].transpose(1, 0, 2)
     u2 = y1[:2, None] * tangent + cos[:2, None] * u1
     around = np.sum(forces * u2, axis=1)
-    around += (fields["omega3"] * y1 + rod.parameters[TWIST] * (cos - 1.0))[:2] / rod.clearance
+    around += (fields["rod_M3"] * y1 + rod.parameters[TWIST] * (cos - 1.0))[:2] / rod.clearance
     size = float(np.max(np.linalg.norm([fields[f"rod_F{i}"] for i in (1, 2, 3)], axis=0)))
     out: dict[str, float] = {}
     for k, end in enumerate(problem.ends):

@@ -108,16 +108,24 @@ def total_wall_force(problem: Problem, family: Family, state: State) -> float:
     """∫|p| ds in B/L², and of a string the forces of the wall at single places, at steps of the stiffness."""
     space, parameters = state.space, family.parameters(state.lam)
     if problem.hole is not None:
-        return float(space.weights @ np.abs(in_hole(problem, family, state).fields(space.points)["contact_pressure"]))
-    pressure = pressure_at(problem.rod, parameters, space.points, shape(family, state, space.points, 4))
+        pressure = in_hole(problem, family, state).strand(space.points)["contact_pressure"]
+    else:
+        pressure = pressure_at(problem.rod, parameters, space.points, shape(family, state, space.points, 4))
     total = float(space.weights @ np.abs(pressure))
     if problem.sections:
         total += float(np.sum(np.abs(steps_of(problem, family, state)[1])))
     return total
 
 
-def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps, and the rod's jumps (2, k).
+def steps_of(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray]:
+    """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps between sections."""
+    if problem.hole is not None:
+        return in_hole(problem, family, state).steps()
+    return _steps_and_jumps(problem, family, state)[:2]
+
+
+def _steps_and_jumps(problem: Problem, family: Family, state: State) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The same in a straight hole, and by how much the rod's force jumps, (2, k).
 
     See :func:`rodwell.physics.on_wall.sections.step_loads` and :func:`~rodwell.physics.on_wall.sections.step_jumps`.
     """
@@ -136,7 +144,7 @@ def _with_steps(
     if not problem.sections:
         return integrals
     left, right = integrals
-    jumps = steps_of(problem, family, state)[2]
+    jumps = _steps_and_jumps(problem, family, state)[2]
     above = np.concatenate([np.cumsum(jumps[:, ::-1], axis=1)[:, ::-1], np.zeros((2, 1))], axis=1)
     right = right.copy()
     right[6:8] += above[:, problem.rod.stiffness.piece_of(s)]

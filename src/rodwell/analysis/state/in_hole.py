@@ -17,7 +17,7 @@ from rodwell.analysis.discrete.curved import (
 )
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.state import State
-from rodwell.physics.on_wall.curved import bends_at, strand
+from rodwell.physics.on_wall.curved import bends_at, step_loads, strand
 from rodwell.physics.on_wall.curved import hole_at as tabulated
 from rodwell.physics.on_wall.frames import material_curvatures
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, TWIST
@@ -97,10 +97,10 @@ class InHole:
         ``z`` is the way along the hole's axis from s = 0; components refer to t₁, d₁, u₁. ``balance``: with
         "tangential_balance", which needs the height of the rod and takes as long as all the others.
         """
-        out, p = self.strand(s), self.parameters
+        out, p, rod = self.strand(s), self.parameters, self.problem.rod
         bent, torsion = (out["omega2"], out["omega3"]), self.problem.torsional_stiffness
-        xi1 = p[TWIST] / torsion * s + self._turned_in_all - self.turned(s)
-        material = material_curvatures(xi1, *bent, p[TWIST], torsion)
+        xi1 = p[TWIST] / torsion * rod.turned(s) + self._turned_in_all - self.turned(s)
+        material = material_curvatures(xi1, *bent, p[TWIST], torsion * rod.torsion(s))
         out |= {
             "xi2": self._angle(out["y"]),
             "material_omega1": material[0],
@@ -110,13 +110,15 @@ class InHole:
             "xi1": xi1,
         }
         if balance:
-            out["tangential_balance"] = self._energy_along(s, *bent, out["rod_F1"]) - self._energy_at_end
+            known = self._energy_along(s, *bent, out["rod_F1"])
+            out["tangential_balance"] = known - self._energy_at_ends[rod.stiffness.piece_of(s)]
         return out
 
     def strand(self, s: FloatArray) -> dict[str, FloatArray]:
         """Those of the fields that take no integral along the rod: shape, curvatures, forces, moments, contact."""
         u, p = self.shape(s, 4), self.parameters
         omega1, omega2, omega3, f1, f2, f3, pressure = map(np.asarray, strand(s, u, self.given(s), p))
+        stiffness = self.problem.rod.stiffness(s)
         return {
             "y": u[0],
             "eta": np.arcsin(u[1]),
@@ -128,24 +130,35 @@ class InHole:
             "rod_F2": f2,
             "rod_F3": f3,
             "rod_M1": np.full_like(s, -p[TWIST]),
-            "rod_M2": omega2,
-            "rod_M3": omega3,
+            "rod_M2": stiffness * omega2,
+            "rod_M3": stiffness * omega3,
         }
+
+    def steps(self) -> tuple[FloatArray, FloatArray]:
+        """Couple about u₁ and force along d₁, (k,) each, of the wall on the rod at the k steps of a string."""
+        steps = self.problem.rod.breaks[1:-1]
+        sides = np.nextafter(steps, 0.0), steps
+        shapes, given = ([take(s) for s in sides] for take in (lambda s: self.shape(s, 4), self.given))
+        return step_loads(steps, shapes, given, self.parameters)
 
     def _angle(self, y: FloatArray) -> FloatArray:
         """ξ₂ (m,) from the low side."""
         return y / self.clearance + (np.pi if self.problem.on_top else 0.0)
 
     def _energy_along(self, s: FloatArray, omega2: FloatArray, omega3: FloatArray, f1: FloatArray) -> FloatArray:
-        """F₁ + ½(ω₂² + ω₃²) − w × height, which is constant: F₁ comes from what drives the rod along the hole."""
+        """F₁ + ½b(ω₂² + ω₃²) − w × height, constant in a section: F₁ comes from what drives the rod along the hole."""
         height = height_of_rod(self.problem, self.place(s), self._angle(self.shape(s, 1)[0]))
-        return np.asarray(f1 + 0.5 * (omega2**2 + omega3**2) - self.parameters[AXIAL_WEIGHT] * height)
+        rod, weight = self.problem.rod, self.parameters[AXIAL_WEIGHT]
+        bent = 0.5 * rod.stiffness(s) * (omega2**2 + omega3**2)
+        return np.asarray(f1 + bent - weight * rod.weight(s) * height)
 
     @cached_property
-    def _energy_at_end(self) -> float:
-        end = np.array([1.0])
-        _, omega2, omega3, f1, *_ = strand(end, self.shape(end, 4), self.given(end), self.parameters)
-        return float(self._energy_along(end, omega2, omega3, f1)[0])
+    def _energy_at_ends(self) -> FloatArray:
+        """The same at the upper end of each section."""
+        ends = self.problem.rod.breaks[1:]
+        ends = np.append(np.nextafter(ends[:-1], 0.0), 1.0)
+        _, omega2, omega3, f1, *_ = strand(ends, self.shape(ends, 4), self.given(ends), self.parameters)
+        return self._energy_along(ends, omega2, omega3, f1)
 
     @cached_property
     def _first_place(self) -> float:
@@ -167,10 +180,11 @@ class InHole:
         versine, sine = 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)
         lagging = (lying * y1**2 / (1.0 + cos) - d * (k1 * versine + k2 * sine)) / h  # (1 + Δk₁) (S₀′ − S′)
         bending = 0.5 * (normal**2 - (k1 / lying) ** 2 + geodesic**2 - (k2 / lying) ** 2)
+        bending *= self.problem.rod.stiffness(s)
         twisted = y1 * (y1**2 / (1.0 + cos) / d + cos * inwards / h)
         return {
             "bending_energy": float(w @ (bending + offset * lagging)),
-            "twist_energy": float(0.5 * p[TWIST] ** 2 / self.problem.torsional_stiffness),
+            "twist_energy": float(0.5 * p[TWIST] ** 2 / self.problem.whole_torsion),
             "lateral_energy": float(p[AXIAL_WEIGHT] * d * (w @ (g1 * versine + g2 * sine))),
             "axial_energy": float(-p[AXIAL_WEIGHT] * (w @ (lift * lagging))),
             "end_work": float(-p[FORCE] * (w @ lagging) + p[TWIST] * (w @ twisted)),
@@ -184,8 +198,9 @@ class InHole:
         k1, k2, *_ = hole_at(self.problem, self.place(s))[0]
         normal, geodesic, cos, inwards, h = curvature(y / self.clearance, y1, y2, k1, k2, self.clearance)
         torque = p[TWIST] * y1 * ((1.0 - cos) / self.clearance + cos * inwards / h)
-        height = self.frames(s)[0][:, 2]
-        stored = 0.5 * (normal**2 + geodesic**2) + p[AXIAL_WEIGHT] * height - torque
+        height, rod = self.frames(s)[0][:, 2], self.problem.rod
+        bent = 0.5 * rod.stiffness(s) * (normal**2 + geodesic**2)
+        stored = bent + p[AXIAL_WEIGHT] * rod.weight(s) * height - torque
         return float(space.weights @ stored - p[FORCE] * self.travel())
 
     def travel(self) -> float:

@@ -49,10 +49,11 @@ the contact its balance is off."""
 
 
 def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
-    """N′, and T·k, (2, m) with the hole at the rod's own places."""
+    """N′, and q T·k, (2, m) with the hole at the rod's own places."""
     y, y1, y2 = shape.shape(s, 3)
     places, d, problem = shape.place(s), shape.clearance, shape.problem
     (k1, k2, _, _), climb = hole_at(problem, places)
+    stiffness, climb = problem.rod.stiffness(s), problem.rod.weight(s) * climb
     k1_rate, k2_rate = rates_at(problem, places)
     angle = y / d
     sin_a, cos_a = np.sin(angle), np.cos(angle)
@@ -62,7 +63,7 @@ def drive_rate(shape: InHole, s: FloatArray) -> FloatArray:
     weight, twist = shape.parameters[AXIAL_WEIGHT], shape.parameters[TWIST]
     bent = normal * cos**2 * inwards_rate / h**2 + geodesic * cos * (around_rate - d * around * inwards_rate / h) / h
     turned = -twist * y1 * cos * inwards_rate / h**2
-    drive = weight * climb * h + bent + turned + shape.drive(s) * cos * d * inwards_rate / h**2
+    drive = weight * climb * h + stiffness * bent + turned + shape.drive(s) * cos * d * inwards_rate / h**2
     return np.stack([drive, climb])
 
 
@@ -75,12 +76,13 @@ def tables_of(shape: InHole) -> HoleAlong:
 
     def functions(s: FloatArray) -> FloatArray:
         here, _ = hole_at(problem, shape.place(s))
+        here[2:] *= problem.rod.weight(s)
         lift = rise(s)
         drive = last * p[FORCE] - driven(s)
         offset = drive / (1.0 + shape.clearance * here[0]) - p[FORCE] + p[AXIAL_WEIGHT] * lift
         return np.concatenate([here, lift[None], offset[None]])
 
-    return hole_along(breaks, functions)
+    return hole_along(problem.rod, breaks, functions)
 
 
 def with_own_places(
@@ -113,21 +115,27 @@ def with_own_places(
 
 
 def _beside_stations(rod: InHole) -> SplineSpace:
-    """The finer mesh of a rod, moved a little: its kinks beside stations where the rod itself has them."""
-    space, hole = rod.state.space, rod.problem.hole
-    if hole is None or not space.kinks.size:
+    """The finer mesh of a rod, moved a little: its kinks beside stations where the rod itself has them.
+
+    Those at steps of a string stay where they are.
+    """
+    space, hole, steps = rod.state.space, rod.problem.hole, rod.problem.rod.breaks
+    beside = np.setdiff1d(space.kinks, steps)
+    if hole is None or not beside.size:
         return space
-    beside, places = space.kinks, rod.place(space.kinks)
+    places = rod.place(beside)
     stations = hole.stations[np.argmin(np.abs(hole.stations[:, None] - places), axis=0)]
     for _ in range(3):  # Newton's method
         beside = beside - (rod.place(beside) - stations) / rod.step(beside)
-    if np.max(np.abs(beside - space.kinks)) <= BESIDE:
+    moved = space.kinks.copy()
+    moved[~np.isin(moved, steps)] = beside
+    if np.max(np.abs(moved - space.kinks)) <= BESIDE:
         return space
-    before, after = (np.concatenate([[0.0], kinks, [1.0]]) for kinks in (space.kinks, beside))
+    before, after = (np.concatenate([[0.0], kinks, [1.0]]) for kinks in (space.kinks, moved))
     breaks = np.interp(space.breaks[::2], before, after)
     if not np.all(np.diff(breaks) > 0.0):
         return space
-    return SplineSpace(breaks, space.degree, space.per_element, beside).refined()
+    return SplineSpace(breaks, space.degree, space.per_element, moved).refined()
 
 
 def _at_own_places(problem: Problem, family: Family, state: State, near: bool) -> tuple[Family, State, HoleAlong]:

@@ -10,8 +10,13 @@ from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.state.compared import compared
 from rodwell.analysis.state.equilibrium import Equilibrium
 from rodwell.analysis.state.fields import fields_at, steps_of
+from rodwell.analysis.straight.lying import lying_steps
 from rodwell.errors import InputError
+from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Peak, Value
+
+ROUND_OFF = 1e-13
+"""Error of what a closed form tells, as a part of it."""
 
 SELF_BALANCED = 1e-6
 """A support torque below this part of the largest twisting moment counts as none."""
@@ -155,13 +160,26 @@ def step_loads(solution: Equilibrium) -> tuple[StepLoad, ...]:
     problem = solution.problem
     if not problem.sections:
         return ()
-    coarse, fine = (steps_of(problem, family, state)[:2] for family, state in solution.levels)
+    coarse, fine = (steps_of(problem, family, state) for family, state in solution.levels)
     sides = problem.rod.stiffness_sides, problem.rod.stiffness_rate_sides
     bent = np.any([below != above for below, above in sides], axis=0)
     return tuple(
         StepLoad(float(s), *(compared(float(old[k]), float(new[k])) for old, new in zip(coarse, fine, strict=True)))
         for k, s in enumerate(problem.rod.breaks[1:-1])
         if bent[k]
+    )
+
+
+def lying_step_loads(problem: Problem) -> tuple[StepLoad, ...]:
+    """What the wall exerts at steps of a string that lies along a curved hole, under any end force.
+
+    The hole bends every section alike, by moments that differ: couples −[b]κᵣ, whatever the end force is.
+    """
+    couple, radial = lying_steps(problem, 0.0)
+    return tuple(
+        StepLoad(float(s), *(Value(float(one[k]), ROUND_OFF * abs(float(one[k]))) for one in (couple, radial)))
+        for k, s in enumerate(problem.rod.breaks[1:-1])
+        if couple[k] != 0.0
     )
 
 

@@ -14,7 +14,7 @@ from rodwell.analysis.discrete.family import parameters
 from rodwell.analysis.straight.scale import load_scale
 from rodwell.errors import InputError
 from rodwell.numerics.equilibria.error import estimated_error
-from rodwell.physics.on_wall.curved import strand
+from rodwell.physics.on_wall.curved import step_loads, strand
 from rodwell.physics.on_wall.parameters import SIDE
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
@@ -66,6 +66,28 @@ def lying_contact(problem: Problem, force: float, s: FloatArray) -> FloatArray:
     return np.asarray(-p[SIDE] * strand(s, still, rows, p)[-1])
 
 
+def lying_steps(problem: Problem, force: float) -> tuple[FloatArray, FloatArray]:
+    """Couple about u₁ and force along d₁, (k,) each, by which the wall holds the lying rod at steps of a string."""
+    steps, rows = problem.rod.breaks[1:-1], along_rod(problem)
+    still = np.zeros((4, steps.size))
+    sides = rows(np.nextafter(steps, 0.0)).T, rows(steps).T
+    return step_loads(steps, (still, still), sides, parameters(problem, force))
+
+
+def off_at_steps(problem: Problem, force: float) -> float | None:
+    """Over which length in L, at least, the lying rod is off the wall beside a step of a string; None: nowhere.
+
+    The wall holds it by the couple c at the step. Where it only pushes, the rod touches it again at two places ℓ apart,
+    between which it is pressed to the wall by P per length at most: no more than Pℓ²/2 holds that couple, so that
+    ℓ ≥ √(2c/P). The end force on the small slopes of that stretch is left out.
+    """
+    steps = problem.rod.breaks[1:-1]
+    couple = np.abs(lying_steps(problem, force)[0])
+    pressed = np.maximum(*(lying_contact(problem, force, s) for s in (np.nextafter(steps, 0.0), steps)))
+    there = (couple > 0.0) & (pressed > 0.0)
+    return float(np.max(np.sqrt(2.0 * couple[there] / pressed[there]))) if np.any(there) else None
+
+
 def lying_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, FloatArray]:
     """Fields of the rod that lies on θ = 0 under an end force, at places ``s`` (m,), in units B = L = 1.
 
@@ -74,6 +96,7 @@ def lying_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, Flo
     """
     s = np.asarray(s, dtype=float)
     still, p = np.zeros(s.shape), parameters(problem, force)
+    rod = problem.rod
     omega1, omega2, omega3, f1, f2, f3, pressure = (
         np.broadcast_to(value, s.shape).astype(float)
         for value in strand(s, np.zeros((4, s.size)), along_rod(problem)(s).T, p)
@@ -82,7 +105,7 @@ def lying_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, Flo
         "y": still,
         "xi2": still + (np.pi if problem.on_top else 0.0),
         "eta": still,
-        "xi1": problem.twist / problem.torsional_stiffness * s,
+        "xi1": problem.twist / problem.torsional_stiffness * rod.turned(s),
         "z": undeformed_place(problem, s) - undeformed_place(problem, np.array([0.0])),
         "omega1": omega1,
         "omega2": omega2,
@@ -91,26 +114,35 @@ def lying_fields(problem: Problem, force: float, s: FloatArray) -> dict[str, Flo
         "rod_F2": f2,
         "rod_F3": f3,
         "rod_M1": still - problem.twist,
-        "rod_M2": omega2,
-        "rod_M3": omega3,
+        "rod_M2": rod.stiffness(s) * omega2,
+        "rod_M3": rod.stiffness(s) * omega3,
         "contact_pressure": pressure,
     }
 
 
 def lying_contact_in_all(problem: Problem, force: float) -> Value:
-    """∫|P| ds of the lying rod in B/L², with the error of its quadrature."""
+    """∫|P| ds of the lying rod in B/L², with the forces of the wall at steps, and the error of its quadrature."""
     sums = []
+    at_steps = float(np.sum(np.abs(lying_steps(problem, force)[1])))
     for pieces in (PIECES, 2 * PIECES):
         nodes, weights = np.polynomial.legendre.leggauss(POINTS)
-        s = ((np.arange(pieces)[:, None] + 0.5 * (nodes + 1.0)) / pieces).ravel()
-        each = np.abs(lying_contact(problem, force, s)).reshape(pieces, POINTS) @ weights
-        sums.append(float(np.sum(each)) / (2.0 * pieces))
+        ends = np.union1d(np.linspace(0.0, 1.0, pieces + 1), problem.rod.breaks)
+        half = 0.5 * np.diff(ends)
+        s = (ends[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
+        each = np.abs(lying_contact(problem, force, s)).reshape(half.size, POINTS) @ weights
+        sums.append(float(half @ each) + at_steps)
     return Value(sums[1], float(estimated_error(sums[1], sums[0])))
+
+
+def _places(problem: Problem) -> FloatArray:
+    """Places, rising, at which the contact is looked at: both sides of every step of a string among them."""
+    steps = problem.rod.breaks[1:-1]
+    return np.unique(np.concatenate([np.linspace(0.0, 1.0, PLACES), np.nextafter(steps, 0.0), steps]))
 
 
 def least_contact(problem: Problem, force: float) -> Peak:
     """Least contact per length of the lying rod and where it is; below 0 the wall would have to pull there."""
-    s = np.linspace(0.0, 1.0, PLACES)
+    s = _places(problem)
     for _ in range(4):  # ever closer between the neighbours of the least
         values = lying_contact(problem, force, s)
         least = int(np.argmin(values))
@@ -142,7 +174,7 @@ def lies_between(problem: Problem) -> tuple[Peak | None, Peak | None]:
 
     None where there is no such limit. Where the rod lies at no force at all, the lowest is above the highest.
     """
-    s = np.linspace(0.0, 1.0, PLACES)
+    s = _places(problem)
     for _ in range(2):
         at_rest = lying_contact(problem, 0.0, s)
         slope = lying_contact(problem, 1.0, s) - at_rest

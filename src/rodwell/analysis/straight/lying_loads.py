@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodwell.analysis.discrete.curved import along_rod, linear_space
+from rodwell.analysis.discrete.curved import along_rod
+from rodwell.analysis.discrete.curved_meshes import linear_space
 from rodwell.analysis.discrete.family import parameters, spline_ends
 from rodwell.analysis.straight.lying import refuse_spatial
 from rodwell.analysis.straight.refining import refined_loads

@@ -7,6 +7,7 @@ from typing import Any
 
 from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.state.wall import lying_step_loads
 from rodwell.analysis.straight.lying import lies_between
 from rodwell.answers.comparison.beside import FormulaRow
 from rodwell.answers.result.answer import Answer
@@ -14,6 +15,7 @@ from rodwell.answers.result.assessment import Assessment, AtLoad
 from rodwell.answers.result.reach import out_of_reach, why_out_of_reach
 from rodwell.answers.result.spread import Spread
 from rodwell.answers.words.curved import left_out
+from rodwell.answers.words.steps import steps_data
 from rodwell.answers.words.verdict import verdict
 from rodwell.answers.words.wording import side_of
 from rodwell.problem.words import ends_text
@@ -213,6 +215,7 @@ def _lying(answer: Answer) -> dict[str, Any]:
             name: None if one is None else {"value": one.value, "error": one.error, "s": one.s}
             for name, one in ends.items()
         },
+        **({"steps": steps_data(lying_step_loads(answer.case.problem))} if answer.case.problem.sections else {}),
         **rest,
     }
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from rodwell.analysis.state.wall import lying_step_loads
+from rodwell.analysis.straight.lying import off_at_steps
 from rodwell.answers.result.answer import Answer
+from rodwell.answers.words.steps import steps_note
 from rodwell.answers.words.verdict import in_tension
 from rodwell.answers.words.wording import forces_of, place_text, quantity, size_text
 from rodwell.quantities.text import percent
@@ -10,10 +13,9 @@ from rodwell.quantities.value import Value
 
 
 def in_curved_hole(answer: Answer) -> list[str]:
-    """The bending by the hole, what tension does, what the rod's own places change, and what is left out."""
-    return [
-        text for text in (_bending(answer), in_tension(answer.assessment), _places(answer), left_out(answer)) if text
-    ]
+    """The bending by the hole and its steps, what tension does, what the rod's own places change, what is left out."""
+    said = (_bending(answer), _at_steps(answer), in_tension(answer.assessment), _places(answer), left_out(answer))
+    return [text for text in said if text]
 
 
 def _bending(answer: Answer) -> str:
@@ -31,6 +33,15 @@ def _bending(answer: Answer) -> str:
     if strength is not None:
         part += f" ({percent(Value(peak.value / strength, peak.error / strength), 2)} of the yield strength)"
     return f"{text}{part}; every stress and safety factor contains it."
+
+
+def _at_steps(answer: Answer) -> str:
+    """What the bend asks of the wall at steps of a string that lies along it."""
+    problem, lying = answer.case.problem, answer.lying
+    if lying is not None:
+        return steps_note(lying.rest.step_loads, answer.case, bent=True)
+    off = off_at_steps(problem, answer.critical[0].force)
+    return steps_note(lying_step_loads(problem), answer.case, bent=True, off=off)
 
 
 def _places(answer: Answer) -> str:
@@ -58,6 +69,8 @@ def left_out(answer: Answer) -> str:
         parts.append("derivatives by the inputs")
         if answer.case.uncertain:
             parts[-1] += ", so that the uncertainties given are not carried through"
+    elif answer.case.problem.sections:
+        parts.append("derivatives by the data of each section")
     if answer.case.cylinder is not None:
         parts[2] += " and its stress"
     return f"Not told of a curved hole: {', '.join(parts[:-1])}, and {parts[-1]}."

@@ -10,6 +10,7 @@ from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
 from rodwell.analysis.loads.lying_rod import LyingRod
 from rodwell.analysis.state.fields import fields_at
 from rodwell.answers.result.assessment import Assessment
+from rodwell.answers.words.steps import IF_HELD, held
 from rodwell.answers.words.wording import around_text, forces_of, place_text, places_text, size_text
 from rodwell.case.case import Case
 from rodwell.quantities.value import Value
@@ -50,7 +51,8 @@ def lies_until(a: Assessment, lying: LyingRod) -> str:
         until = f"only under a tension of at least {said.size(load)}{said.at_end}{said.other(load)}"
     else:
         until = f"until the compression{said.at_end} reaches {said.size(load)}{said.other(load)}"
-    text = f"The rod lies along the hole, on the wall and stable, {until}"
+    if_held = "".join(f"if {holds}, " for holds in held(a.case.problem.rod, IF_HELD))
+    text = f"The rod lies along the hole, on the wall and stable, {if_held}{until}"
     if end is None:
         return f"{text}, and was followed no farther{_why(lying)}"
     if lying.buckled is not None:

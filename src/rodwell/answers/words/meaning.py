@@ -68,6 +68,7 @@ def assumptions(case: Case) -> tuple[str, ...]:
 def sentences(answer: Answer) -> list[str]:
     """What the numbers mean, most important first."""
     a, tells_buckling = answer.assessment, answer.left_before is None and answer.lying is None
+    bent = answer.case.problem.hole is not None
     out = [
         verdict(a),
         *floating(answer.case),
@@ -79,7 +80,7 @@ def sentences(answer: Answer) -> list[str]:
         _mode(answer.critical, answer.case, kept=answer.untouched) if tells_buckling else "",
         _asked(answer),
         _lift_off(answer),
-        "" if answer.at_lift_off is None else steps_note(answer.at_lift_off.step_loads, answer.case),
+        "" if answer.at_lift_off is None or bent else steps_note(answer.at_lift_off.step_loads, answer.case),
     ]
     out += [
         _stability(answer) if tells_buckling or (answer.lying and answer.lying.buckled) else "",
@@ -87,7 +88,7 @@ def sentences(answer: Answer) -> list[str]:
     ]
     out.append(_wall(answer.key_numbers, answer.case.scales) if answer.at_lift_off else "")
     out += [_inputs(answer)] if answer.sensitivities else []
-    out += in_curved_hole(answer) if answer.case.problem.hole is not None else []
+    out += in_curved_hole(answer) if bent else []
     out.append(a.validity.sentence)
     return [sentence for sentence in out if sentence]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.state.wall import StepLoad
 from rodwell.answers.words.wording import place_text, size_text
-from rodwell.quantities.text import amount
+from rodwell.quantities.text import amount, plain
 from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
@@ -30,15 +30,20 @@ def held(rod: Rod, words: tuple[str, str] = ASSUMED) -> list[str]:
     return [text for text, met in zip(words, (rod.stepped, rod.kinked), strict=True) if met]
 
 
-def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:
+def steps_note(
+    steps: tuple[StepLoad, ...], case: Case | None = None, *, bent: bool = False, off: float | None = None
+) -> str:
     """What the wall would have to exert at steps of a buckled string, and what it means; nothing without any.
 
-    In the units of ``case``; without one in those with B = L = 1.
+    In the units of ``case``; without one in those with B = L = 1. ``bent``: of one that lies along a curved hole,
+    buckled or not, with the length ``off`` in L over which it is off the wall at least, if that is known.
     """
     lifting = [step for step in steps if step.lifts]
     if not lifting:
         return ""
     scales = None if case is None else case.scales
+    if bent:
+        return _bent_note(lifting, case, off)
     jumps = [step for step in lifting if step.couple.value != 0.0]
     kinks = [step for step in lifting if step.couple.value == 0.0]
     said = []
@@ -66,6 +71,23 @@ def steps_note(steps: tuple[StepLoad, ...], case: Case | None = None) -> str:
         "buckles, over a short stretch. The lift-off load is that of the stretches between."
     )  # fmt: skip
     return " ".join(said)
+
+
+def _bent_note(lifting: list[StepLoad], case: Case | None, off: float | None) -> str:
+    """The same of a string that the hole bends wherever it is stiff."""
+    scales = None if case is None else case.scales
+    largest = max((step.couple for step in lifting), key=lambda couple: abs(couple.value))
+    couple = size_text(scales, Value(abs(largest.value), largest.error), "moment", "B/L")
+    far = "a stretch"
+    if off is not None:
+        length = f"{plain(off, 2)} L" if scales is None else scales.text(off, "length", 2)
+        far = f"about {length} or more"
+    return (
+        f"The hole bends a stiffer section by a larger moment. Where the bending stiffness has a step "
+        f"({_places(lifting, case)}) the wall would have to hold the rod by a couple, of up to {couple}, and a wall "
+        f"only pushes: unless something holds the rod's slope across the wall there, the rod is off the wall beside "
+        f"the step, over {far}, before it buckles. The loads told are those of a rod that is held there."
+    )
 
 
 def _places(steps: list[StepLoad], case: Case | None) -> str:

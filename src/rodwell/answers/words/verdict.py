@@ -87,8 +87,9 @@ def _range_in_curved_hole(a: Assessment) -> str:
         return lies_until(a, a.computed.lying)
     load, said, left = a.window.buckling, forces_of(a.case), a.computed.left_before
     what = "on the wall, stable" if left is None else "on the wall"
-    held = said.compression(load)
-    if held.value < 0.0:
+    what += "".join(f", if {holds}" for holds in held(a.case.problem.rod, IF_HELD))
+    compression = said.compression(load)
+    if compression.value < 0.0:
         text = f"The rod lies along the hole, {what}, only under a tension of at least {said.size(load)}{said.at_end}"
     else:
         text = f"The rod lies along the hole, {what}, until the compression{said.at_end} reaches {said.size(load)}"

@@ -1,9 +1,13 @@
 """The rod in a curved hole as a model that numerics can solve, and the forces in it, place by place.
 
-What the hole is at s comes as polynomials in s, piece by piece: k₁, k₂ and the parts g₁, g₂ of the vertical along N₁,
-N₂, at the place S that the cross-section has on the hole's axis, and A(s) and C(s) of the force N = (1 + Δk₁)(F − w A
-+ C) that drives the rod there, reduced to the axis. Formulas are generated: see
+What the hole is at s comes as polynomials in s, piece by piece: k₁, k₂ and the parts g₁, g₂ of the weight along N₁,
+N₂, as ratios to w, at the place S that the cross-section has on the hole's axis, and A(s) and C(s) of the force N =
+(1 + Δk₁)(F − w A + C) that drives the rod there, reduced to the axis. Formulas are generated: see
 :mod:`rodwell.physics.on_wall.curved_energy`.
+
+They are written for a rod of stiffness 1. A piece of a string lies in one section: with its stiffness b the energy is
+b times that of a rod of stiffness 1 under 1/b of the loads, N among them, as in a straight hole
+(:mod:`rodwell.physics.on_wall.sections`). Of another weight q(s) the hole is given q g₁, q g₂ and A = ∫ₛ¹ q T·k ds.
 """
 
 from __future__ import annotations
@@ -13,15 +17,16 @@ from typing import Any, NamedTuple
 from rodwell.physics.on_wall._curved_density import curved_density, curved_strand
 from rodwell.physics.on_wall.model import RodOnCylinder
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, SIDE, TWIST
+from rodwell.physics.on_wall.sections import of_section, times
 
 FUNCTIONS = ("k1", "k2", "g1", "g2", "lift", "offset")
 DEGREE = 6
 TERMS = DEGREE + 1
 
-GIVEN = ("centre", "scale", *(f"{name}_{j}" for name in FUNCTIONS for j in range(TERMS)))
-"""Of a piece: where x = (s − centre)·scale is zero and its scale, and coefficients of each function in xʲ."""
+GIVEN = ("stiffness", "centre", "scale", *(f"{name}_{j}" for name in FUNCTIONS for j in range(TERMS)))
+"""Of a piece: B(s)/B, where x = (s − centre)·scale is zero and its scale, coefficients of each function in xʲ."""
 
-FIRST = 2
+STIFFNESS, CENTRE, SCALE, FIRST = range(4)
 
 
 class Here(NamedTuple):
@@ -50,19 +55,19 @@ def _derivative(given: Any, which: int, x: Any, order: int) -> Any:
 
 def hole_at(s: Any, given: Any) -> tuple[Any, ...]:
     """K₁, k₂, g₁, g₂, A, C at ``s``."""
-    x = (s - given[0]) * given[1]
+    x = (s - given[CENTRE]) * given[SCALE]
     return tuple(_horner(given, which, x) for which in range(len(FUNCTIONS)))
 
 
 def bends_at(s: Any, given: Any) -> tuple[Any, Any]:
     """K₁, k₂ at ``s``: what the way along the hole takes."""
-    x = (s - given[0]) * given[1]
+    x = (s - given[CENTRE]) * given[SCALE]
     return _horner(given, 0, x), _horner(given, 1, x)
 
 
 def here_at(s: Any, given: Any) -> Here:
     """Return the hole at ``s`` with the derivatives of its curvatures."""
-    x, scale = (s - given[0]) * given[1], given[1]
+    x, scale = (s - given[CENTRE]) * given[SCALE], given[SCALE]
     first = [scale * _derivative(given, which, x, 1) for which in (0, 1)]
     second = [scale * scale * _derivative(given, which, x, 2) for which in (0, 1)]
     return Here(hole_at(s, given), (*first, *second))
@@ -73,11 +78,38 @@ def strand(s: Any, u: Any, given: Any, parameters: Any) -> Any:
 
     Components along t₁, d₁, u₁ as in :mod:`rodwell.physics.on_wall.strand`; p < 0 presses a rod inside on the wall.
     """
-    here = here_at(s, given)
-    return curved_strand(
-        u[0], u[1], u[2], u[3], here.hole, here.rates, parameters[CLEARANCE], parameters[TWIST], parameters[FORCE],
-        parameters[AXIAL_WEIGHT],
+    here, stiffness = here_at(s, given), given[STIFFNESS]
+    own = _own_loads(stiffness, parameters)
+    omega1, omega2, omega3, *forces = curved_strand(
+        u[0], u[1], u[2], u[3], _own_hole(stiffness, here.hole), here.rates, own[CLEARANCE], own[TWIST], own[FORCE],
+        own[AXIAL_WEIGHT],
     )  # fmt: skip
+    return omega1, omega2, omega3, *(stiffness * force for force in forces)
+
+
+def step_loads(s: Any, shapes: Any, given: Any, parameters: Any) -> tuple[Any, Any]:
+    """Couple about u₁ and force along d₁ (towards the axis), (k,) each, of the wall on the rod at k steps of b.
+
+    ``shapes`` and ``given`` are those on the sides towards s = 0 and s = 1. From the balance of moments and of forces:
+    −[b ω₃] and −[F₂], which holds −b ω₃′ and so the rate of the curvature of the hole. In a bend ω₃ is not zero of a
+    rod that lies still.
+    """
+    below, above = (strand(s, u, rows, parameters) for u, rows in zip(shapes, given, strict=True))
+    (bent_below, f2_below), (bent_above, f2_above) = (
+        (rows[STIFFNESS] * one[2], one[4]) for rows, one in zip(given, (below, above), strict=True)
+    )
+    return bent_below - bent_above, f2_below - f2_above
+
+
+def _own_loads(stiffness: Any, parameters: Any) -> list[Any]:
+    """Parameters of a rod of stiffness 1, in their order: 1/b of the loads."""
+    return of_section((stiffness, 1.0, 0.0), parameters, 1.0 / stiffness)
+
+
+def _own_hole(stiffness: Any, hole: Any) -> tuple[Any, ...]:
+    """The hole of that rod: C is a force."""
+    k1, k2, g1, g2, lift, offset = hole
+    return k1, k2, g1, g2, lift, offset / stiffness
 
 
 class RodInCurvedHole(NamedTuple):
@@ -101,7 +133,11 @@ class RodInCurvedHole(NamedTuple):
     @staticmethod
     def density(s: Any, u: Any, given: Any, parameters: Any, rates: Any) -> Any:
         """Energy density and its derivatives at ``s``, where y has the value and derivatives ``u``."""
-        return curved_density(u[0], u[1], u[2], hole_at(s, given), parameters[CLEARANCE], parameters, rates)
+        stiffness = given[STIFFNESS]
+        hole, own, along = (
+            _own_hole(stiffness, hole_at(s, given)), _own_loads(stiffness, parameters), _own_loads(stiffness, rates)
+        )  # fmt: skip
+        return times(stiffness, curved_density(u[0], u[1], u[2], hole, parameters[CLEARANCE], own, along))
 
     @staticmethod
     def observed(s: Any, u: Any, given: Any, parameters: Any) -> Any:

@@ -49,12 +49,20 @@ def section_density(s: Any, y: Any, y1: Any, y2: Any, given: Any, parameters: An
     stiffness = given[0]
     softness = 1.0 / stiffness
     own, along = of_section(given, parameters, softness), of_section(given, rates, softness)
-    energy, rate, gradient, mixed, hessian = rod_density(s, y, y1, y2, own, along)
+    return times(stiffness, rod_density(s, y, y1, y2, own, along))
 
-    def times(row: Any) -> Any:
+
+def times(stiffness: Any, density: Any) -> Any:
+    """An energy density and its derivatives, each so many times."""
+    energy, rate, gradient, mixed, hessian = density
+
+    def row_times(row: Any) -> Any:
         return tuple(stiffness * x for x in row)
 
-    return stiffness * energy, stiffness * rate, times(gradient), times(mixed), tuple(times(row) for row in hessian)
+    return (
+        stiffness * energy, stiffness * rate, row_times(gradient), row_times(mixed),
+        tuple(row_times(row) for row in hessian),
+    )  # fmt: skip
 
 
 def step_loads(

@@ -56,6 +56,9 @@ def _limit_lines(ax: Any, screening: Screening, md: Any, newton: float) -> None:
         values, errors = loads.values / newton, loads.errors / newton
         ax.fill_betweenx(md, values - errors, values + errors, color=colour, alpha=0.25, lw=0)
         ax.plot(values, md, color=colour, lw=2.0, label=label)
+    if np.any(np.isfinite(screening.bent.values)):
+        bent = screening.bent.values / newton
+        ax.plot(bent, md, color=BUCKLES, lw=2.0, ls=(0, (1, 0.6)), marker=".", ms=3, label="exact, in the hole's build")
     for key, (colour, dashes) in zip(screening.formulas, cycle(LINES), strict=False):
         ax.plot(screening.formulas[key] / newton, md, color=colour, lw=1.3, ls=dashes, label=BESIDE[key].name)
 
@@ -63,7 +66,7 @@ def _limit_lines(ax: Any, screening: Screening, md: Any, newton: float) -> None:
 def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:
     """Mark the worst station: largest utilisation, or else the least critical load."""
     worst = screening.worst
-    i, x, label = screening.weakest, screening.critical.values, "weakest station"
+    i, x, label = screening.weakest, screening.limit[0], "weakest station"
     if worst is not None and screening.compression is not None and screening.utilisation is not None:
         i, x = worst, screening.compression
         label = f"largest utilisation, {plain(100.0 * float(screening.utilisation[worst]), 3)} %"
@@ -72,7 +75,7 @@ def _mark(ax: Any, screening: Screening, md: Any, newton: float) -> None:
 
 def _limits(screening: Screening, newton: float) -> tuple[float, float]:
     """Range of compression: what decides fills it; far tension, and formulas far beyond, are cut."""
-    exact = np.concatenate([screening.critical.values, screening.lift_off.values])
+    exact = np.concatenate([screening.critical.values, screening.lift_off.values, screening.bent.values])
     high = 1.15 * float(np.nanmax(exact))
     low = 0.0
     if screening.compression is not None:

@@ -106,8 +106,9 @@ def _stations(screening: Screening) -> ReportSection:
     """A table of the stations, the worst among them."""
     depth, metre, force, newton = units(screening)
     head = [f"Measured depth [{depth}]", "Inclination [°]", f"Buckles [{force}]", f"Leaves the wall [{force}]"]
-    loads = [screening.critical.values, screening.lift_off.values, *screening.formulas.values()]
-    columns = [values / newton for values in loads]
+    head.append(f"Buckles in the hole's build [{force}]")
+    exact = (screening.critical, screening.lift_off, screening.bent)
+    columns = [values / newton for values in (*(loads.values for loads in exact), *screening.formulas.values())]
     head += [f"{BESIDE[key].name} [{force}]" for key in screening.formulas]
     if screening.compression is not None and screening.utilisation is not None:
         head += [f"The string [{force}]", "Used [%]"]

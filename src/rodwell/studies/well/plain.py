@@ -44,6 +44,8 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
         "critical_error": listed(screening.critical.errors),
         "lift_off_compression": listed(screening.lift_off.values),
         "lift_off_error": listed(screening.lift_off.errors),
+        "critical_compression_in_build": listed(screening.bent.values),
+        "critical_error_in_build": listed(screening.bent.errors),
         "formulas": {key: listed(values) for key, values in screening.formulas.items()},
         "compression": listed(screening.compression),
         "utilisation": listed(screening.utilisation),
@@ -52,7 +54,7 @@ def screening_dict(screening: Screening) -> dict[str, Any]:
         "stations_above_he_kyllingstad": _numbers(judged.curved),
         "stations_not_judged": _numbers(judged.unjudged),
         "stations_missing_the_tolerance": sorted(
-            {int(i) + 1 for i in (*screening.critical.missed, *screening.lift_off.missed)}
+            {int(i) + 1 for i in (*screening.critical.missed, *screening.lift_off.missed, *screening.bent.missed)}
         ),
         "weakest_station": screening.weakest + 1,
         "worst_station": None if screening.worst is None else screening.worst + 1,

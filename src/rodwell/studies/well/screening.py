@@ -20,8 +20,8 @@ from rodwell.analysis.loads.long_rod import (
 )
 from rodwell.case.case import Case
 from rodwell.errors import InputError, NotConvergedError
-from rodwell.formulas import FORMULAS
 from rodwell.quantities.arrays import FloatArray
+from rodwell.studies.well.in_build import COUNTS, formula_at, loads_in_build
 from rodwell.survey.survey import Survey
 
 CRITICAL_PRECISION = Precision(1e-3, 6)
@@ -58,7 +58,10 @@ class Screening:
     string
         B, w, r and the ends of the local rod.
     critical, lift_off
-        Exact loads with errors: compression at the local rod's lower end, which is the station.
+        Exact loads with errors in a straight hole: compression at the local rod's lower end, which is the station.
+    bent
+        Exact critical loads in an arc of the station's build, where that counts; elsewhere NaN, and so where there is
+        none, with the reason.
     formulas
         Loads of the formulas by key, (n,) each.
     compression
@@ -73,6 +76,7 @@ class Screening:
     string: PipeString
     critical: Loads
     lift_off: Loads
+    bent: Loads
     formulas: dict[str, FloatArray]
     compression: FloatArray | None
     length_effect: dict[float, float]
@@ -88,11 +92,23 @@ class Screening:
         return np.array([self.string.length(float(alpha)) for alpha in self.local])
 
     @cached_property
+    def limit(self) -> tuple[FloatArray, FloatArray]:
+        """Exact critical load with the station's build, where that counts and there is one, and errors, (n,) each.
+
+        Elsewhere that of the straight hole.
+        """
+        known = np.isfinite(self.bent.values)
+        return (
+            np.where(known, self.bent.values, self.critical.values),
+            np.where(known, self.bent.errors, self.critical.errors),
+        )
+
+    @cached_property
     def utilisation(self) -> FloatArray | None:
         """Compression as a part of the critical compression, (n,); 0 in tension, NaN without a critical load."""
         if self.compression is None:
             return None
-        return np.asarray(np.maximum(self.compression, 0.0) / self.critical.values)
+        return np.asarray(np.maximum(self.compression, 0.0) / self.limit[0])
 
     @cached_property
     def dropping(self) -> FloatArray:
@@ -100,12 +116,19 @@ class Screening:
 
         Judged by He–Kyllingstad below Dawson–Paslay by more than one percent.
         """
-        return np.asarray(self.formulas["he_kyllingstad"] < 0.99 * self.formulas["dawson_paslay"])
+        return np.asarray(self.formulas["he_kyllingstad"] < (1.0 - COUNTS) * self.formulas["dawson_paslay"])
+
+    @cached_property
+    def turning(self) -> FloatArray:
+        """Whether the hole's turn, which is in no exact load, counts by He–Kyllingstad, (n,)."""
+        planar = formula_at(self.string, "he_kyllingstad", self.survey, turn=False)
+        counts = np.abs(self.formulas["he_kyllingstad"] - planar) > COUNTS * planar
+        return np.asarray((self.survey.turn != 0.0) & counts)
 
     @property
     def weakest(self) -> int:
         """The station where least compression buckles the pipe."""
-        return int(np.nanargmin(self.critical.values))
+        return int(np.nanargmin(self.limit[0]))
 
     @property
     def worst(self) -> int | None:
@@ -117,7 +140,7 @@ class Screening:
     @property
     def missed(self) -> dict[str, list[str]]:
         """Loads that miss the tolerance to which they were to be interpolated, with their errors, by kind."""
-        kinds = {"critical load": self.critical, "lift-off load": self.lift_off}
+        kinds = {"critical load": self.critical, "lift-off load": self.lift_off, "load in the curvature": self.bent}
         return {
             kind: [
                 f"{kind} at station {i + 1} ± {100.0 * loads.errors[i] / abs(loads.values[i]):.2g} %"
@@ -134,8 +157,12 @@ class Screening:
             parts.append(
                 "vertical: no lateral weight, lift-off coincides with buckling, and the load falls with length"
             )
+        if i in self.bent.reasons:
+            parts.append(f"no exact load in the hole's curvature ({self.bent.reasons[i]}): He–Kyllingstad has it")
         if self.dropping[i]:
             parts.append("hole curvature takes the pipe off the low side: the straight-hole loads are too high here")
+        if self.turning[i]:
+            parts.append("the hole turns, which is not in the exact loads: He–Kyllingstad has it")
         if self.survey.inclination[i] > 90.0:
             parts.append("uphill: the local rod's lower end is towards the surface")
         return "; ".join(parts)
@@ -154,7 +181,9 @@ def screen(
 
     At every station the exact problem of a long straight rod is solved: its lower end is the station, it goes uphill at
     the station's inclination, with the string's B, weight and clearance and the ends of the case; 20 half
-    waves of the long-rod wave long, 12 for lift-off. Hole curvature, friction and pressure do not enter.
+    waves of the long-rod wave long, 12 for lift-off. Where the hole builds or drops so much that it counts, the same is
+    solved along an arc of that curvature besides, and its critical load is the one that decides. Turns of the hole,
+    friction and pressure do not enter; lift-off is that of a straight hole.
 
     Parameters
     ----------
@@ -204,9 +233,10 @@ def screen(
         LIFT_OFF_PRECISION,
         lambda done: tell("lift-off loads", 0.3 + 0.6 * done),
     )
-    tell("formulas", 0.95)
+    formulas = {key: formula_at(string, key, survey) for key in BESIDE}
+    bent = loads_in_build(string, survey, local, lambda done: tell("loads in the hole's curvature", 0.9 + 0.09 * done))
     effect = {alpha: length_effect(string, alpha, buckles(alpha)) for alpha in (min(local), max(local))}
-    return Screening(case, survey, string, critical, lift_off, _formulas(string, survey), compression, effect)
+    return Screening(case, survey, string, critical, lift_off, bent, formulas, compression, effect)
 
 
 def _question(bit_force: float | None, hook_force: float | None) -> None:
@@ -251,17 +281,3 @@ def _compression(
     if hook_force is not None:
         return np.asarray(hanging - hook_force)
     return None
-
-
-def _formulas(string: PipeString, survey: Survey) -> dict[str, FloatArray]:
-    """Loads of the formulas at every station; what a formula takes is looked up once, not at 100,000 stations."""
-    known = {"alpha": survey.inclination.tolist(), "build": survey.build.tolist(), "turn": survey.turn.tolist()}
-    same = {"B": string.stiffness, "w": string.weight, "r": string.clearance}
-    out: dict[str, FloatArray] = {}
-    for key in BESIDE:
-        function, takes = FORMULAS[key].function, FORMULAS[key].takes
-        columns = [known[name] if name in known else [same[name]] * len(survey) for name in takes]
-        out[key] = np.array(
-            [float(function(**dict(zip(takes, values, strict=True)))) for values in zip(*columns, strict=True)]
-        )
-    return out

@@ -11,6 +11,7 @@ from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.table import Cell, Table
 from rodwell.quantities.text import percent, plain
 from rodwell.quantities.value import Value
+from rodwell.studies.well.in_build import COUNTS
 from rodwell.studies.well.screening import BESIDE, CRITICAL_PRECISION, LIFT_OFF_PRECISION, Screening
 from rodwell.studies.well.verdict import Found, amount_of, found, place, units, verdict_lines
 
@@ -36,6 +37,8 @@ def screening_table(screening: Screening) -> Table:
         f"± error [{force}]": screening.critical.errors / newton,
         f"exact lift-off compression [{force}]": screening.lift_off.values / newton,
         f"± error of lift-off [{force}]": screening.lift_off.errors / newton,
+        f"exact critical compression in the hole's build [{force}]": screening.bent.values / newton,
+        f"± error in the build [{force}]": screening.bent.errors / newton,
     }
     for key, beside in BESIDE.items():
         columns[f"{beside.name} [{force}]"] = screening.formulas[key] / newton
@@ -61,12 +64,12 @@ def remarks_of(screening: Screening, judged: Found, i: int) -> str:
 
 def sentences(screening: Screening) -> list[str]:
     """What was found, the verdict first: the worst of all that is said of buckling leads."""
-    at, load, exact = place(screening), amount_of(screening), screening.critical
+    at, load, exact, limit = place(screening), amount_of(screening), screening.critical, screening.limit
     out = [line.text for line in verdict_lines(screening)]
     weakest = screening.weakest
     out.append(
         f"Least compression buckles it at {at(weakest)}: "
-        f"{load(float(exact.values[weakest]), float(exact.errors[weakest]))} there "
+        f"{load(float(limit[0][weakest]), float(limit[1][weakest]))} there "
         "(exact local load, compression positive)."
     )
     ratio = screening.formulas["dawson_paslay"] / screening.critical.values
@@ -82,7 +85,7 @@ def sentences(screening: Screening) -> list[str]:
     if dropping:
         out.append(
             f"At {dropping} stations the hole's curvature takes the pipe off the low side: the loads of a "
-            "straight hole are too high there; He–Kyllingstad says by how much, about."
+            "straight hole are too high there; those in the hole's build, and He–Kyllingstad, say by how much."
         )
     missing = sorted({*screening.critical.reasons, *screening.lift_off.reasons})
     if missing:
@@ -100,9 +103,17 @@ def assumptions(screening: Screening) -> list[str]:
         f"Local rod: straight hole of the station's inclination, uphill from the station, {HALF_WAVES} half waves "
         f"of the long-rod wave long ({LIFT_OFF_HALF_WAVES} for lift-off), ends {first} (at the station) and {last}.",
         f"Estimated effect of its length on the critical load: {effects}; on the lift-off load about 1 %.",
-        "Friction, pressure, joints and curvature of the hole are not in the exact loads; He–Kyllingstad has "
-        "the curvature.",
+        "Friction, pressure, joints and turns of the hole are not in the exact loads; He–Kyllingstad has the turns.",
+        f"Where the hole's build changes the load by more than {plain(100 * COUNTS)} % by He–Kyllingstad, the exact "
+        "load in an arc of that curvature, which goes on uphill over the local rod and turns by 57° at most, decides; "
+        "lift-off is that of a straight hole.",
     ]
+    if screening.bent.interpolated > 0.0:
+        out.append(
+            f"Loads in the hole's build from {screening.bent.solved} exact ones; largest difference seen between "
+            f"interpolated and exact ones: {plain(100 * screening.bent.interpolated, 2)} %; the error given is twice "
+            f"that, {plain(100 * screening.bent.tolerance)} % at least."
+        )
     if screening.critical.interpolated > 0.0 or screening.lift_off.interpolated > 0.0:
         out.append(
             f"Loads at {len(screening.survey)} stations from {screening.critical.solved} exact critical loads and "

@@ -15,13 +15,13 @@ from rodwell.studies.well.screening import Screening
 
 NO_FORCE, TENSION, STRAIGHT, UNJUDGED, CLOSE, EXPECTED, BUCKLES = range(7)
 """What a line says of buckling, the milder first: nothing, since no force is given; in tension throughout; straight by
-the straight-hole loads; not all stations can be judged; at the critical load within its error; expected by the formula
+the exact loads; not all stations can be judged; at the critical load within its error; expected by the formula
 that has the hole's curvature; past the exact critical load."""
 
 LEVELS = {
     NO_FORCE: "no force given",
     TENSION: "in tension",
-    STRAIGHT: "straight by the straight-hole loads",
+    STRAIGHT: "straight by the exact loads",
     UNJUDGED: "not judged everywhere",
     CLOSE: "at the critical load, within its error",
     EXPECTED: "buckling expected from the hole's curvature",
@@ -44,11 +44,13 @@ class Found:
     Attributes
     ----------
     past
-        Compression above the exact critical load of the straight hole, or of its lift-off load.
+        Compression above the exact critical load, with the hole's curvature where that counts; or above the lift-off
+        load of a straight hole.
     close
         Compression within the error of that load.
     curved
-        Compression above He–Kyllingstad where the hole's curvature takes the pipe off the low side.
+        Compression above He–Kyllingstad where the hole's curvature takes the pipe off the low side, and no exact load
+        has it.
     unjudged
         In compression, but without an exact load.
     """
@@ -67,14 +69,15 @@ class Found:
 
 def found(screening: Screening) -> Found:
     """Judge every station by all that is known of it."""
-    exact, lift = screening.critical, screening.lift_off
+    (exact, errors), lift = screening.limit, screening.lift_off
+    bent = np.isfinite(screening.bent.values)
     force = np.zeros(len(screening.survey)) if screening.compression is None else screening.compression
     pushed = force > 0.0
     dropping: BoolArray = screening.dropping.astype(bool)
-    past = pushed & ((force > exact.values) | (force > lift.values))
-    close = pushed & ~past & (force >= exact.values - exact.errors)
-    curved = pushed & dropping & (force > screening.formulas["he_kyllingstad"])
-    return Found(past, close, curved, pushed & ~past & np.isnan(exact.values))
+    past = pushed & ((force > exact) | (~bent & (force > lift.values)))
+    close = pushed & ~past & (force >= exact - errors)
+    curved = pushed & dropping & ~bent & (force > screening.formulas["he_kyllingstad"])
+    return Found(past, close, curved, pushed & ~past & np.isnan(exact))
 
 
 def level_of(screening: Screening) -> int:
@@ -108,19 +111,21 @@ def _by_exact_loads(screening: Screening, judged: Found) -> Line | None:
     worst, force = screening.worst, screening.compression
     if worst is None or force is None:
         return None
-    at, load, exact = place(screening), amount_of(screening), screening.critical
+    at, load, (exact, errors) = place(screening), amount_of(screening), screening.limit
+    bent = np.any(np.isfinite(screening.bent.values))
+    by = "the exact loads, with the hole's build," if bent else "the straight-hole loads"
     level = BUCKLES if np.any(judged.past) else CLOSE if np.any(judged.close) else STRAIGHT
     verdict = {
         BUCKLES: "The string buckles",
         CLOSE: "The string buckles or comes so close to it that the error of the load does not tell",
-        STRAIGHT: "By the straight-hole loads the string does not buckle",
+        STRAIGHT: f"By {by} the string does not buckle",
     }[level]
     if level == STRAIGHT and np.any(judged.unjudged):
         verdict += " at the stations that have one"
     return Line(
         level,
         f"{verdict}: the largest utilisation is {percent(used_part(screening, worst))} at {at(worst)}, where it bears "
-        f"{load(float(force[worst]))} and buckles at {load(float(exact.values[worst]), float(exact.errors[worst]))}.",
+        f"{load(float(force[worst]))} and buckles at {load(float(exact[worst]), float(errors[worst]))}.",
     )
 
 
@@ -130,7 +135,8 @@ def _past(screening: Screening, judged: Found) -> list[Line]:
         return []
     at, count = place(screening), len(screening.survey)
     text = f"{over.size} of {count} stations are past buckling, from {at(int(over[0]))} to {at(int(over[-1]))}"
-    lifted = int(np.sum(screening.compression > screening.lift_off.values))
+    straight = np.isnan(screening.bent.values)
+    lifted = int(np.sum(straight & (screening.compression > screening.lift_off.values)))
     text += f"; {lifted} are past lift-off"
     unknown = int(np.sum(np.isnan(screening.lift_off.values[over])))
     return [Line(BUCKLES, f"{text}; at {unknown} of them lift-off is not known." if unknown else f"{text}.")]
@@ -193,4 +199,4 @@ def used_part(screening: Screening, i: int) -> Value:
     """Utilisation at a station; its error is that of the exact load."""
     assert screening.utilisation is not None
     used = float(screening.utilisation[i])
-    return Value(used, abs(used) * float(screening.critical.errors[i] / screening.critical.values[i]))
+    return Value(used, abs(used) * float(screening.limit[1][i] / screening.limit[0][i]))
