@@ -18,6 +18,7 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipe, ellipk
 
 from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, LocatedEvent
+from rodwell.numerics.continuation.location import Segment
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
 from rodwell.numerics.equilibria.conjugate import conjugate_rate
 from rodwell.numerics.equilibria.family import Family
@@ -147,6 +148,13 @@ def test_buckled_pendulum_at_given_loads(buckled: Trace, load: float) -> None:
     assert values == pytest.approx(exact, rel=1e-9)
     assert np.all(np.abs(values - exact) <= error)
     assert found.index_before == found.index_after == 0
+
+
+def test_a_place_between_two_points_is_its_part_of_the_way_along_the_first_tangent(buckled: Trace) -> None:
+    meshes, (before, after) = buckled.meshes[-1], buckled.points[-2:]
+    segment = Segment(meshes.fine, before.fine, after.fine)
+    for t in (0.3, 0.8):
+        assert before.fine.along(segment(t)) == pytest.approx(t * before.fine.along(after.fine), rel=1e-9)
 
 
 def test_rate_of_what_the_load_works_on_is_the_second_derivative_of_the_energy(buckled: Trace) -> None:
