@@ -48,6 +48,9 @@ def test_tables_kept_for_places_serve_other_splines_and_do_not_pile_up() -> None
             one_by_one = np.hstack([space.evaluate(c, places[i : i + 1], 4) for i in range(places.size)])
             np.testing.assert_allclose(space.evaluate(c, places, 4), one_by_one, rtol=1e-11, atol=1e-9)
     assert len(space._tables) <= 6
+    kept, few = space.tabulated(places, 4), space.tabulated(places[:8], 4)
+    assert all(one is other for one, other in zip(space.tabulated(places, 4), kept, strict=True))
+    assert space.tabulated(places[:8], 4)[0] is not few[0]  # of few places none is kept
 
 
 def test_quadrature_table_is_the_basis_at_the_points() -> None:

@@ -18,7 +18,9 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import ellipe, ellipk
 
 from rodwell.numerics.continuation.events import INDEX, TURN, Event, Leaving, LocatedEvent
+from rodwell.numerics.continuation.location import Segment
 from rodwell.numerics.continuation.walk import Stepping, Trace, trace
+from rodwell.numerics.equilibria.conjugate import conjugate_rate
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import newton
@@ -146,6 +148,22 @@ def test_buckled_pendulum_at_given_loads(buckled: Trace, load: float) -> None:
     assert values == pytest.approx(exact, rel=1e-9)
     assert np.all(np.abs(values - exact) <= error)
     assert found.index_before == found.index_after == 0
+
+
+def test_a_place_between_two_points_is_its_part_of_the_way_along_the_first_tangent(buckled: Trace) -> None:
+    meshes, (before, after) = buckled.meshes[-1], buckled.points[-2:]
+    segment = Segment(meshes.fine, before.fine, after.fine)
+    for t in (0.3, 0.8):
+        assert before.fine.along(segment(t)) == pytest.approx(t * before.fine.along(after.fine), rel=1e-9)
+
+
+def test_rate_of_what_the_load_works_on_is_the_second_derivative_of_the_energy(buckled: Trace) -> None:
+    """Along the branch dE/dλ = ∂E/∂λ, since ∂E/∂c vanishes: here by differences of energies at loads beside it."""
+    found = next(found for found in buckled.found if found.name == "15.0")
+    family, state, step = found.meshes.fine, found.point.fine, 0.02
+    beside = [family.at(state.c, state.lam + change)[1] for change in (-step, step)]
+    second = sum(one.energy - state.energy for one in beside if one is not None) / step**2
+    assert conjugate_rate(family, state) / state.tangent_lam == pytest.approx(second, rel=1e-5)
 
 
 def test_highest_point_of_the_buckled_pendulum(buckled: Trace) -> None:

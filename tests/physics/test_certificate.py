@@ -188,7 +188,7 @@ def test_paper_system_has_fifteen_of_everything() -> None:
     assert list(ends) == [f"(B{i})" for i in range(1, 16)]
 
 
-@pytest.mark.parametrize("ends", [("clamped", "clamped"), ("pinned", "free")])
+@pytest.mark.parametrize("ends", [("clamped", "clamped"), ("pinned", "free"), ("guided", "guided")])
 def test_a_straight_rod_under_twist_meets_all_end_conditions(ends: tuple[str, str]) -> None:
     """Of its fifteen variables the axial force is F at s = 1, the torque −T₁, and all others vanish at the ends."""
     load = Load(-50.0, 1.5, 5.0, 8.0, 0.01, 1.0 / 1.3, ends=ends)
@@ -196,6 +196,8 @@ def test_a_straight_rod_under_twist_meets_all_end_conditions(ends: tuple[str, st
     last = last._replace(xi1=load.twist / load.C, z=1.0)
     conditions = equations.end_conditions(first, last, load)
     assert {name: float(one.residual) for name, one in conditions.items() if one.residual != 0.0} == {}
+    bent = equations.end_conditions(first, last._replace(M3=0.3, omega3=0.3), load)["(B13)"].residual
+    assert bent == (0.0 if ends[1] in ("clamped", "guided") else 0.3)  # M₃ = b ω₃ where a fitting holds the slope
 
 
 def test_where_the_odd_coil_is_unstable_another_shape_of_less_energy_is_found() -> None:
