@@ -204,14 +204,13 @@ class Problem:
     @cached_property
     def hung_weight(self) -> float:
         """F − N(0), the axial weight of the whole rod: γ cos α of a uniform one, γ times its rise in a curved hole."""
-        if self.hole is not None and self.axial_weight == 0.0 and not self.axis and self.rod.symmetric:
+        if self.hole is None:
+            return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
+        if self.axial_weight == 0.0 and not self.axis and self.rod.symmetric:
             return 0.0  # a level arc is alike from both ends
-        if self.hole is not None:
-            reach = -self.clearance if self.on_top else self.clearance
-            breaks = self.rod.breaks
-            rises = np.diff(heights_of_lying_rod(self.hole, reach, breaks))
-            return self.weight * float(self.rod.weight(breaks[:-1]) @ rises)
-        return self.axial_weight * self.rod.whole_weight if self.sections else self.axial_weight
+        reach, breaks = -self.clearance if self.on_top else self.clearance, self.rod.breaks
+        rises = np.diff(heights_of_lying_rod(self.hole, reach, breaks))
+        return self.weight * float(self.rod.weight(breaks[:-1]) @ rises)
 
     @property
     def axial_weight(self) -> float:
@@ -284,11 +283,9 @@ class Problem:
     @property
     def attributes(self) -> dict[str, Any]:
         """The same as attributes of labelled arrays, which hold numbers, lists of them and text: tapers as JSON."""
+        given = self.given_more.items()
         return {
-            name: json.dumps(given)
-            if isinstance(given, list) and any(isinstance(one, tuple) for one in given)
-            else given
-            for name, given in self.given_more.items()
+            name: json.dumps(one) if isinstance(one, list) and tuple in map(type, one) else one for name, one in given
         }
 
     def differences(self, other: Problem) -> str:

@@ -47,11 +47,8 @@ MOST_SHRUNK = 0.6
 PAST = 0.02
 """Part of a step by which a place is passed where something happens that ends nothing."""
 
-SMALLEST_PART = 0.1
-"""A gap that opens is tried down to this part of its usual first length."""
-
-NEARLY = 1e-9
-"""A condition that is missed by no more than this is as good as met."""
+SMALLEST_PART, NEARLY = 0.1, 1e-9
+"""A gap that opens is tried down to this part of its usual first length; a condition missed by so much is met."""
 
 MOST_STATES = 2000
 

@@ -33,11 +33,8 @@ CLOSER = 21
 NEAR, MOST_PEAKS = 0.05, 12
 """Peaks on the grid within this part of the largest are looked at closely, at most so many of them."""
 
-EQUAL_PEAKS = 1e-10
-"""Peaks that differ by less than this part count as equal: the largest value is then at the first of them."""
-
-EQUAL_VALUES = 1e-13
-"""Values that differ by less than this part count as equal: the largest value is then at the first of their places."""
+EQUAL_PEAKS, EQUAL_VALUES = 1e-10, 1e-13
+"""Peaks, and values, that differ by less than this part count as equal: the largest is then at the first of them."""
 
 PLACES = 10
 """Gauss points in each element of :func:`element_fields`; polynomials through them give derivatives and integrals."""

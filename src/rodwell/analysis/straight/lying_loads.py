@@ -27,9 +27,7 @@ from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.value import Value
 
-SPARE_MODES = 4
-
-MOST_HALVINGS = 60
+SPARE_MODES, MOST_HALVINGS = 4, 60
 
 ENDLESS = 1e6
 """In units of the scale of loads: the rod counts as stable at every force beyond."""

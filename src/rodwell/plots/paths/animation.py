@@ -66,7 +66,15 @@ def pictures(result: LoadPath, case: Case | None = None) -> Iterator[tuple[Image
     along, across = (ax.plot([], [], ".", color=INK, ms=3.5, label="on the wall")[0] for ax in (sides, end))
     sides.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, frameon=False)
     said = figure.suptitle(max((one.says for one in shown), key=len), fontsize=9.5)
-    moving: list[tuple[Any, Any]] = [(curve, dot), (sides, height), (sides, side), (end, rod), (sides, along), (end, across), (figure, said)]
+    moving: list[tuple[Any, Any]] = [
+        (curve, dot),
+        (sides, height),
+        (sides, side),
+        (end, rod),
+        (sides, along),
+        (end, across),
+        (figure, said),
+    ]
     for _, part in moving:
         part.set_animated(True)
     canvas.draw()  # what stays, once

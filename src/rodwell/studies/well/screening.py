@@ -95,13 +95,20 @@ class Screening:
     def limit(self) -> tuple[FloatArray, FloatArray]:
         """Exact critical load with the station's build, where that counts and there is one, and errors, (n,) each.
 
-        Elsewhere that of the straight hole.
+        Elsewhere that of the straight hole. Along the arc the build of the station goes on over the whole local rod; a
+        hole that builds for less than that does not hold the rod as well: there the build counts as much as where it
+        counts least beside the local rod.
         """
-        known = np.isfinite(self.bent.values)
-        return (
-            np.where(known, self.bent.values, self.critical.values),
-            np.where(known, self.bent.errors, self.critical.errors),
-        )
+        known, depth = np.isfinite(self.bent.values), self.survey.md
+        gain = np.where(known, self.bent.values / self.critical.values, 1.0)
+        least = gain.copy()
+        for i in np.flatnonzero(known):
+            uphill = 1.0 if self.survey.inclination[i] > 90.0 else -1.0
+            length = self.string.length(float(self.local[i]), build=float(self.survey.build[i]))
+            first, end = np.searchsorted(depth, sorted((depth[i], depth[i] + uphill * length)))
+            least[i] = min(gain[i], np.min(gain[first:end], initial=np.inf))
+        errors = np.where(known, self.bent.errors, self.critical.errors)
+        return np.where(known, self.critical.values * least, self.critical.values), errors
 
     @cached_property
     def utilisation(self) -> FloatArray | None:

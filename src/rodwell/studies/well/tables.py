@@ -106,7 +106,8 @@ def assumptions(screening: Screening) -> list[str]:
         "Friction, pressure, joints and turns of the hole are not in the exact loads; He–Kyllingstad has the turns.",
         f"Where the hole's build changes the load by more than {plain(100 * COUNTS)} % by He–Kyllingstad, the exact "
         "load in an arc of that curvature, which goes on uphill over the local rod and turns by 57° at most, decides; "
-        "lift-off is that of a straight hole.",
+        "where a build counts less at a station beside the local rod, it counts as there. Lift-off is that of a "
+        "straight hole.",
     ]
     if screening.bent.interpolated > 0.0:
         out.append(
