@@ -27,6 +27,7 @@ WHY = {
     "h5netcdf": "NetCDF files",
     "h5py": "NetCDF files",
     "matplotlib": "figures",
+    "pillow": "animations",
     "jinja2": "the report as a page",
     "xlsxwriter": "tables as XLSX",
     "trimesh": "glTF and STL",

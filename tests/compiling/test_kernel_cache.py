@@ -38,7 +38,6 @@ WITH_KERNELS = (
     *("numerics/equilibria/newton", "numerics/equilibria/maxima"),
     *("numerics/equilibria/two_meshes", "numerics/continuation/prediction", "numerics/continuation/softest"),
     "analysis/discrete/measures",
-    "analysis/discrete/pressures",
     "studies/drag/march",
 )
 
