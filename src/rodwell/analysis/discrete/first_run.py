@@ -18,6 +18,7 @@ from rodwell.compiling import second_process
 from rodwell.compiling.cache import on_disk
 from rodwell.numerics.continuation.softest import softest
 from rodwell.numerics.equilibria.newton import Tolerances, newton
+from rodwell.numerics.splines.assembly import variation
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.model import RodOnCylinder
 from rodwell.problem.problem import Problem
@@ -59,6 +60,7 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
         ),
     ),
     (softest, (_MATRIX, _POSITIONS, _POSITIONS, _MATRIX, types.boolean, types.int64, _MATRIX)),
+    (variation, (_MESH, _VECTOR, _VECTOR, _VECTOR, _VECTOR)),  # c, parameters, rates, v
 )
 """Kernels and the types of their arguments: the only ones with which they are called."""
 

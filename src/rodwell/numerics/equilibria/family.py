@@ -221,6 +221,7 @@ class Family:
         banded.factorise(factors)
         mesh = self.mesh
         newton.inverse_iteration(mesh.gram, mesh.held, mesh.follows, factors, iterations, vector)
+        wait_for("variation")
         above, size, below = _variation(mesh, state.c, *on_path(self.path, state.lam), vector)
         return float(above / below), float(EIGENVALUE_NOISE * size / below)
 
