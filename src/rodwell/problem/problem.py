@@ -283,10 +283,9 @@ class Problem:
     @property
     def attributes(self) -> dict[str, Any]:
         """The same as attributes of labelled arrays, which hold numbers, lists of them and text: tapers as JSON."""
-        given = self.given_more.items()
-        return {
-            name: json.dumps(one) if isinstance(one, list) and tuple in map(type, one) else one for name, one in given
-        }
+        given = self.given_more
+        tapers = {name for name, one in given.items() if isinstance(one, list) and tuple in map(type, one)}
+        return {name: json.dumps(one) if name in tapers else one for name, one in given.items()}
 
     def differences(self, other: Problem) -> str:
         """What differs in another problem, in words: names, its value, and that of this one."""
@@ -298,5 +297,4 @@ class Problem:
         return Problem(**{name: getattr(self, name) for name in NAMES} | changes)
 
 
-NAMES = tuple(field.name for field in fields(Problem))
-"""Names of what makes a problem."""
+NAMES = tuple(field.name for field in fields(Problem))  # of what makes a problem
