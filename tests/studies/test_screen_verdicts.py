@@ -111,6 +111,11 @@ NAN = math.nan
         ),
         # a build that is shorter than the local rod does not hold it better
         ({"force": [1, 2, 160, 4], "bent": [NAN, NAN, 170, NAN]}, verdict.BUCKLES, "The string buckles:"),
+        (
+            {"force": [1, 2, 160, 4], "exact": [100, NAN, 100, 100], "bent": [NAN, 170, 170, NAN]},
+            verdict.BUCKLES,
+            "The string buckles:",
+        ),
         ({"force": [1, 2, 26, 4], "bent": [NAN, NAN, 25, NAN]}, verdict.BUCKLES, "The string buckles:"),
         ({"force": [1, 2, 24, 4], "bent": [NAN, NAN, 25, NAN], "curved": [95, 95, 20, 95]}, verdict.STRAIGHT, "By the"),
     ],

@@ -106,7 +106,7 @@ class Screening:
             uphill = 1.0 if self.survey.inclination[i] > 90.0 else -1.0
             length = self.string.length(float(self.local[i]), build=float(self.survey.build[i]))
             first, end = np.searchsorted(depth, sorted((depth[i], depth[i] + uphill * length)))
-            least[i] = min(gain[i], np.min(gain[first:end], initial=np.inf))
+            least[i] = np.fmin.reduce(gain[first:end], initial=gain[i])  # where the straight load is not known: NaN
         errors = np.where(known, self.bent.errors, self.critical.errors)
         return np.where(known, self.critical.values * least, self.critical.values), errors
 
