@@ -14,9 +14,8 @@ from PIL import Image
 from rodwell.analysis.off_wall.measured import position
 from rodwell.analysis.path.frames import Frame, frames
 from rodwell.analysis.path.load_path import LoadPath
-from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.paths.axes import across_of, units_of, words
+from rodwell.plots.paths.axes import Units, across_of, forces_in, units_of, words
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import GREY, INK, MODES, WARN
 from rodwell.quantities.arrays import FloatArray
@@ -49,7 +48,8 @@ def pictures(result: LoadPath, case: Case | None = None) -> Iterator[tuple[Image
 
     Numbers stand in the units of a case; None: B = L = 1.
     """
-    shown = [_of(frame, result, case) for frame in frames(result)]
+    units, said = units_of(result, case), forces_in(result, case)
+    shown = [_of(frame, result, units, said) for frame in frames(result)]
     figure = Figure(figsize=(9.6, 4.6), dpi=DOTS, layout="constrained")
     canvas: Any = FigureCanvasAgg(figure)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.25, 1.0), height_ratios=(1.0, 1.3))
@@ -65,7 +65,7 @@ def pictures(result: LoadPath, case: Case | None = None) -> Iterator[tuple[Image
     (rod,) = end.plot([], [], color=MODES[0], lw=1.8)
     along, across = (ax.plot([], [], ".", color=INK, ms=3.5, label="on the wall")[0] for ax in (sides, end))
     sides.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, frameon=False)
-    said = figure.suptitle(max((one.says for one in shown), key=len), fontsize=9.5)
+    title = figure.suptitle(max((one.says for one in shown), key=len), fontsize=9.5)
     moving: list[tuple[Any, Any]] = [
         (curve, dot),
         (sides, height),
@@ -73,7 +73,7 @@ def pictures(result: LoadPath, case: Case | None = None) -> Iterator[tuple[Image
         (end, rod),
         (sides, along),
         (end, across),
-        (figure, said),
+        (figure, title),
     ]
     for _, part in moving:
         part.set_animated(True)
@@ -87,7 +87,7 @@ def pictures(result: LoadPath, case: Case | None = None) -> Iterator[tuple[Image
         rod.set_data(one.y, one.x)
         along.set_data(s[one.touching], one.x[one.touching])
         across.set_data(one.y[one.touching], one.x[one.touching])
-        said.set_text(one.says)
+        title.set_text(one.says)
         for on, part in moving:
             on.draw_artist(part)
         held = number + 1 == len(shown) or (number > 0 and one.run != shown[number - 1].run)
@@ -115,11 +115,9 @@ def _around(sides: Any, end: Any, widest: float) -> None:
     end.set_ylabel("height / Δ")
 
 
-def _of(frame: Frame, result: LoadPath, case: Case | None) -> _Shown:
+def _of(frame: Frame, result: LoadPath, units: Units, said: Forces) -> _Shown:
     """What is drawn of a state."""
-    s, state, units = np.linspace(0.0, 1.0, PLACES), frame.state, units_of(result, case)
-    clearance = result.problem.clearance
-    said = Forces(None, result.problem.hung_weight) if case is None else forces_of(case)
+    s, state, clearance = np.linspace(0.0, 1.0, PLACES), frame.state, result.problem.clearance
     x, y, pressure = position(state, s)
     shortening = state.solved.out.energy_by_load * clearance**2
     room = result.problem.rod.clearance(s) - np.hypot(x[0], y[0]) / clearance

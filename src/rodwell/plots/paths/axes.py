@@ -41,6 +41,11 @@ def units_of(result: LoadPath, case: Case | None) -> Units:
     return Units(x, lambda load: y * float(said.drawn(load)), length, f"{said.axis}  [{force}]")
 
 
+def forces_in(result: LoadPath, case: Case | None) -> Forces:
+    """How forces of a load path are said: as the pages of a case do, without one as F in B/L²."""
+    return Forces(None, result.problem.hung_weight) if case is None else forces_of(case)
+
+
 def across_of(result: LoadPath, shortening: Any, force: Any) -> Any:
     """How far the driven end has come, u − cF, from the shortening u of the span: c is what gives way in series."""
     return shortening - result.compliance * force

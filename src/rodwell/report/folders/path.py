@@ -19,7 +19,7 @@ from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import RC
 from rodwell.report.folders.figures import save_figure
 from rodwell.report.pages.path import PAGE, write_path_page
-from rodwell.store.folder import whole_folder
+from rodwell.store.folder import check_writable, whole_folder
 from rodwell.store.netcdf import write_load_path
 from rodwell.store.text import write_json
 
@@ -65,7 +65,7 @@ def write_path(
 
 
 def check_animation(file: Path, field: str = "--animation") -> None:
-    """Refuse a file whose suffix is not that of an animation.
+    """Refuse a file whose suffix is not that of an animation, or that cannot be written, before any work is done.
 
     Raises
     ------
@@ -74,6 +74,7 @@ def check_animation(file: Path, field: str = "--animation") -> None:
     """
     if file.suffix.lower() not in MOVING:
         raise InputError(field, str(file), f"must end in {' or '.join(MOVING)}")
+    check_writable(file.absolute().parent, field)
 
 
 def write_animation(

@@ -11,12 +11,10 @@ from rodwell.analysis.path.events import SNAP, PathPoint
 from rodwell.analysis.path.frames import Frame, frames
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.space.scene import drawn
-from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.paths.axes import Units, units_of, words
+from rodwell.plots.paths.axes import Units, forces_in, units_of, words
 from rodwell.problem.words import ends_text
 from rodwell.quantities.as_json import as_json
-from rodwell.quantities.forces import Forces
 from rodwell.report.pages.templates import HERE, template
 from rodwell.report.pages.viewer import View, view, viewer
 
@@ -42,7 +40,7 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
         Of the page.
     """
     shown, scales = frames(path), None if case is None else case.scales
-    said = Forces(None, path.problem.hung_weight) if case is None else forces_of(case)
+    said = forces_in(path, case)
     # one enlargement for all, so that they can be compared: that of the state which bears the least
     rods = [drawn(frame.state, scales, PLACES) for frame in shown]
     enlarged = min(rod.radial_scale for rod in rods)
