@@ -47,6 +47,20 @@ def test_a_second_process_that_is_lost_is_made_up_for() -> None:
         assert start()() == "done here"
 
 
+def test_results_go_to_those_who_asked_whoever_waits_first() -> None:
+    with beside(lambda: number_of_process) as start:
+        first, second, third = start(1), start(10), start(100)
+        assert [third()[1], first()[1], second()[1], first()[1]] == [101, 2, 11, 2]
+
+
+def test_an_error_ends_its_own_work_only() -> None:
+    with beside(lambda: lambda number: 1 // number) as start:
+        fails, works = start(0), start(1)
+        assert works() == 1
+        with pytest.raises(ZeroDivisionError):
+            fails()
+
+
 def test_more_than_a_pipe_holds_is_sent_before_it_is_ready() -> None:
     go = threading.Event()  # never set in the copy
     many = list(range(200_000))

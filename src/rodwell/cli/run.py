@@ -84,13 +84,13 @@ def run(
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.folders.beside import drawing_beside  # noqa: PLC0415
 
-    with drawing_beside() as draw:
+    with drawing_beside() as drawing:
         shown = not quiet and not as_json
         with progress_bar(shown, "critical loads") as tell:
             result = answer(read, tell)
         if shown:
             _verdict(result)
-        drawn = draw(result)
+        drawing.case(result)
         if shown and not result.converged:
             _not_converged(read.rtol)
         from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
@@ -99,7 +99,7 @@ def run(
 
         follows = read.off_wall if path is None else path
         with progress_bar(shown, "report, figures and data"):
-            write_results(result, folder, with_pdf=with_pdf, path=follows, drawn=drawn)
+            write_results(result, folder, with_pdf=with_pdf, path=follows, drawing=drawing)
     if as_json:
         print_json(answer_dict(result, path=follows), indent=2)
     elif not quiet:

@@ -1,4 +1,4 @@
-"""Pictures drawn by a second process while this one computes and writes data: half the wait with two processors."""
+"""Drawn drawn by a second process while this one computes and writes data: half the wait with two processors."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
-from typing import IO, TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any
 
 from rodwell.analysis.branch.branch import states_to_lift_off
 
@@ -22,10 +23,14 @@ if TYPE_CHECKING:
 
 Work = Callable[..., Any]
 Start = Callable[..., Callable[[], Any]]
-"""Starts the work with its arguments, and returns what waits for its result."""
+"""Starts the work with its arguments, and returns what waits for its result. Work that is started while other work goes
+on is done after it."""
 
 GRACE = 1.0
 """How long the second process has to end by itself, in seconds."""
+
+CASE, BEYOND = "case", "beyond"
+"""What is drawn."""
 
 
 @contextmanager
@@ -46,22 +51,25 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
     # arguments go by a file in memory: a pipe would keep this process until the other one is ready to read
     with os.fdopen(os.memfd_create("arguments"), "w+b") as file:
         here, there = context.Pipe()
-        process = context.Process(target=_serve, args=(ready, here, there, file))
+        process = context.Process(target=_serve, args=(ready, here, there, file.fileno()))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of forks with threads of compiled libraries
             process.start()
         there.close()
+        results = _Results(here)
 
         def start(*arguments: Any) -> Callable[[], Any]:
             try:
                 sent = pickle.dumps(arguments, pickle.HIGHEST_PROTOCOL)
             except (pickle.PicklingError, AttributeError, TypeError):  # a function of somebody's own in it
                 return lambda: ready()(*arguments)
+            place = file.tell()
             file.write(sent)
             file.flush()
             with suppress(OSError):  # it is lost, as will be seen
-                here.send(True)
-            return lambda: _received(here, ready, arguments)
+                here.send((place, len(sent)))
+            number = results.expected()
+            return lambda: results.received(number, lambda: ready()(*arguments))
 
         try:
             yield start
@@ -74,51 +82,99 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
                 process.join()
 
 
-@contextmanager
-def drawing_beside() -> Iterator[Callable[[Answer], Callable[[], Any]]]:
-    """Start a second process that draws the pictures of an answer, known later; what is computed for them stays here.
+class Drawing:
+    """Draws the pictures of an answer in a second process; what is computed for them stays in this one.
 
     The states that they show take kernels, and here these have been read from the disk.
     """
+
+    def __init__(self, start: Start) -> None:
+        self._start = start
+        self._case: Callable[[], Any] | None = None
+
+    def case(self, answer: Answer) -> Callable[[], Any]:
+        """Draw what is on the wall, once: returns what waits for the pictures."""
+        if self._case is None:
+            self._case = self._start(CASE, answer, states_to_lift_off(answer.first))
+        return self._case
+
+    def beyond(self, answer: Answer) -> Callable[[], Any]:
+        """Draw what happens beyond lift-off, which has been followed."""
+        return self._start(BEYOND, answer.case, answer.beyond)
+
+
+@contextmanager
+def drawing_beside() -> Iterator[Drawing]:
+    """Start a second process that draws the pictures of an answer, known later."""
     with beside(drawing) as start:
-        yield lambda answer: start(answer, states_to_lift_off(answer.first))
+        yield Drawing(start)
 
 
 def drawing() -> Work:
-    """Ready to draw the pictures of a case, half of them in a third process: what that needs is imported."""
-    from rodwell.report.folders.pictures import draw_branches, draw_rod  # noqa: PLC0415 - imports Matplotlib
+    """Ready to draw pictures, those of a case half in a third process: what that needs is imported."""
+    from rodwell.report.folders.pictures import draw_beyond, draw_branches, draw_rod  # noqa: PLC0415 - Matplotlib
 
-    def draw(answer: Answer, states: list[Solution]) -> dict[str, dict[str, bytes]]:
+    def draw_case(answer: Answer, states: list[Solution]) -> dict[str, dict[str, bytes]]:
         with beside(lambda: draw_rod) as start:
             others = start(answer)
             return {**draw_branches(answer, states), **others()}
 
-    return draw
+    works: dict[str, Work] = {CASE: draw_case, BEYOND: draw_beyond}
+    return lambda which, *arguments: works[which](*arguments)
 
 
-def _serve(ready: Callable[[], Work], here: Connection, there: Connection, file: IO[bytes]) -> None:
-    """In the second process: get ready, wait for the arguments, do the work, send its result or what it raised."""
+class _Results:
+    """What comes back through a pipe, in the order in which it was asked for, whichever is wanted first."""
+
+    def __init__(self, pipe: Connection) -> None:
+        self._pipe = pipe
+        self._asked = 0
+        self._come: list[tuple[bool, Any] | None] = []
+
+    def expected(self) -> int:
+        """The number of one more result."""
+        self._asked += 1
+        return self._asked - 1
+
+    def received(self, number: int, otherwise: Callable[[], Any]) -> Any:
+        """Wait for a result, and return it or raise what the work raised; ``otherwise`` where the process was lost."""
+        while len(self._come) <= number:
+            try:
+                self._come.append(self._pipe.recv())
+            except (EOFError, OSError):  # it was ended from outside
+                self._come.append(None)
+        come = self._come[number]
+        if come is None:
+            return otherwise()
+        well, out = come
+        if not well:
+            raise out
+        return out
+
+
+def _serve(ready: Callable[[], Work], here: Connection, there: Connection, file: int) -> None:
+    """In the second process: get ready, and as long as work comes do it, and send its result or what it raised."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
     here.close()  # so that the end of the first process can be told
     try:
         work = ready()
-        there.recv()
-        file.seek(0)
-        out = (True, work(*pickle.load(file)))
-    except EOFError:  # nothing to do
-        return
     except BaseException as error:
-        out = (False, error)
-    with suppress(OSError):  # the first process has ended
-        there.send(out)
+        work = partial(_raised, error)
+    while True:
+        try:
+            place, size = there.recv()
+        except EOFError:  # nothing more to do
+            return
+        try:
+            out = (True, work(*pickle.loads(os.pread(file, size, place))))
+        except BaseException as error:
+            out = (False, error)
+        try:
+            there.send(out)
+        except OSError:  # the first process has ended
+            return
 
 
-def _received(pipe: Connection, ready: Callable[[], Work], arguments: tuple[Any, ...]) -> Any:
-    try:
-        well, out = pipe.recv()
-    except EOFError:  # it was ended from outside
-        return ready()(*arguments)
-    if not well:
-        raise out
-    return out
+def _raised(error: BaseException, *_: Any) -> Any:
+    raise error

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
 
 from rodwell.answers.data.along import along_table, along_tables
 from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
-from rodwell.report.folders.beside import drawing_beside
+from rodwell.report.folders.beside import Drawing, drawing_beside
+from rodwell.report.folders.beyond import write_beyond
 from rodwell.report.pages.pdf import PDF, report_folder, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
@@ -31,12 +30,12 @@ def write_results(
     *,
     with_pdf: bool = False,
     path: bool = False,
-    drawn: Callable[[], Any] | None = None,
+    drawing: Drawing | None = None,
 ) -> tuple[str, ...]:
     """Write report, figures, tables, data and case to the folder ``out``: all files, or none.
 
     ``with_pdf`` adds the report as PDF; ``path`` what happens beyond lift-off, which is followed while figures of what
-    is on the wall are drawn. ``drawn`` waits for the pictures, where they are drawn already
+    is on the wall are drawn. ``drawing`` draws the pictures, where it was started already
     (:mod:`rodwell.report.folders.beside`). Returns the names of the files.
 
     Raises
@@ -46,8 +45,9 @@ def write_results(
     """
     with report_folder(out, with_pdf=with_pdf) as folder:
         with ExitStack() as stack:
-            drawn = drawn or stack.enter_context(drawing_beside())(answer)
-            followed = _beyond(answer, folder) if path else {}
+            drawing = drawing or stack.enter_context(drawing_beside())
+            drawn = drawing.case(answer)
+            followed = write_beyond(answer, folder, drawing) if path else dict
             write_json(answer_dict(answer, path=path), folder / "answer.json")
             tables, states = answer_tables(answer), along_tables(answer.assessment)
             write_csv(tables[0], folder / "key-figures.csv")
@@ -56,7 +56,7 @@ def write_results(
             (folder / "case.toml").write_text(answer.case.text, encoding="utf-8")
             write_answer(answer, folder / "branches.nc")
             rod = view(answer.shown, answer.case.scales)
-            pictures = _kept(drawn(), folder) | followed
+            pictures = _kept(drawn() | followed(), folder)
         if answer.case.about.logo is not None:
             pictures[LOGO] = answer.case.about.logo
         still = embedded(*pictures["rod-3d"]) if "rod-3d" in pictures else ""
@@ -74,10 +74,3 @@ def _kept(drawn: dict[str, dict[str, bytes]], folder: Path) -> dict[str, Picture
             (folder / f"{name}.{suffix}").write_bytes(content)
     kinds = {name: "svg" if "svg" in formats else "png" for name, formats in drawn.items()}
     return {name: (kind, drawn[name][kind]) for name, kind in kinds.items()}
-
-
-def _beyond(answer: Answer, folder: Path) -> dict[str, Picture]:
-    """Follow the rod beyond lift-off, and write what happens there."""
-    from rodwell.report.folders.beyond import write_beyond  # noqa: PLC0415 - imports Matplotlib
-
-    return write_beyond(answer, folder)

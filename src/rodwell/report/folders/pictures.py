@@ -12,10 +12,13 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
+from rodwell.answers.result.beyond import Beyond
 from rodwell.case.about import About
+from rodwell.case.case import Case
 from rodwell.plots.along import plot_along, upright
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.cylinder import plot_cylinder_moments
+from rodwell.plots.paths.beyond import plot_beyond
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.sections import name_sections, plot_string
@@ -23,6 +26,7 @@ from rodwell.plots.sketch import plot_sketch
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
 from rodwell.report.folders.figures import as_png, png_and_svg
+from rodwell.report.reports.beyond import PICTURE
 from rodwell.report.reports.front import LOGO
 
 Drawn = dict[str, dict[str, bytes]]
@@ -58,6 +62,12 @@ def draw_rod(answer: Answer) -> Drawn:
         if answer.case.string is not None:
             axes["string"] = plot_string(answer.case)
         return _files(axes)
+
+
+def draw_beyond(case: Case, found: Beyond) -> Drawn:
+    """Draw what happens beyond lift-off, where it could be followed."""
+    with mpl.rc_context(RC):
+        return {PICTURE: png_and_svg(plot_beyond(case, found))}
 
 
 def _files(axes: dict[str, Any]) -> Drawn:
