@@ -62,6 +62,7 @@ RC: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
+    "axes.titley": 1.0,  # where it stands anyway: to find that, every draw would measure all labels of the axes again
     "grid.color": GRID,
     "grid.linewidth": 0.6,
     "xtick.color": INK,

@@ -83,10 +83,16 @@ def _without_turning(points: FloatArray, along: FloatArray) -> tuple[FloatArray,
     tangent = along / np.linalg.norm(along, axis=1, keepdims=True)
     up = np.array([1.0, 0.0, 0.0])
     first = up - (up @ tangent[0]) * tangent[0]
+    step = np.diff(points, axis=0)
+    mirror = _reflections(step)
+    bend = tangent[1:] - (mirror @ tangent[:-1, :, None])[..., 0]
     vector = [first / np.linalg.norm(first)]
-    for step, before, here in zip(np.diff(points, axis=0), tangent[:-1], tangent[1:], strict=True):
-        half = 2.0 / (step @ step)
-        mirrored, direction = (each - half * (step @ each) * step for each in (vector[-1], before))
-        bend = here - direction
-        vector.append(mirrored - 2.0 / (bend @ bend) * (bend @ mirrored) * bend)
+    for both in _reflections(bend) @ mirror:
+        vector.append(both @ vector[-1])
     return tangent, np.array(vector)
+
+
+def _reflections(normal: FloatArray) -> FloatArray:
+    """Matrices (m, 3, 3) that reflect at planes with these normals (m, 3), of any length."""
+    square = np.sum(normal**2, axis=1)[:, None, None]
+    return np.asarray(np.eye(3) - 2.0 / square * normal[:, :, None] * normal[:, None, :])
