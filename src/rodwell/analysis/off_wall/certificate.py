@@ -20,7 +20,7 @@ import numpy as np
 from rodwell.analysis.off_wall.conditions import OPENS, PatternedState, conditions
 from rodwell.analysis.off_wall.measured import position
 from rodwell.physics.off_wall.forces import in_space
-from rodwell.quantities.arrays import FloatArray
+from rodwell.quantities.arrays import BoolArray, FloatArray
 
 LIMIT = 1e-7
 """Largest residual of balance, relative to the end force, that counts as zero."""
@@ -30,6 +30,8 @@ PENETRATION = 1e-8
 
 PANELS, ORDER = 6, 8
 INSET = 1e-12
+
+_RULE = np.polynomial.legendre.leggauss(ORDER)
 
 
 @dataclass(frozen=True)
@@ -81,18 +83,15 @@ def contact_certificate(state: PatternedState) -> ContactCertificate:
     """Evaluate the certificate of a state."""
     problem, points = state.model.problem, state.point_forces
     scale = max(abs(state.load), problem.weight, 1.0)
-    free, touching, routes, across = 0.0, 0.0, 0.0, 0.0
-    ends = []
-    for left, right, on in _parts(state):
-        inset = INSET * (right - left)
-        places = np.linspace(left + inset, right - inset, PANELS + 1)
-        n, _ = _force(state, places)
-        load = _loads(state, places)
-        if on:  # along the rod's own axis and around the wall; the normal one by the pressure
-            touching = max(touching, float(np.max(np.abs(np.diff(n, axis=1) - load))))
-        else:
-            free = max(free, float(np.max(np.abs(np.diff(n, axis=1) - load))))
-        ends.append((n[:, 0], n[:, -1]))
+    left, right, on = _parts(state)
+    inset = INSET * (right - left)
+    places = np.linspace(left + inset, right - inset, PANELS + 1, axis=1)
+    n = _force(state, places.ravel()).reshape(3, *places.shape)
+    # along the rod's own axis and around the wall in contact too; the normal one by the pressure
+    missed = np.max(np.abs(np.diff(n, axis=2) - _loads(state, places)), axis=(0, 2))
+    free, touching = (float(np.max(missed[kind], initial=0.0)) for kind in (~on, on))
+    routes, across = 0.0, 0.0
+    ends = [(part[:, 0], part[:, -1]) for part in n.transpose(1, 0, 2)]
     ends = _with_loads(state, ends)
     for i, (place, outward, _) in enumerate(points):
         jump = ends[i + 1][0] - ends[i][1]
@@ -120,27 +119,28 @@ def _with_loads(
     return [*first, *ends, *last]
 
 
-def _parts(state: PatternedState) -> list[tuple[float, float, bool]]:
-    """Stretches, parted at edges: from where to where, and whether in contact."""
+def _parts(state: PatternedState) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Stretches, parted at edges: from where to where, and whether in contact, (k,) each."""
     bounds = np.union1d(state.bounds, state.pattern.edges)
     owner = np.searchsorted(state.bounds, bounds[:-1], side="right") - 1
-    return [(left, right, state.touching[i]) for left, right, i in zip(bounds[:-1], bounds[1:], owner, strict=True)]
+    return bounds[:-1], bounds[1:], np.asarray(state.touching)[owner]
 
 
-def _force(state: PatternedState, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    x, y, pressure = position(state, s)
+def _force(state: PatternedState, s: FloatArray) -> FloatArray:
+    """The internal force at places (m,) by moment balance, (3, m)."""
+    x, y, _ = position(state, s)
     problem = state.model.problem
     n = state.load + problem.axial_weight * problem.rod.lever(s)
     stiffness = problem.rod.stiffness
-    return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s)).n, pressure
+    return in_space(x, y, n, problem.twist, stiffness(s), stiffness.derivative(s)).n
 
 
 def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
-    """∫ wₗ i + wₐ k + p d₁ ds between places (m,), in order, (3, m−1)."""
+    """∫ wₗ i + wₐ k + p d₁ ds between the places of each part (k, m), in order, (3, k, m−1)."""
     problem = state.model.problem
-    points, weights = np.polynomial.legendre.leggauss(ORDER)
+    points, weights = _RULE
     inner = np.concatenate([state.solved.shape.places, state.bounds])
-    grid = np.union1d(places, inner[(inner > places[0]) & (inner < places[-1])])
+    grid = np.union1d(places, inner[(inner > places[0, 0]) & (inner < places[-1, -1])])
     grid = np.union1d(grid, 0.5 * (grid[1:] + grid[:-1]))  # two panels of the rule between kinks
     half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
     s = (middle[:, None] + half[:, None] * points).ravel()
@@ -150,7 +150,9 @@ def _loads(state: PatternedState, places: FloatArray) -> FloatArray:
         problem.foundation * weight - outward * x[0], -outward * y[0], problem.axial_weight * weight
     ])  # fmt: skip
     panels = density.reshape(3, -1, ORDER) @ weights * half
-    return np.asarray(np.add.reduceat(panels, np.searchsorted(middle, places[:-1]), axis=1))
+    # between the last place of a part and the first of the next there is nothing but their insets
+    sums = np.add.reduceat(panels, np.searchsorted(middle, places.ravel()[:-1]), axis=1)
+    return np.asarray(np.append(sums, np.zeros((3, 1)), axis=1).reshape(3, *places.shape)[:, :, :-1])
 
 
 def _penetration(state: PatternedState) -> float:

@@ -19,6 +19,8 @@ from rodwell.quantities.arrays import FloatArray, IntArray
 SAMPLES = 16
 """Places in an element among which the largest gap and the largest pressure are first sought."""
 
+_RULE = np.polynomial.legendre.leggauss(4)
+
 
 class Numbers(NamedTuple):
     """Numbers of a state, in units B = L = 1, gaps in Δ.
@@ -110,7 +112,7 @@ def along_axis(state: PatternedState, places: FloatArray) -> FloatArray:
 def _axis(state: PatternedState) -> tuple[FloatArray, FloatArray]:
     """Places (k,) of the grid and z there: a search for the largest stress asks for z again and again."""
     grid = np.unique(np.concatenate([np.linspace(0.0, 1.0, 401), state.bounds, state.problem.rod.breaks]))
-    points, weights = np.polynomial.legendre.leggauss(4)
+    points, weights = _RULE
     s = (grid[:-1, None] + 0.5 * np.diff(grid)[:, None] * (points + 1.0)).ravel()
     x1, y1 = state.model.problem.clearance * fields_at(state.solved.shape, s)[0][:, 1]
     rate = np.sqrt(1.0 - x1**2 - y1**2).reshape(-1, 4) @ (0.5 * weights) * np.diff(grid)
