@@ -51,7 +51,8 @@ ROOMS = {
     "physics/on_wall/endless": "analysis/endless/test_endless.py physics/test_curved.py",
     "physics/off_wall": "physics/test_off_wall.py numerics/test_stretches.py analysis/path/test_load_path.py "
     "analysis/path/test_other_load_paths.py analysis/path/test_snapping.py",
-    "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/proof validation/test_without_wall.py",
+    "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/proof validation/test_without_wall.py "
+    "validation/test_touching.py",
     "physics": "physics validation/test_critical_loads.py validation/test_sections.py",
     "quantities": "quantities case answers/test_answer.py report/test_report.py studies/test_screening.py",
 }
