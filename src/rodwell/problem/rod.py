@@ -162,6 +162,14 @@ class Rod:
         return bool(np.any((below == above) & (next_rate < rate)))
 
     @cached_property
+    def stiffness_kinks(self) -> FloatArray:
+        """Where the bending stiffness has a kink and no step, (k,), in L."""
+        if not self.tapered:
+            return np.zeros(0)
+        (below, above), (rate, next_rate) = self.stiffness_sides, self.stiffness_rate_sides
+        return np.asarray(self.breaks[1:-1][(below == above) & (next_rate != rate)])
+
+    @cached_property
     def whole_weight(self) -> float:
         """∫ w(s)/w ds: weight of the whole, as a ratio to that of a uniform rod."""
         if self.tapered:

@@ -116,6 +116,15 @@ def test_the_barrier_before_the_snap(
     assert found.as_dict()["why_no_turn"] == "it was broken off"  # and is not begun again
 
 
+def test_a_helix_is_found_close_to_where_it_lifts_off(loop: LoadPath) -> None:
+    """The gap that opens has a length that goes like the root of the distance in load, from −109.8311707 on."""
+    squares = []
+    for force in (-109.82, -109.80, -109.76):
+        (gap,) = next(one.state for one in loop.at(force) if one.leg == "unloading").gaps
+        squares.append((gap.end.value - gap.start.value) ** 2 / (force + 109.8311707))
+    assert squares == pytest.approx([squares[0]] * 3, rel=0.01)
+
+
 @pytest.mark.parametrize(("force", "least", "most"), [(-127.2, 2.2, 2.8), (-147.0, 1.45, 1.7)])
 def test_a_turn_of_mid_length_that_snaps_the_rod(loop: LoadPath, force: float, least: float, most: float) -> None:
     """Reference: by about 2.6 rad at −127.2, by 1.56 at −147, for a way to turn the rod and a flow not told.

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from strong_form import integrated
 
 import rodwell
 from rodwell.analysis.off_wall.bumps import step_gap_sizes
 from rodwell.analysis.off_wall.measured import position
-from rodwell.analysis.off_wall.state import ContactState
 from rodwell.analysis.path.follow import load_path
 from rodwell.analysis.path.load_path import LoadPath
 
@@ -49,44 +46,11 @@ def test_a_step_of_the_weight_that_is_hardly_one_changes_hardly_anything() -> No
     assert after.energy.value == pytest.approx(-0.00157218, abs=1e-8)
 
 
-def _integrated(state: ContactState, left: float, right: float) -> np.ndarray:
-    """The tangent's and the force's own equations from one end of a free stretch to the other: x, y there, in Δ.
-
-    b t″ = −n + (t·n − b|t′|²)t − T₁ t × t′ and n′ = q(wₗ i + wₐ k), with b t′ and n continuous at a step.
-    """
-    problem, inset = state.problem, 1e-9
-    start = left + inset
-    x, y, _ = position(state.fine, np.array([start]))
-    (x, y), rod = (x[:, 0], y[:, 0]), problem.rod
-    z1 = np.sqrt(1.0 - x[1] ** 2 - y[1] ** 2)
-    t = np.array([x[1], y[1], z1])
-    t1 = np.array([x[2], y[2], -(x[1] * x[2] + y[1] * y[2]) / z1])
-    z3 = -(x[2] ** 2 + y[2] ** 2 + t1[2] ** 2 + x[1] * x[3] + y[1] * y[3]) / z1
-    t2 = np.array([x[3], y[3], z3])
-    b = float(rod.stiffness(np.array([start]))[0])
-    across = -b * (t2 + t1 @ t1 * t) - problem.twist * np.cross(t, t1)
-    along = (state.force + problem.axial_weight * float(rod.lever(np.array([start]))[0]) - across[2]) / z1
-    now = np.concatenate([[x[0], y[0]], t, b * t1, across + along * t])
-    corners = [start, *(s for s in rod.breaks if start < s < right), right]
-    for low, high in pairwise(corners):
-        b, q = (float(f(np.array([0.5 * (low + high)]))[0]) for f in (rod.stiffness, rod.weight))
-        weight = q * np.array([problem.lateral_weight, 0.0, problem.axial_weight])
-
-        def rates(_: float, v: np.ndarray, b: float = b, weight: np.ndarray = weight) -> np.ndarray:
-            t, bend, n = v[2:5], v[5:8], v[8:11]
-            t1 = bend / b
-            rate = -n + (t @ n - b * t1 @ t1) * t - problem.twist * np.cross(t, t1)
-            return np.concatenate([t[:2], t1, rate, weight])
-
-        now = solve_ivp(rates, (low, high), now, method="DOP853", rtol=1e-12, atol=1e-15).y[:, -1]
-    return now[:2] / problem.clearance
-
-
 def test_free_stretches_solve_the_equations_of_a_rod_in_space(two: LoadPath) -> None:
     state = two.at(-84.0)[0].state
     assert any(gap.start.value < 0.6 < gap.end.value for gap in state.gaps)
     for gap in state.gaps:
-        end = _integrated(state, gap.start.value, gap.end.value)
+        end = integrated(state, gap.start.value, gap.end.value)
         x, y, _ = position(state.fine, np.array([gap.end.value]))
         assert end == pytest.approx(np.array([x[0, 0], y[0, 0]]) / TWO.clearance, abs=1e-8)
 
@@ -166,7 +130,7 @@ def test_a_weightless_string_arches_across_the_hole() -> None:
     (point,) = state.point_forces
     assert point.force.value > 0.0
     for gap in state.gaps:
-        end = _integrated(state, gap.start.value, gap.end.value)
+        end = integrated(state, gap.start.value, gap.end.value)
         x, y, _ = position(state.fine, np.array([gap.end.value]))
         assert end == pytest.approx(
             np.array([x[0, 0], y[0, 0]]) / TWO.clearance, abs=2e-6

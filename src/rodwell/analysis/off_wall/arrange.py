@@ -116,11 +116,24 @@ def _fixed_distance(shape: Shape, first: int, last: int) -> Row:
     return Row(np.zeros_like(shape.nodes), weights, 0.0, float(weights @ shape.breaks))
 
 
-def at_load(state: PatternedState, load: float) -> PatternedState | None:
-    """The state of the same pattern at another load."""
-    shape = state.solved.shape
-    found = solve(state.model, shape, fixed_load(shape.chain, load))[1]
-    return None if found is None else PatternedState(state.pattern, state.elements, found)
+def at_load(state: PatternedState, load: float, attempts: int = 1) -> PatternedState | None:
+    """The state of the same pattern at another load; None if it is not found.
+
+    With more ``attempts`` than one it is sought in smaller steps where one is too long: a gap that is about to close
+    has a length that goes like the root of the distance in load.
+    """
+    model, solved, step = state.model, state.solved, load - state.solved.shape.load
+    for _ in range(attempts):
+        # to the last bit where the step is all that is left
+        target = load if step == load - solved.shape.load else solved.shape.load + step
+        found = solve(model, solved.shape, fixed_load(solved.shape.chain, target))[1]
+        if found is None:
+            step *= 0.5
+            continue
+        if target == load:
+            return PatternedState(state.pattern, state.elements, found)
+        solved, step = found, load - found.shape.load
+    return None
 
 
 def refined(state: PatternedState, more: int, along: Motion | None = None) -> PatternedState | None:

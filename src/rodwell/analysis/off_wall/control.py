@@ -25,6 +25,10 @@ NAMES = ("force", "shortening")
 """What can be controlled: the end force (in B/L²), or the shortening (in L)."""
 
 
+MOST_ATTEMPTS = 40
+"""How often a state at a load is sought, in ever smaller steps from a known one."""
+
+
 @dataclass(frozen=True)
 class Control:
     """The controlled quantity, by name.
@@ -104,7 +108,7 @@ class Control:
     def at(self, state: PatternedState, value: float) -> PatternedState | None:
         """The state of the same pattern where the controlled quantity has a value; None if it is not found."""
         if self.by_force:
-            return at_load(state, value)
+            return at_load(state, value, MOST_ATTEMPTS)
         model, along = state.model, tangent_in_load(state.solved, -1.0)
         found = solve(model, state.solved.shape, self.row(state.solved.shape.chain, value))[1]
         if found is None:

@@ -147,16 +147,17 @@ class RodInHole:
     def rim_reaction(
         self, s: FloatArray, rate: FloatArray, bend: FloatArray, given: FloatArray
     ) -> tuple[FloatArray, ...]:
-        """Radial moment at a cut of a rod on the wall, its derivative by φ′, and its outward force, (k,) each.
+        """Radial moment at a cut of a rod on the wall, its derivatives by φ′ and by the place, its outward force, (k,).
 
         From φ′ and φ″ there: :func:`rodwell.physics.off_wall.forces.radially_at_wall`. Where the stiffness tapers, the
-        moment changes with it too: b′ is that of bending alone, twist is refused beside tapers.
+        moment of bending, −b Δ φ′², changes with it along the rod, and a force bears that too.
         """
         stiffer = stiffness_rates(s, given)[0] if self.tapered else 0.0
         given = self._at(s, given)
         d, radius = self.problem.clearance, self.problem.clearance * given[3]
         moment, by_rate, outward = radially_at_wall(rate, bend, radius, self.problem.twist, given[0])
-        return moment / d, by_rate / d, (outward + stiffer / given[0] * moment) / d
+        by_place = -stiffer * radius * rate**2
+        return moment / d, by_rate / d, by_place / d, (outward + by_place) / d
 
     def pressure(self, s: FloatArray, angle: FloatArray, load: float, given: FloatArray) -> FloatArray:
         """Contact pressure p on the wall, negative in contact, from the angle with three derivatives (4, k)."""

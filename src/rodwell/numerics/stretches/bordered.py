@@ -168,6 +168,7 @@ def bordered(out: Assembled, row: Row) -> Bordered:
     lines *= free
     small = np.empty((m + 1, m + 1))
     small[:m], small[m, :m], small[m, m] = columns[moving, RADIAL_SLOPE], row.breaks, row.load
+    small[breaks, breaks] += out.moment_shifts
     flat = answers.reshape(4 * n, m + 1)
     small[:m] -= lines.reshape(m, 4 * n) @ flat
     small[m] -= (row.nodes * free).ravel() @ flat
