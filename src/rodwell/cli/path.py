@@ -132,7 +132,7 @@ def path(
             }
         )
     else:
-        print_path(result)
+        print_path(result, read)
         if read is not None and read.scales is not None:
             click.echo(f"1 B/L² is {read.scales.text(1.0, 'force', 6)}, L {read.scales.text(1.0, 'length', 6)}.")
         for force in forces:
