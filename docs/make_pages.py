@@ -26,6 +26,7 @@ import make_howto
 import make_long
 import make_packer
 import make_paper
+import make_path
 import make_wells
 import matplotlib.pyplot as plt
 from click.testing import CliRunner
@@ -65,7 +66,7 @@ COMMANDS = {
 
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
-    "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
+    "make_errors", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
     "make_report", "make_exact",
     "make_architecture", "make_dependencies",
 )  # fmt: skip
@@ -128,11 +129,13 @@ def _examples() -> dict[str, str]:
         for example in sorted((HERE / "_examples").glob("*.py")):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                runpy.run_path(str(example))
+                made = runpy.run_path(str(example))
             if not printed.getvalue().strip() and not plt.get_fignums():
                 raise RuntimeError(f"{example.name} neither prints nor draws anything")
             plt.close("all")
             _write(f"{example.stem}.txt", printed.getvalue())
+            if example.stem == "load_path":
+                _write_all(make_path.pages(made["path"]))
     return {}
 
 

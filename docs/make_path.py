@@ -1,12 +1,13 @@
-"""The table of the page on the rod off the wall: reference values beside computed ones."""
+"""The table of the page on the rod off the wall: reference values beside computed ones.
+
+The path is that of the sample ``_examples/load_path.py``, which is followed once for both.
+"""
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from shown import table
 
-import rodwell
+from rodwell import LoadPath
 
 EVENTS = (
     ("buckles", "critical", "loading", "−111.23344016"),
@@ -30,9 +31,8 @@ STATES = (
 )
 
 
-def pages(_out: Path) -> dict[str, str]:
-    """The table, computed now."""
-    path = rodwell.load_path(rodwell.Problem(15), until=-150.0, unload_to=-100.0)
+def pages(path: LoadPath) -> dict[str, str]:
+    """The table: γ = 15, horizontal, loaded beyond the snap and back."""
     rows = []
     for name, kind, leg, known in EVENTS:
         event = path.first(kind, leg)

@@ -118,6 +118,10 @@ def test_he_kyllingstad() -> None:
             lower = np.linspace(1e-3, 0.999, 200) * force  # none smaller
             gaps = [f * f - beta * B / r * path.path_contact_force(w, alpha, f, build, turn) for f in lower]
             assert max(gaps) < 0.0
+    for build in (0.01, -1 / 400.0, -0.05):  # the closed form of a plane bend is the limit of the quartic's root
+        plane, turned = (path.he_kyllingstad(B, w, alpha, r, build, turn) for turn in (0.0, 1e-7))
+        assert turned == pytest.approx(plane, rel=1e-6)
+    assert path.planar_load(4.0, B, 0.0, r, -0.003) == 0.0  # bears no weight, and drops
     assert path.he_kyllingstad(B, 0.0, 0.0, r, 0.003, 0.004) == pytest.approx(4.0 * B / r * 0.005, rel=1e-12)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +14,14 @@ from hypothesis import strategies as st
 from written import OF_SYSTEM, of_page, violations
 
 import rodwell
-from rodwell.analysis.off_wall.state import PARTIAL, SINUSOIDAL, ContactState
+from rodwell.analysis.off_wall.state import PARTIAL, SINUSOIDAL, ContactState, contact_state
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.space.in_hole import geometry_in_hole
+from rodwell.answers.words.wording import forces_in
+from rodwell.cli.path_text import print_path
+from rodwell.plots.paths.animation import _of
+from rodwell.plots.paths.axes import units_of
+from rodwell.plots.paths.path import plot_path
 from rodwell.quantities.units import SYSTEMS
 from rodwell.report.pages.path import PAGE, frames, write_path_page
 from rodwell.report.pages.viewer import view
@@ -135,6 +141,56 @@ def test_the_page_holds_what_it_shows(path: LoadPath, tmp_path: Path) -> None:
     assert says[0] == "loading, F = 0 B/L²: straight, stable"
     assert "partial contact, 1 gap up to" in next(each for each in says if "partial" in each)
     assert all("stable" in each for each in says)
+
+
+def test_a_snap_leads_to_the_state_to_which_the_rod_has_snapped(tmp_path: Path) -> None:
+    """At −147.158, two programs (tests/analysis/path/test_load_path.py): into the helix, with one turn."""
+    path = rodwell.load_path(rodwell.Problem(15.0), until=-148.0, seeds=1)
+    write_path_page(tmp_path / PAGE, path)
+    page = (tmp_path / PAGE).read_text()
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)[1])
+    assert [told["snap"] for told in data["events"]] == [event.kind == "snap" for event in path.events]
+    (snap,) = (told for told in data["events"] if told["snap"])
+    before, after = (data["frames"][snap["frame"] + i] for i in (-1, 0))
+    assert after["run"] == before["run"] + 1
+    assert "helix of 1 turn" in after["says"]
+    assert "partial contact" in before["says"]
+
+
+def test_why_a_path_ended_is_said_in_the_words_of_its_case(
+    path: LoadPath, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On the terminal and on the page alike: B/L² of this pipe is 1090.831 N, 120.5 of it are 131.445 kN."""
+    rod = {"length": "30 m", "outer_diameter": "10 cm", "youngs_modulus": "200 GPa", "density": "7800 kg/m^3"}
+    hole = {"diameter": "70 cm", "angle_from_vertical": "90 deg"}
+    case = rodwell.Case.from_dict({"units": "si", "rod": rod, "hole": hole})
+    early = replace(path, reached=False, ended_because="steps became too short at F = -120.5 B/L²")
+    says = "steps became too short at 131.4 kN of compression"
+    print_path(early, case)
+    assert f"Not followed to the end: {says}." in " ".join(capsys.readouterr().out.split())
+    write_path_page(tmp_path / PAGE, early, case)
+    assert f"The path ends early: {says}." in " ".join((tmp_path / PAGE).read_text().split())
+    print_path(early, None)
+    assert "too short at F = −120.5 B/L²." in " ".join(capsys.readouterr().out.split())
+
+
+def test_page_figure_and_animation_show_where_the_driven_end_stands(path: LoadPath, tmp_path: Path) -> None:
+    """δ = u − cF, F tension positive, where something gives way in series, and the shortening u where nothing does."""
+    for compliance, moved in ((0.0, "shortening of the rod's span"), (2e-5, "displacement of the driven end")):
+        driven = replace(path, compliance=compliance)
+        write_path_page(tmp_path / PAGE, driven)
+        page = (tmp_path / PAGE).read_text()
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)[1])
+        shown = frames(driven)
+        ax = plot_path(driven)
+        assert data["axes"]["across"] == ax.get_xlabel() == f"{moved}  [10⁻³ L]"
+        lines = np.concatenate([line.get_xydata() for line in ax.lines])
+        for frame, drawn in list(zip(shown, data["frames"], strict=True))[:: max(1, len(shown) // 6)]:
+            u = contact_state(frame.state).shortening.value
+            assert drawn["x"] == pytest.approx(1e3 * (u - compliance * frame.state.load), rel=1e-12, abs=1e-15)
+            assert np.min(np.hypot(*(lines - (drawn["x"], drawn["y"])).T)) < 1e-9
+            one = _of(frame, driven, units_of(driven, None), forces_in(driven, None))
+            assert one.at == pytest.approx((drawn["x"], drawn["y"]), rel=1e-12)
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

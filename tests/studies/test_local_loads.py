@@ -49,6 +49,23 @@ def test_length_is_long_enough(alpha: float) -> None:
     assert abs(load / longer - 1.0) <= length_effect(PIPE, alpha) + 1e-9
 
 
+@pytest.mark.parametrize("build", [0.0, 0.05, 2e-3, 1e-5, -1e-5, -5e-4, -2e-3])
+@pytest.mark.parametrize("alpha", [30.0, 60.0, 90.0])
+def test_half_waves_are_those_of_the_load_in_the_bend(alpha: float, build: float) -> None:
+    """π √(2B/F) is the half wave where F² = 4(B/r)(w sin α + Fκ), the pipe on the lower side: F from the length."""
+    half_waves = 0.5  # a longer rod would turn too far
+    force = 2.0 * PIPE.stiffness * (half_waves * math.pi / PIPE.length(alpha, half_waves, build)) ** 2
+    contact = PIPE.weight * math.sin(math.radians(alpha)) + force * build
+    assert contact > 0.0
+    assert force**2 == pytest.approx(4.0 * PIPE.stiffness / PIPE.clearance * contact, rel=1e-10)
+
+
+def test_a_rod_that_nothing_presses_down_is_as_long_as_it_may_be() -> None:
+    """In a vertical hole that drops; and one that is straight has the length (B/w)^⅓ times a number."""
+    assert PIPE.length(0.0, build=-0.01) == pytest.approx(1.0 / 0.01)  # which turns by one radian
+    assert PIPE.length(0.0) == pytest.approx(240.0 * (PIPE.stiffness / PIPE.weight) ** (1.0 / 3.0))
+
+
 @pytest.mark.parametrize("ends", [("pinned", "free"), ("free", "clamped")])
 def test_vertical_rod_that_may_sway_at_one_end(ends: tuple[str, str]) -> None:
     """1.018793 (B w²)^⅓, the first zero of Ai': a long string with a hinged bit, free sideways at the other end."""

@@ -19,6 +19,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.cli.told import told
 from rodwell.errors import InputError
 from rodwell.quantities.text import error_digit, minus, plain, signed
 
@@ -99,20 +100,24 @@ def audit(
     from rodwell.studies.audit.audit import audit as compute  # noqa: PLC0415
     from rodwell.studies.audit.error_map import error_map  # noqa: PLC0415
 
-    with progress_bar(not as_json, "exact loads") as tell:
+    def tell_all(written: bool) -> None:
+        if as_json:
+            print_json(result.as_dict())
+            return
+        _decided(result)
+        if details:
+            _print(result)
+        if written:
+            print_written(folder, "report.html")
+
+    with told() as ready, progress_bar(not as_json, "exact loads") as tell:
         result = compute(read, extra=extra)
         report = lambda done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
         straight = result.problem.hole is None  # the map turns the hole, which would be another one if it is curved
         errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart and straight else None
+        ready(tell_all)
         tell("figure and data", 1.0)
         write_audit(result, errors, folder, read.about, read.source)
-    if as_json:
-        print_json(result.as_dict())
-    else:
-        _decided(result)
-        if details:
-            _print(result)
-        print_written(folder, "report.html")
     missed = [f"{load.label} ± {error_digit(load.error)}" for load in result.loads if not load.meets(read.rtol)]
     check_missed(missed, read.rtol)
 

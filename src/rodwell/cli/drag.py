@@ -16,6 +16,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.cli.told import told
 from rodwell.errors import InputError
 from rodwell.quantities.text import plain
 
@@ -83,7 +84,18 @@ def drag(
     read = Well.read(text).in_units(units)
     check_writable(folder)
     fitted = None
-    with progress_bar(not quiet and not as_json, "operations") as tell:
+
+    def tell_all(written: bool) -> None:
+        if as_json:
+            print_json(drag_dict(found, fitted))
+        elif not quiet:
+            _print(found)
+            if fitted is not None:
+                _print_friction(fitted)
+            if written:
+                print_written(folder, "report.html", with_pdf)
+
+    with told() as ready, progress_bar(not quiet and not as_json, "operations") as tell:
         if calibrate is not None:
             from rodwell.studies.drag.calibration import calibrate as fit  # noqa: PLC0415
             from rodwell.studies.drag.measured import read_measured  # noqa: PLC0415
@@ -91,15 +103,9 @@ def drag(
             fitted = fit(read, read_measured(calibrate, read), tell)
             read = fitted.well
         found = compute(read, tell)
+        ready(tell_all)
         tell("figures, report and data", 1.0)
         write_drag(found, folder, calibration=fitted, with_pdf=with_pdf)
-    if as_json:
-        print_json(drag_dict(found, fitted))
-    elif not quiet:
-        _print(found)
-        if fitted is not None:
-            _print_friction(fitted)
-        print_written(folder, "report.html", with_pdf)
     from rodwell.studies.drag.drag import BALANCED  # noqa: PLC0415
     from rodwell.studies.drag.words import unbalanced  # noqa: PLC0415
 

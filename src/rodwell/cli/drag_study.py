@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rodwell.cli.options import check_missed, print_json, print_written, progress_bar
+from rodwell.cli.told import told
 
 if TYPE_CHECKING:
     from rodwell.case.file import CaseText
@@ -18,15 +19,19 @@ def run_drag_study(file: CaseText, folder: Path, units: str | None, as_json: boo
     from rodwell.studies.drag.drag import BALANCED  # noqa: PLC0415
     from rodwell.studies.drag.sweep.study import drag_study  # noqa: PLC0415
 
-    with progress_bar(not quiet and not as_json, "reading") as tell:
+    def tell_all(written: bool) -> None:
+        if as_json:
+            print_json(found.as_dict())
+        elif not quiet:
+            _print(found)
+            if written:
+                print_written(folder, "report.html", with_pdf)
+
+    with told() as ready, progress_bar(not quiet and not as_json, "reading") as tell:
         found = drag_study(file, tell, units=units)
+        ready(tell_all)
         tell("figure, report and data", 1.0)
         write_drag_study(found, folder, with_pdf=with_pdf)
-    if as_json:
-        print_json(found.as_dict())
-    elif not quiet:
-        _print(found)
-        print_written(folder, "report.html", with_pdf)
     check_missed([f"point {point.number + 1}: {what}" for point in found.points for what in point.missed], BALANCED)
 
 

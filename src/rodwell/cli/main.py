@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import sys
 import warnings
@@ -18,13 +17,10 @@ import click
 
 from rodwell._version import __version__
 from rodwell.cli.terminal import Terminated, ending_well, interrupt_behind, never_fail_to_encode
+from rodwell.compiling.garbage import collect_seldom
 from rodwell.errors import CacheWarning, InputError, InputWarning, RodwellError
 
 INPUT_ERROR, COMPUTATION_ERROR, INTERRUPTED = 2, 1, 130
-
-COLLECT_AFTER = 50_000
-"""Objects more than before after which Python looks for cycles among them. Imports make that many and leave no cycles:
-with Python's own number, 700, a tenth of a short command is spent looking."""
 
 MODULES = {
     **{name: name for name in ("run", "screen", "drag", "packer", "audit", "critical", "path", "endless", "explore")},
@@ -65,7 +61,7 @@ def cli() -> None:
 
 def main() -> None:
     """Run the command line; turn every expected error into one message and an exit code."""
-    gc.set_threshold(COLLECT_AFTER, 10, 10)
+    collect_seldom()
     warnings.showwarning = _warned
     never_fail_to_encode()
     try:

@@ -11,6 +11,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import check_missed, check_torsion, json_option, make_problem, print_json, progress_bar
+from rodwell.cli.told import told
 from rodwell.errors import InputError, NotConvergedError, printable
 
 if TYPE_CHECKING:
@@ -119,12 +120,17 @@ def map_command(
     options = {name: given[name] for name in _OPTIONS}
     with _told(out), progress_bar(not quiet and not as_json, "workers start") as tell:
         result = compute(of, over=over, out=out, progress=tell, started=_telling(quiet or as_json), **options)
-    if picture is not None:
-        _draw(result, Path(picture))
-    if as_json:
-        print_json(result.as_dict(), indent=2)
-    elif not quiet:
-        _summary(result, out)
+
+    def tell_all(_: bool) -> None:
+        if as_json:
+            print_json(result.as_dict(), indent=2)
+        elif not quiet:
+            _summary(result, out)
+
+    with told() as ready:
+        ready(tell_all)
+        if picture is not None:
+            _draw(result, Path(picture))
     if not result.extremes:
         raise NotConvergedError(f"no cell has a value; {printable(out)} says why, cell by cell")
     missed = result.missed

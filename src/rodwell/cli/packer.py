@@ -18,6 +18,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.cli.told import told
 
 if TYPE_CHECKING:
     from rodwell.studies.packer.packer import PackerAnswer
@@ -54,12 +55,18 @@ def packer(case: Path, out: Path | None, with_pdf: bool, units: str | None, as_j
     from rodwell.studies.packer.packer import packer as compute  # noqa: PLC0415
 
     result = compute(read)
-    write_packer(result, folder, with_pdf=with_pdf)
-    if as_json:
-        print_json(result.as_dict())
-    else:
+
+    def tell_all(written: bool) -> None:
+        if as_json:
+            print_json(result.as_dict())
+            return
         _print(result)
-        print_written(folder, "report.html", with_pdf)
+        if written:
+            print_written(folder, "report.html", with_pdf)
+
+    with told() as ready:
+        ready(tell_all)
+        write_packer(result, folder, with_pdf=with_pdf)
     check_missed([] if result.converged else ["a change of length, or the packer's force"], 1e-4)
 
 

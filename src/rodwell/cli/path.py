@@ -25,6 +25,7 @@ from rodwell.cli.options import (
 )
 from rodwell.cli.path_text import print_barrier, print_path, print_states
 from rodwell.cli.terminal import interrupt_behind
+from rodwell.cli.told import told
 from rodwell.errors import InputError
 
 if TYPE_CHECKING:
@@ -116,36 +117,43 @@ def path(
             progress=lambda leg, force: tell(f"{leg}, F = {force:.4g}", min(abs(force) / span, 1.0)),
         )  # fmt: skip
     barriers, interrupt = _computed(result, barriers)
-    if out is not None or animation is not None:
-        _write(result, out, animation, (forces, barriers), read, shown=not as_json)
+    files: list[Path] = []
+    with told() as ready:
+        ready(lambda _: _tell(result, (forces, barriers), read, files, as_json=as_json))
+        _write(result, out, animation, (forces, barriers), read, files, shown=not as_json)
+    if interrupt is not None:
+        interrupt.kept = "the path was told, with what had been computed of its barriers"  # type: ignore[attr-defined]
+        raise interrupt
+    check_missed(result.missed, rtol)
+
+
+def _tell(
+    result: LoadPath, at: tuple[list[float], list[float]], case: Case | None, files: list[Path], *, as_json: bool
+) -> None:
+    """Print the path, with states and barriers ``at`` these loads, and where files of it are."""
     if as_json:
         from rodwell.problem.words import ends_text  # noqa: PLC0415
 
         convention = "end force F at s = 1, tension positive; places in L, gaps in clearances; "
         print_json(
             {
-                **result.as_dict(forces, barriers),
+                **result.as_dict(*at),
                 "converged": not result.missed,
                 "unit": "B/L^2",
-                **({} if read is None or read.scales is None else {"unit_N": read.scales.factor("force")}),
-                "convention": convention + ends_text(problem),
+                **({} if case is None or case.scales is None else {"unit_N": case.scales.factor("force")}),
+                "convention": convention + ends_text(result.problem),
             }
         )
-    else:
-        print_path(result)
-        if read is not None and read.scales is not None:
-            click.echo(f"1 B/L² is {read.scales.text(1.0, 'force', 6)}, L {read.scales.text(1.0, 'length', 6)}.")
-        for force in forces:
-            print_states(result, force)
-        for force in barriers:
-            print_barrier(result, force, read)
-        for written in (out, animation):
-            if written is not None:
-                print_written(written)
-    if interrupt is not None:
-        interrupt.kept = "the path was told, with what had been computed of its barriers"  # type: ignore[attr-defined]
-        raise interrupt
-    check_missed(result.missed, rtol)
+        return
+    print_path(result, case)
+    if case is not None and case.scales is not None:
+        click.echo(f"1 B/L² is {case.scales.text(1.0, 'force', 6)}, L {case.scales.text(1.0, 'length', 6)}.")
+    for force in at[0]:
+        print_states(result, force)
+    for force in at[1]:
+        print_barrier(result, force, case)
+    for file in files:
+        print_written(file)
 
 
 def _check_files(out: Path | None, animation: Path | None) -> None:
@@ -166,17 +174,25 @@ def _write(
     animation: Path | None,
     at: tuple[list[float], list[float]],
     case: Case | None,
+    files: list[Path],
     *,
     shown: bool,
 ) -> None:
-    """Write the folder and the animation that are asked for, with states and barriers ``at`` these loads."""
+    """Write folder and animation if they are asked for, with states and barriers ``at`` these loads.
+
+    What is written is added to ``files``.
+    """
+    if out is None and animation is None:
+        return
     from rodwell.report.folders.path import write_animation, write_path  # noqa: PLC0415 - imports Matplotlib
 
     if out is not None:
         write_path(result, out, at[0], case, at[1])
+        files.append(out)
     if animation is not None:
         with progress_bar(shown, "drawing") as tell:
             write_animation(result, animation, case, field="--animation", progress=lambda done: tell("drawing", done))
+        files.append(animation)
 
 
 def _computed(result: LoadPath, barriers: list[float]) -> tuple[list[float], BaseException | None]:

@@ -9,7 +9,6 @@ import click
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import UNIT
 from rodwell.errors import InputError
-from rodwell.quantities.forces import Forces
 from rodwell.quantities.text import amount, error_digit, plain, signed, with_error
 
 if TYPE_CHECKING:
@@ -70,8 +69,9 @@ def print_barrier(result: LoadPath, force: float, case: Case | None) -> None:
     print_contacts(found.saddle)
 
 
-def print_path(result: LoadPath) -> None:
-    """Print events as a list."""
+def print_path(result: LoadPath, case: Case | None) -> None:
+    """Print events as a list; why the path ended in the words of its case."""
+    from rodwell.answers.words.wording import forces_in  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
 
     click.echo(
@@ -99,8 +99,7 @@ def print_path(result: LoadPath) -> None:
             "." if result.unload_to is None else f" and back to {plain(result.unload_to, 6)}."
         ))  # fmt: skip
     else:
-        said = Forces(None, result.problem.hung_weight)
-        wrapped(f"Not followed to the end: {said.retold(result.ended_because)}.")
+        wrapped(f"Not followed to the end: {forces_in(result, case).retold(result.ended_because)}.")
     if result.problem.twist != 0.0:
         arm = "without" if result.mirror else "with"
         wrapped(f"Twist makes the two arms of the buckling mode differ: the other one is followed {arm} --mirror.")

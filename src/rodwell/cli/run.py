@@ -17,6 +17,7 @@ from rodwell.cli.options import (
     results_folder,
     units_option,
 )
+from rodwell.cli.told import told
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer
@@ -84,7 +85,8 @@ def run(
     from rodwell.answers.result.answer import answer  # noqa: PLC0415
     from rodwell.report.folders.beside import drawing_beside  # noqa: PLC0415
 
-    with drawing_beside() as drawing:
+    follows = read.off_wall if path is None else path
+    with told() as ready, drawing_beside() as drawing:
         shown = not quiet and not as_json
         with progress_bar(shown, "critical loads") as tell:
             result = answer(read, tell)
@@ -93,22 +95,32 @@ def run(
         drawing.case(result)
         if shown and not result.converged:
             _not_converged(read.rtol)
-        from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
         from rodwell.answers.result.missed import missed  # noqa: PLC0415
         from rodwell.report.folders.case import write_results  # noqa: PLC0415
 
-        follows = read.off_wall if path is None else path
+        def tell_all(written: bool) -> None:
+            if not quiet or as_json:
+                _tell(result, follows, as_json=as_json, details=details)
+            if shown and written:
+                print_written(folder, "report.html", with_pdf)
+
+        ready(tell_all)
         with progress_bar(shown, "report, figures and data"):
             write_results(result, folder, with_pdf=with_pdf, path=follows, drawing=drawing)
-    if as_json:
-        print_json(answer_dict(result, path=follows), indent=2)
-    elif not quiet:
-        if follows:
-            _beyond(result)
-        if details:
-            _details(result)
-        print_written(folder, "report.html", with_pdf)
     check_missed([*missed(result), *(result.beyond.missed if follows else ())], read.rtol)
+
+
+def _tell(answer: Answer, follows: bool, *, as_json: bool, details: bool) -> None:
+    """Print the answer as JSON; or what is to be said after the verdict."""
+    if as_json:
+        from rodwell.answers.data.plain import answer_dict  # noqa: PLC0415
+
+        print_json(answer_dict(answer, path=follows), indent=2)
+        return
+    if follows:
+        _beyond(answer)
+    if details:
+        _details(answer)
 
 
 def _verdict(answer: Answer) -> None:

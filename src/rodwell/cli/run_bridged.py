@@ -9,6 +9,7 @@ import click
 
 from rodwell.cli.listing import wrapped
 from rodwell.cli.options import check_missed, print_json, print_written, progress_bar
+from rodwell.cli.told import told
 
 if TYPE_CHECKING:
     from rodwell.case.case import Case
@@ -24,13 +25,18 @@ def run_bridged(case: Case, folder: Path, *, as_json: bool, quiet: bool, with_pd
     speaks = not (as_json or quiet)
     with progress_bar(speaks, "how the string lies") as tell:
         found = bridged_answer(case, tell)
-    if speaks:  # before anything is written: where that fails the answer is not lost
+    if speaks:
         click.echo(case.title)
         for sentence in bridged_sentences(found):
             wrapped(sentence)
-    write_bridged(found, folder, with_pdf=with_pdf)
-    if as_json:
-        print_json(bridged_dict(found), indent=2)
-    elif speaks:
-        print_written(folder, "report.html", with_pdf)
+
+    def tell_rest(written: bool) -> None:
+        if as_json:
+            print_json(bridged_dict(found), indent=2)
+        elif speaks and written:
+            print_written(folder, "report.html", with_pdf)
+
+    with told() as ready:
+        ready(tell_rest)
+        write_bridged(found, folder, with_pdf=with_pdf)
     check_missed(list(found.missed), case.rtol)

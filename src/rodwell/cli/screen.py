@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from rodwell.cli.options import OutPath, check_missed, print_json, print_written, progress_bar
+from rodwell.cli.told import told
 from rodwell.errors import InputError
 from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
-    from rodwell.case.case import Case
     from rodwell.studies.well.screening import Screening
     from rodwell.survey.survey import Survey
 
@@ -89,10 +90,24 @@ def screen(
     forces = {"bit_force": _force("--bit-force", bit_force), "hook_force": _force("--hook-force", hook_force)}
     if units is not None:
         wells = {name: replace(each, depth_unit={"si": "m", "field": "ft"}[units]) for name, each in wells.items()}
-    done = {name: _screened(read, each, forces, folders[name], as_json, details) for name, each in wells.items()}
-    if as_json:
-        data = {name: screening_dict(each) for name, each in done.items()}
-        print_json({"wells": data} if all_wells else next(iter(data.values())))
+    from rodwell.report.folders.well import write_screening  # noqa: PLC0415
+    from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
+
+    done: dict[str, Screening] = {}
+
+    def tell_all(_: bool) -> None:
+        if as_json and done:
+            data = {name: screening_dict(each) for name, each in done.items()}
+            print_json({"wells": data} if all_wells else next(iter(data.values())))
+
+    with told() as ready:
+        ready(tell_all)
+        for name, of_well in wells.items():
+            with told() as well_ready, progress_bar(not as_json, "critical loads") as tell:
+                done[name] = compute(read, of_well, **forces, signs_meant=True, progress=tell)
+                well_ready(partial(_tell_well, done[name], folders[name], as_json=as_json, details=details))
+                tell("figure and data", 1.0)
+                write_screening(done[name], folders[name])
     for kind, precision in (("critical load", CRITICAL_PRECISION), ("lift-off load", LIFT_OFF_PRECISION)):
         missed = [f"{name}: {what}" if name else what for name, each in done.items() for what in each.missed[kind]]
         check_missed(missed, precision.tolerance)
@@ -129,21 +144,13 @@ def _folder_name(well: str, number: int) -> str:
     return f"{number + 1}-{plain}" if plain else str(number + 1)
 
 
-def _screened(
-    case: Case, well: Survey, forces: dict[str, float | None], folder: Path, as_json: bool, details: bool
-) -> Screening:  # fmt: skip
-    """Screen one well, write its folder, and print what was found unless it is wanted as JSON."""
-    from rodwell.report.folders.well import write_screening  # noqa: PLC0415
-    from rodwell.studies.well.screening import screen as compute  # noqa: PLC0415
-
-    with progress_bar(not as_json, "critical loads") as tell:
-        result = compute(case, well, **forces, signs_meant=True, progress=tell)
-        tell("figure and data", 1.0)
-        write_screening(result, folder)
-    if not as_json:
-        _print(result, details)
+def _tell_well(result: Screening, folder: Path, written: bool, *, as_json: bool, details: bool) -> None:
+    """Print what was found in a well unless it is wanted as JSON, and where its files are, if they are."""
+    if as_json:
+        return
+    _print(result, details)
+    if written:
         print_written(folder, "report.html")
-    return result
 
 
 def _force(option: str, text: str | None) -> float | None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rodwell.cli.options import check_missed, note_rigid_wall, print_json, print_written, progress_bar
+from rodwell.cli.told import told
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -22,15 +23,20 @@ def run_study(
     from rodwell.studies.sweep.study import study as compute  # noqa: PLC0415
 
     note_rigid_wall(file.data)
-    with progress_bar(not quiet and not as_json, "reading") as tell:
+
+    def tell_all(written: bool) -> None:
+        if as_json:
+            print_json(result.as_dict())
+        elif not quiet:
+            _summary(result, details)
+            if written:
+                print_written(folder, "report.html", with_pdf)
+
+    with told() as ready, progress_bar(not quiet and not as_json, "reading") as tell:
         result = compute(file, tell, units=units)
+        ready(tell_all)
         tell("figure, report and data", 1.0)
         write_study(result, folder, with_pdf=with_pdf)
-    if as_json:
-        print_json(result.as_dict())
-    elif not quiet:
-        _summary(result, details)
-        print_written(folder, "report.html", with_pdf)
     rtol = next(point.case.rtol for point in result.points if point.case is not None)
     check_missed([f"point {point.number + 1}: {what}" for point in result.points for what in point.missed], rtol)
 

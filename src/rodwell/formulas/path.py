@@ -66,11 +66,38 @@ def path_contact_force(w: Value, alpha: Value, F: Value, build: Value, turn: Val
     return ((w * sine(alpha) + F * build) ** 2 + (F * turn) ** 2) ** 0.5
 
 
+def planar_load(factor: float, B: Value, lateral: Value, r: Value, build: Value) -> Value:
+    """The load F of a pipe in a plane bend: F² = factor (B/r)(q + F κ), where the wall below pushes with q + F κ.
+
+    F = (factor B/2r)[κ + √(κ² + 4 q r/(factor B))]: of the two roots the one that is not negative.
+
+    Parameters
+    ----------
+    factor
+        4 for the sinusoidal load, 8 for the helical one.
+    B, lateral, r, build
+        Stiffness, weight q = w sin α across the hole per length, clearance, and κ = dα/ds with s downwards, positive
+        where the hole builds; all in units that fit each other.
+
+    Returns
+    -------
+    Value
+        Compression, positive; nought where a hole that does not build bears no weight.
+    """
+    bend = 4.0 * lateral * r / (factor * B)
+    root = (build**2 + bend) ** 0.5
+    if float(build * r) < 0.0:  # the same without the difference of numbers that nearly cancel
+        return 2.0 * lateral / (root - build)
+    return 0.5 * factor * B / r * (build + root)
+
+
 def _curved(factor: float, B: Value, w: Value, alpha: Value, r: Value, build: Value, turn: Value) -> Value:
     """Smallest F > 0 with F² = factor (B/r) N(F), from the quartic in u = F₀/F, F₀ the load of the straight hole."""
     lateral = w * sine(alpha)
     if float(lateral * r**3 / B) == 0.0:
         return factor * B / r * (build**2 + turn**2) ** 0.5
+    if float(turn * r) == 0.0:
+        return planar_load(factor, B, lateral, r, build)
     straight = (factor * B * lateral / r) ** 0.5
     a, b = float(build * straight / lateral), float(turn * straight / lateral)
     roots = np.roots([1.0, 2.0 * a, a * a + b * b, 0.0, -1.0])
@@ -79,6 +106,9 @@ def _curved(factor: float, B: Value, w: Value, alpha: Value, r: Value, build: Va
         u -= (u * u * ((u + a) ** 2 + b * b) - 1.0) / (2.0 * u * ((u + a) ** 2 + b * b) + 2.0 * u * u * (u + a))
     return straight / u
 
+
+SINUSOIDAL, HELICAL = 4.0, 8.0
+"""The factors of F² = factor (B/r) N(F)."""
 
 HE = "He & Kyllingstad 1993 and 1995, form used by the CTES code"
 HE_EVIDENCE = (
@@ -100,7 +130,7 @@ HE_EVIDENCE = (
 )
 def he_kyllingstad(B: Value, w: Value, alpha: Value, r: Value, build: Value, turn: Value) -> Value:
     """He–Kyllingstad, sinusoidal, curved hole."""
-    return _curved(4.0, B, w, alpha, r, build, turn)
+    return _curved(SINUSOIDAL, B, w, alpha, r, build, turn)
 
 
 @formula(
@@ -115,7 +145,7 @@ def he_kyllingstad(B: Value, w: Value, alpha: Value, r: Value, build: Value, tur
 )
 def he_kyllingstad_helical(B: Value, w: Value, alpha: Value, r: Value, build: Value, turn: Value) -> Value:
     """He–Kyllingstad, helical, curved hole."""
-    return _curved(8.0, B, w, alpha, r, build, turn)
+    return _curved(HELICAL, B, w, alpha, r, build, turn)
 
 
 MOST_FRICTION = 15.0 / (7.0 * math.pi)

@@ -11,6 +11,7 @@ import threading
 from multiprocessing.connection import Connection, wait
 from typing import TYPE_CHECKING, Any
 
+from rodwell.compiling.garbage import collect_seldom
 from rodwell.errors import RodwellError
 from rodwell.quantities.as_json import as_json
 
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
 Start = tuple[dict[str, Any] | None, str, str]
 """Content of the case file or None, the folder of its files, its name for messages."""
-
-COLLECT_AFTER = 50_000
-"""Objects more than before after which Python looks for cycles among them: imports make that many and leave none."""
 
 
 def work(pipe: Connection, cancelled: Any, start: Start) -> None:
@@ -39,7 +37,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
     start
         The case.
     """
-    gc.set_threshold(COLLECT_AFTER, 10, 10)
+    collect_seldom()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the server ends this process
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -2,11 +2,11 @@
 
 The rod starts at the station, its lower end, and goes uphill in a straight hole of the station's inclination. With
 force at the lower end its loads tend to limits as it grows longer: upwards the axial weight takes the compression away.
-The length is counted in half waves of the long-rod wave, π (B r/(w sin α))^¼. In a horizontal hole, where the approach
-is slowest, n half waves between clamped ends add 2/n² of the load.
+The length is counted in half waves of the long-rod wave, π √(2B/F), which is π (B r/(w sin α))^¼ at the load F of a
+long rod. In a horizontal hole, where the approach is slowest, n half waves between clamped ends add 2/n² of the load.
 
-In a hole that builds or drops the rod lies along an arc of the station's curvature κ, which begins with the station's
-inclination. Its wave is that of He and Kyllingstad's load, F = (2B/r)[κ + √(κ² + r w sin α/B)]: π √(2B/F).
+In a hole that builds or drops the rod lies along an arc of the station's curvature, which begins with the station's
+inclination, and F is the load of He and Kyllingstad (``planar_load`` in :mod:`rodwell.formulas.path`).
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from rodwell.analysis.straight.critical import critical_loads
 from rodwell.analysis.straight.lying import least_contact
 from rodwell.analysis.straight.lying_slopes import beside
 from rodwell.errors import InputError, NotConvergedError
+from rodwell.formulas.path import SINUSOIDAL, planar_load
 from rodwell.problem.problem import Problem
 from rodwell.quantities.value import Value
 
@@ -57,15 +58,13 @@ class PipeString:
     def length(self, alpha: float, half_waves: float = HALF_WAVES, build: float = 0.0) -> float:
         """Length of the local rod in m at an inclination in degrees, in a hole with a build in 1/m."""
         longest = LONGEST * (self.stiffness / self.weight) ** (1.0 / 3.0) * half_waves / HALF_WAVES
-        lateral = self.weight * math.sin(math.radians(alpha))
         if build != 0.0:
-            root = math.sqrt(build**2 + self.clearance * lateral / self.stiffness)
-            wavenumber = math.sqrt((build + root) / self.clearance)  # √(F/2B)
             longest = min(longest, MOST_TURN / abs(build))
-            return float(longest if wavenumber == 0.0 else min(half_waves * math.pi / wavenumber, longest))
-        if lateral == 0.0:
+        lateral = self.weight * math.sin(math.radians(alpha))
+        load = float(planar_load(SINUSOIDAL, self.stiffness, lateral, self.clearance, build))
+        if load == 0.0:
             return float(longest)
-        return float(min(half_waves * math.pi * (self.stiffness * self.clearance / lateral) ** 0.25, longest))
+        return float(min(half_waves * math.pi * math.sqrt(2.0 * self.stiffness / load), longest))
 
     def problem(self, alpha: float, half_waves: float = HALF_WAVES, build: float = 0.0) -> tuple[Problem, float]:
         """The local rod at an inclination from 0 to 90 degrees, and its unit of force B/L² in N."""

@@ -13,6 +13,7 @@ from rodwell.quantities.value import Value
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.special import SpecialPoint
+    from rodwell.analysis.path.load_path import LoadPath
     from rodwell.case.case import Case
 
 
@@ -42,6 +43,11 @@ def bend_text(case: Case) -> str:
 def forces_of(case: Case) -> Forces:
     """How end forces of a case are said: at which end, with which sign."""
     return Forces(case.scales, case.problem.hung_weight)
+
+
+def forces_in(path: LoadPath, case: Case | None) -> Forces:
+    """How forces of a load path are said: as the pages of a case do, without one as F in B/L²."""
+    return Forces(None, path.problem.hung_weight) if case is None else forces_of(case)
 
 
 def place_text(case: Case, place: Value) -> str:

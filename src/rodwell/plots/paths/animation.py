@@ -14,8 +14,9 @@ from PIL import Image
 from rodwell.analysis.off_wall.measured import position
 from rodwell.analysis.path.frames import Frame, frames
 from rodwell.analysis.path.load_path import LoadPath
+from rodwell.answers.words.wording import forces_in
 from rodwell.case.case import Case
-from rodwell.plots.paths.axes import Units, across_of, forces_in, units_of, words
+from rodwell.plots.paths.axes import Units, across_of, units_of, words
 from rodwell.plots.paths.path import plot_path
 from rodwell.plots.style import GREY, INK, MODES, WARN
 from rodwell.quantities.arrays import FloatArray

@@ -23,7 +23,7 @@ from rodwell.quantities.text import plain
 
 
 class Units(NamedTuple):
-    """From units B = L = 1 to those of the axes: shortening and load, with their words."""
+    """From units B = L = 1 to those of the axes: shortening and load, and what the axes say of both."""
 
     shortening: float
     load: Callable[[float], float]
@@ -33,17 +33,13 @@ class Units(NamedTuple):
 
 def units_of(result: LoadPath, case: Case | None) -> Units:
     """Compression at s = 1 in B/L² over 10⁻³ L; of a case with dimensions as its pages say forces, in its units."""
+    moved = "displacement of the driven end" if result.compliance else "shortening of the rod's span"
     if case is None or case.scales is None:
-        return Units(1e3, lambda force: -force, "10⁻³ L", "end compression −F at s = 1  [B/L²]")
+        return Units(1e3, lambda force: -force, f"{moved}  [10⁻³ L]", "end compression −F at s = 1  [B/L²]")
     said, curve = forces_of(case), result.curve
     x, length = axis("z", case.scales, float(np.max(across_of(result, curve["shortening"], curve["force"]))))
     y, force = axis("force", case.scales, float(np.max(np.abs(said.drawn(curve["force"])))))
-    return Units(x, lambda load: y * float(said.drawn(load)), length, f"{said.axis}  [{force}]")
-
-
-def forces_in(result: LoadPath, case: Case | None) -> Forces:
-    """How forces of a load path are said: as the pages of a case do, without one as F in B/L²."""
-    return Forces(None, result.problem.hung_weight) if case is None else forces_of(case)
+    return Units(x, lambda load: y * float(said.drawn(load)), f"{moved}  [{length}]", f"{said.axis}  [{force}]")
 
 
 def across_of(result: LoadPath, shortening: Any, force: Any) -> Any:

@@ -15,7 +15,7 @@ from rodwell.analysis.space.geometry import upwards
 from rodwell.answers.result.beyond import Beyond, StateBeyond
 from rodwell.answers.words.wording import forces_of
 from rodwell.case.case import Case
-from rodwell.plots.paths.axes import units_of
+from rodwell.plots.paths.axes import across_of, units_of
 from rodwell.plots.paths.path import LOADED, UNLOADED, plot_path
 from rodwell.plots.style import GREY, INK
 
@@ -38,7 +38,8 @@ def plot_beyond(case: Case, found: Beyond) -> Figure:
     path = plot_path(found.path, figure.add_subplot(grid[0, :]), case)
     units = units_of(found.path, case)
     for i, one in enumerate(states):
-        x, y = units.shortening * one.state.shortening.value, units.load(one.load.value)
+        x = units.shortening * across_of(found.path, one.state.shortening.value, one.load.value)
+        y = units.load(one.load.value)
         path.annotate(LETTERS[i], (x, y), xytext=(5, -11), textcoords="offset points", fontsize=9.5, fontweight="bold")
         _along_the_hole(figure.add_subplot(grid[1, i]), case, one, LETTERS[i])
         _gaps(figure.add_subplot(grid[2, i]), one)

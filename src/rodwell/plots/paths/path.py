@@ -45,8 +45,7 @@ def plot_path(result: LoadPath, ax: Any = None, case: Case | None = None) -> Any
     for event in result.events:
         _mark(ax, result, event, seen, units)
     _snaps(ax, result, units)
-    moved = "displacement of the driven end" if result.compliance else "shortening of the rod's span"
-    ax.set_xlabel(f"{moved}  [{units.across}]")
+    ax.set_xlabel(units.across)
     ax.set_ylabel(units.up)
     problem = result.problem
     twist = f", T₁ = {problem.twist:g} B/L" if problem.twist else ""

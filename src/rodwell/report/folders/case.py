@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -10,7 +11,6 @@ from rodwell.answers.data.plain import answer_dict
 from rodwell.answers.data.tables import answer_tables
 from rodwell.answers.result.answer import Answer
 from rodwell.report.folders.beside import Drawing, drawing_beside
-from rodwell.report.folders.beyond import write_beyond
 from rodwell.report.pages.pdf import PDF, report_folder, write_report
 from rodwell.report.pages.templates import embedded
 from rodwell.report.pages.viewer import view, viewer, write_viewer
@@ -47,7 +47,7 @@ def write_results(
         with ExitStack() as stack:
             drawing = drawing or stack.enter_context(drawing_beside())
             drawn = drawing.case(answer)
-            followed = write_beyond(answer, folder, drawing) if path else dict
+            followed = _beyond(answer, folder, drawing) if path else dict
             write_json(answer_dict(answer, path=path), folder / "answer.json")
             tables, states = answer_tables(answer), along_tables(answer.assessment)
             write_csv(tables[0], folder / "key-figures.csv")
@@ -74,3 +74,10 @@ def _kept(drawn: dict[str, dict[str, bytes]], folder: Path) -> dict[str, Picture
             (folder / f"{name}.{suffix}").write_bytes(content)
     kinds = {name: "svg" if "svg" in formats else "png" for name, formats in drawn.items()}
     return {name: (kind, drawn[name][kind]) for name, kind in kinds.items()}
+
+
+def _beyond(answer: Answer, folder: Path, drawing: Drawing) -> Callable[[], dict[str, dict[str, bytes]]]:
+    """Follow the rod beyond lift-off, write what happens there, and return what waits for its picture."""
+    from rodwell.report.folders.beyond import write_beyond  # noqa: PLC0415 - imports what follows rods off the wall
+
+    return write_beyond(answer, folder, drawing)

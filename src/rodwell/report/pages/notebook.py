@@ -15,6 +15,7 @@ from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.words.advice import statuses
 from rodwell.answers.words.meaning import sentences
+from rodwell.answers.words.wording import forces_in
 from rodwell.case.case import Case
 from rodwell.plots.ordinates import ORDINATES
 from rodwell.problem.problem import Problem
@@ -162,7 +163,8 @@ def _(result: PackerAnswer) -> Card:
 
 @card.register
 def _(result: LoadPath) -> Card:
-    ended = "followed to the end" if result.reached else f"not followed to the end: {result.ended_because}"
+    why = forces_in(result, None).retold(result.ended_because)
+    ended = "followed to the end" if result.reached else f"not followed to the end: {why}"
     rows = tuple(
         (
             event.leg,

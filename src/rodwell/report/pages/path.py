@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from rodwell.analysis.path.events import SNAP, PathPoint
 from rodwell.analysis.path.frames import Frame, frames
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.space.scene import drawn
+from rodwell.answers.words.wording import forces_in
 from rodwell.case.case import Case
-from rodwell.plots.paths.axes import Units, forces_in, units_of, words
+from rodwell.plots.paths.axes import Units, across_of, units_of, words
 from rodwell.problem.words import ends_text
 from rodwell.quantities.as_json import as_json
 from rodwell.report.pages.templates import HERE, template
@@ -58,11 +57,14 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
     data = {
         "frames": [
             {"scene": _lean(seen), "leg": frame.leg, "run": frame.run, "says": words(frame, said), "bar": seen.bar}
-            | _at(frame, units)
+            | _at(frame, path, units)
             for frame, seen in zip(shown, views, strict=True)
         ],
         "shared": _shared(views),
-        "events": [{"text": event.meaning, "frame": _frame_of(event, shown)} for event in path.events],
+        "events": [
+            {"text": event.meaning, "frame": _frame_of(event, shown), "snap": event.kind == SNAP}
+            for event in path.events
+        ],
         "axes": units._asdict() | {"load": None},
     }
     first = viewer(views[0])
@@ -70,23 +72,24 @@ def write_path_page(file: Path, path: LoadPath, case: Case | None = None, title:
         title=title or "A rod in its hole as the load grows and comes back", viewer=first.markup, css=first.css,
         scripts=(*first.scripts, (HERE / "assets" / "path.js").read_text(encoding="utf-8")),
         data=as_json(data, compact=True).replace("</", "<\\/"),
-        assumptions=path.assumptions, ends=ends_text(path.problem), reached=path.ended_because,
+        assumptions=path.assumptions, ends=ends_text(path.problem), reached=said.retold(path.ended_because),
     )  # fmt: skip
     file.write_text(page, encoding="utf-8")
 
 
-def _at(frame: Frame, units: Units) -> dict[str, float]:
-    """Where a state lies in load against shortening, as drawn."""
+def _at(frame: Frame, path: LoadPath, units: Units) -> dict[str, float]:
+    """Where a state lies in load against shortening, as drawn: of the span, or of the end that is driven."""
     shortening = frame.state.solved.out.energy_by_load * frame.state.problem.clearance**2
-    return {"x": float(units.shortening * shortening), "y": float(units.load(frame.state.load))}
+    across = across_of(path, shortening, frame.state.load)
+    return {"x": float(units.shortening * across), "y": float(units.load(frame.state.load))}
 
 
 def _frame_of(event: PathPoint, shown: list[Frame]) -> int:
-    """The number of the state nearest to an event; of a snap, that to which the rod has snapped."""
+    """The number of the state nearest to an event; of a snap, that to which the rod has snapped: it begins a run."""
     force = event.force.value if event.to is None else event.to.force.value
-    far = [abs(frame.state.load - force) if frame.leg == event.leg else np.inf for frame in shown]
-    nearest = [i for i, each in enumerate(far) if each <= min(far) + 1e-9 * abs(force)]
-    return nearest[-1 if event.kind == SNAP else 0]
+    there = [i for i, frame in enumerate(shown) if frame.leg == event.leg]
+    begins = [i for i in there if event.kind == SNAP and i > 0 and shown[i].run != shown[i - 1].run]
+    return min(begins or there, key=lambda i: abs(shown[i].state.load - force), default=0)
 
 
 RINGS = "end of contact"

@@ -27,7 +27,7 @@
     draw("text", { x: across(x), y: bottom + 18, "text-anchor": "middle" }, number(x));
     draw("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, number(y));
   }
-  draw("text", { x: (left + right) / 2, y: bottom + 40, "text-anchor": "middle" }, `shortening of the rod's span  [${data.axes.across}]`);
+  draw("text", { x: (left + right) / 2, y: bottom + 40, "text-anchor": "middle" }, data.axes.across);
   draw("text", { x: 16, y: (top + bottom) / 2, "text-anchor": "middle", transform: `rotate(-90 16 ${(top + bottom) / 2})` }, data.axes.up);
   new Set(frames.map((f) => f.run)).forEach((run) => {
     const here = frames.filter((f) => f.run === run);
@@ -35,10 +35,12 @@
   });
   frames.forEach((f, i) => { // a snap leads from the end of a run to the start of the next
     const next = frames[i + 1];
-    if (!next || next.run === f.run || Math.abs(across(next.x) - across(f.x)) < 4) return;
-    const x = across(next.x), y = up(next.y), side = Math.sign(x - across(f.x));
-    draw("path", { class: "snap", d: `M${across(f.x).toFixed(1)} ${up(f.y).toFixed(1)}L${(x - 6 * side).toFixed(1)} ${y.toFixed(1)}` });
-    draw("polygon", { points: `${x},${y} ${x - 8 * side},${y - 4} ${x - 8 * side},${y + 4}` });
+    if (!next || next.run === f.run || !data.events.some((each) => each.snap && frames[each.frame].run === next.run)) return;
+    const x = across(next.x), y = up(next.y), dx = x - across(f.x), dy = y - up(f.y), length = Math.hypot(dx, dy);
+    if (length < 4) return;
+    const along = (back, side) => `${(x - (back * dx - side * dy) / length).toFixed(1)} ${(y - (back * dy + side * dx) / length).toFixed(1)}`;
+    draw("path", { class: "snap", d: `M${across(f.x).toFixed(1)} ${up(f.y).toFixed(1)}L${along(6, 0)}` });
+    draw("polygon", { points: `${along(0, 0)} ${along(8, 4)} ${along(8, -4)}` });
   });
   const dot = draw("circle", { r: 5.5 });
 
