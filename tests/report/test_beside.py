@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import subprocess
 import sys
 import threading
 from typing import Any
@@ -108,6 +109,27 @@ def test_with_threads_it_is_done_here() -> None:
     finally:
         wait.set()
         thread.join()
+
+
+def test_a_signal_at_the_fork_does_not_unwind_the_stack_of_its_parent_in_the_copy() -> None:
+    """The parent's handler raises; the copy, which inherits it, must not come out of the block that made it."""
+    program = """
+import os, signal, sys
+from rodwell.report.folders.beside import beside
+first = os.getpid()
+def raised(*_): raise KeyboardInterrupt
+signal.signal(signal.SIGTERM, raised)
+os.register_at_fork(after_in_child=lambda: os.kill(os.getpid(), signal.SIGTERM))
+try:
+    with beside(lambda: abs) as start:
+        start(-1)()
+except KeyboardInterrupt:
+    pass
+print("out", os.getpid() == first)
+"""
+    done = subprocess.run([sys.executable, "-c", program], check=False, capture_output=True, text=True, timeout=120)
+    assert done.stdout.split("\n") == ["out True", ""]
+    assert done.stderr == ""
 
 
 def test_a_second_process_that_heeds_no_signal_keeps_nobody_waiting() -> None:

@@ -29,6 +29,9 @@ on is done after it."""
 GRACE = 1.0
 """How long the second process has to end by itself, in seconds."""
 
+ENDING = {signal.SIGTERM, signal.SIGINT}
+"""Signals that the first process turns into exceptions, which in its copy would unwind the same stack once more."""
+
 CASE, BEYOND = "case", "beyond"
 """What is drawn."""
 
@@ -52,7 +55,7 @@ def beside(ready: Callable[[], Work]) -> Iterator[Start]:
     with os.fdopen(os.memfd_create("arguments"), "w+b") as file:
         here, there = context.Pipe()
         process = context.Process(target=_serve, args=(ready, here, there, file.fileno()))
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), _held_back():
             warnings.simplefilter("ignore", DeprecationWarning)  # of forks with threads of compiled libraries
             process.start()
         there.close()
@@ -152,10 +155,21 @@ class _Results:
         return out
 
 
+@contextmanager
+def _held_back() -> Iterator[None]:
+    """Keep signals that end a program waiting: a copy made meanwhile lets them in when it has handlers of its own."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _serve(ready: Callable[[], Work], here: Connection, there: Connection, file: int) -> None:
     """In the second process: get ready, and as long as work comes do it, and send its result or what it raised."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
     here.close()  # so that the end of the first process can be told
     try:
         work = ready()
