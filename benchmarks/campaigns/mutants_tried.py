@@ -46,7 +46,7 @@ ROOMS = {
     "analysis/test_string_path.py analysis/test_bridging.py analysis/test_soft_wall.py",
     "numerics": "numerics validation/test_critical_loads.py validation/test_sections.py analysis/test_branches.py "
     "analysis/test_pressures.py analysis/test_curves.py",
-    "physics/on_wall/endless": "analysis/test_endless.py physics/test_curved.py",
+    "physics/on_wall/endless": "analysis/test_endless.py physics/test_curved.py physics/test_endless_wall.py",
     "physics/off_wall": "physics/test_off_wall.py numerics/test_stretches.py analysis/test_load_path.py",
     "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/test_certify.py "
     "validation/test_without_wall.py",
