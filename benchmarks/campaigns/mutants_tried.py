@@ -42,8 +42,9 @@ COMPILING = 10.0
 ROOMS = {
     "numerics/splines/lanes": "numerics/test_lanes.py",
     "numerics/splines/products": "numerics/test_lanes.py",
-    "numerics/stretches": "numerics/test_stretches.py numerics/test_along_paths.py numerics/test_rules.py physics/test_off_wall.py "
-    "analysis/test_load_path.py analysis/test_string_path.py analysis/test_bridging.py analysis/test_soft_wall.py",
+    "numerics/stretches": "numerics/test_stretches.py numerics/test_along_paths.py numerics/test_rules.py "
+    "physics/test_off_wall.py analysis/test_load_path.py analysis/test_string_path.py analysis/test_bridging.py "
+    "analysis/test_soft_wall.py",
     "numerics": "numerics validation/test_critical_loads.py validation/test_sections.py analysis/test_branches.py "
     "analysis/test_pressures.py analysis/test_curves.py",
     "physics/on_wall/endless": "analysis/test_endless.py physics/test_curved.py physics/test_endless_wall.py",
