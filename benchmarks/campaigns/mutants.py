@@ -34,7 +34,8 @@ SEED, LINES, SUMMARY = 25, HERE / "mutants.jsonl", HERE / "mutants.json"
 PAGE = HERE.parent / "results" / "mutants.md"
 
 SURVIVORS: dict[str, dict[str, str]] = json.loads((HERE / "mutants_survivors.json").read_text(encoding="utf-8"))
-"""Changes that lived, each with the test that was written for it, or why it is the same program."""
+"""Changes that live, or may, each with the test that was written for it, or why it is the same program; and whether it
+lived before that test was there."""
 
 DRAWN, DRAW = HERE / "mutants_drawn.json", 300
 """The sample, a change each: file, operator, which of its occurrences, lines; and how many are drawn."""
@@ -131,7 +132,7 @@ def trial(number: int) -> resumable.Result:
 
 
 def known_of(one: resumable.Result) -> dict[str, str]:
-    """What was done about a change that lived once; nothing of others."""
+    """What was done about a change; nothing of most."""
     return SURVIVORS.get(f"{one['file']}: {one['change'][-1][1:].strip()}", {})
 
 
@@ -151,7 +152,7 @@ def told(results: list[resumable.Result]) -> resumable.Result:
     """What the summary says."""
     outcomes = Counter(result["outcome"] for result in results)
     survivors = [seen_to(one) for one in results if one["outcome"] == "survived"]
-    before = sum(one["outcome"] == "killed" and "test" in known_of(one) for one in results)
+    before = sum(one["outcome"] == "killed" and "lived" in known_of(one) for one in results)
     noticed = before + sum(one.get("noticed now", False) for one in survivors)
     at_first, programs = outcomes["killed"] - before, len(results) - outcomes["no program"]
     by_file: dict[str, Counter[str]] = {}
