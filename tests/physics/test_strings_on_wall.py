@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from rodwell.physics.on_wall.end_loads import end_force
+from rodwell.physics.on_wall.braid import Taper, rates
+from rodwell.physics.on_wall.end_loads import EndForce, end_force
 from rodwell.physics.on_wall.linear import second_variation
 from rodwell.physics.on_wall.parameters import AXIAL_WEIGHT, CLEARANCE, FORCE, LATERAL_WEIGHT, RAMP, SIDE, TWIST
 from rodwell.physics.on_wall.sections import step_jumps, step_loads
@@ -58,6 +59,30 @@ def test_pressure_of_a_taper_balances_its_forces() -> None:
         more = more_pressure(*slopes, parameters[CLEARANCE], B.deriv()(x), B.deriv(2)(x))
         found = contact_pressure(s, y(s), *slopes, parameters, B(x)) + more
         assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_tension_and_bending_energy_change_along_a_taper_as_the_balance_along_the_rod_says() -> None:
+    """(48) along t₁: F₁′ = ω₃F₂ − ω₂F₃ + q(wₐ cos η + wₗ sin η sin ξ₂); the rest by complex steps."""
+    parameters, y, step = loads(), Polynomial([0.01, 0.35, -0.4, 0.3, 0.25]), 1e-30
+    clearance, axial, lateral = parameters[[CLEARANCE, AXIAL_WEIGHT, LATERAL_WEIGHT]]
+
+    def energy(s: Any) -> Any:
+        _, _, omega2, omega3, _ = curvatures(*(y.deriv(k)(s) for k in (1, 2, 3)), clearance)
+        weight = clearance * lateral * Q(s - ORIGIN) * np.cos(y(s) / clearance)
+        return 0.5 * B(s - ORIGIN) * (omega2**2 + omega3**2) + weight
+
+    s = np.array([0.2, 0.5, 0.8])
+    x, slopes = s - ORIGIN, [y.deriv(k)(s) for k in (1, 2, 3)]
+    taper = Taper(B.deriv()(x), B.deriv(2)(x), lateral * Q.deriv()(x))
+    own: list[Any] = [value + 0.0 * s for value in parameters]
+    own[AXIAL_WEIGHT], own[LATERAL_WEIGHT] = axial * Q(x), lateral * Q(x)
+    found = rates(s, np.array([y(s), *slopes]), own, 1.0, EndForce(0.0, 0.0), B(x), taper)[8]
+    more = more_force(*slopes, clearance, taper.rate)
+    _, f2, f3 = (one + other for one, other in zip(strand_force(s, *slopes, own, B(x)), more, strict=True))
+    cos_eta, _, omega2, omega3, _ = curvatures(*slopes, clearance)
+    along = omega3 * f2 - omega2 * f3
+    along += Q(x) * (axial * cos_eta + lateral * slopes[0] * np.sin(y(s) / clearance))
+    assert found == pytest.approx(energy(s + 1j * step).imag / step + along, rel=1e-11)
 
 
 def test_axial_resultant_is_the_end_force_and_the_weight_above() -> None:
