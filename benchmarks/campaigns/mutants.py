@@ -77,17 +77,21 @@ def _operator(name: str) -> Any:
 
 
 @functools.cache
-def sample() -> list[Mutant]:
-    """The changes that were drawn, as they are found in the sources."""
+def drawn() -> list[tuple[str, str, int, list[str]]]:
+    """The changes that were drawn: file, operator, which of its occurrences, and the lines that changed."""
     if not DRAWN.exists():
-        drawn = random.Random(SEED).sample(every_mutant(), DRAW)
-        kept = ",\n".join(json.dumps([*one, _change(one)[1]], ensure_ascii=False) for one in drawn)
+        chosen = random.Random(SEED).sample(every_mutant(), DRAW)
+        kept = ",\n".join(json.dumps([*one, _change(one)[1]], ensure_ascii=False) for one in chosen)
         DRAWN.write_text(f"[\n{kept}\n]\n", encoding="utf-8")
-    return [_found(*one) for one in json.loads(DRAWN.read_text(encoding="utf-8"))]
+    return [tuple(one) for one in json.loads(DRAWN.read_text(encoding="utf-8"))]
 
 
-def _found(name: str, operator: str, occurrence: int, change: list[str]) -> Mutant:
-    """Where a change that was drawn is now: the same occurrence, another one, or another change of the same file."""
+@functools.cache
+def mutant(number: int) -> Mutant:
+    """A change as it is found in the sources now: the same occurrence, another one, or another change of the file."""
+    name, operator, occurrence, change = drawn()[number]
+    if _change((name, operator, occurrence))[1] == change:
+        return name, operator, occurrence
     every = [one for one in every_mutant() if one[0] == name]
     same = sorted((one for one in every if one[1] == operator), key=lambda one: abs(one[2] - occurrence))
     gone = random.Random(f"{SEED} {occurrence} {change}").choice(every)
@@ -96,15 +100,15 @@ def _found(name: str, operator: str, occurrence: int, change: list[str]) -> Muta
 
 def _changed(number: int) -> tuple[str, str, list[str]]:
     """File, its text with a change, and the lines that changed."""
-    return sample()[number][0], *_change(sample()[number])
+    return mutant(number)[0], *_change(mutant(number))
 
 
 @functools.cache
-def _change(mutant: Mutant) -> tuple[str, list[str]]:
-    """The text of a file with a change, and the lines that changed."""
-    name, operator, occurrence = mutant
+def _change(one: Mutant) -> tuple[str, list[str]]:
+    """The text of a file with a change, and the lines that changed; none if there is no such occurrence."""
+    name, operator, occurrence = one
     before = (SOURCE / name).read_text(encoding="utf-8")
-    after = mutate_code(before, _operator(operator), occurrence)
+    after = mutate_code(before, _operator(operator), occurrence) or before
     lines = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
     return after, [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
 
@@ -112,7 +116,7 @@ def _change(mutant: Mutant) -> tuple[str, list[str]]:
 def trial(number: int) -> resumable.Result:
     """Make one change, test it, take it back."""
     name, after, change = _changed(number)
-    operator = sample()[number][1].rpartition("/")[2]
+    operator = mutant(number)[1].rpartition("/")[2]
     known: resumable.Result = {
         "number": number, "file": name, "operator": operator, "change": change, "fault": None,
     }  # fmt: skip
