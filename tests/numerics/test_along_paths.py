@@ -1,4 +1,4 @@
-"""Along a path of stretches: what is expected ahead, and which way a zero beside it is sought."""
+"""Along a path of stretches: what is expected ahead, which way a zero is sought; fields and ends on the rim."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.pattern import Pattern, chain
 from rodwell.numerics.stretches import walk
-from rodwell.numerics.stretches.carry import fit, rim_fields
+from rodwell.numerics.stretches.carry import angle_of, fit, rim_fields
 from rodwell.numerics.stretches.chain import Shape
 from rodwell.numerics.stretches.newton import Solved
 from rodwell.numerics.stretches.walk import Motion, ahead, length, row_of
@@ -125,3 +125,29 @@ def test_a_zero_is_sought_first_where_values_fall_or_change_their_sign(
         return there if one.place > 0.45 else behind if one.place < -0.45 else here
 
     assert walk.search(None, at(0.0), line, function, 0.5, 0.6) == between
+
+
+def test_fields_on_the_rim_are_derivatives_of_the_angle_and_give_it_back() -> None:
+    """X = −cos φ and Y = sin φ along φ = 0.4 + 2s − 3s², by complex steps."""
+    s, step = np.array([0.1, 0.4, 0.7]), 1e-30
+
+    def angle(s: Any) -> Any:
+        return np.array([0.4 + 2.0 * s - 3.0 * s**2, 2.0 - 6.0 * s, -6.0 + 0.0 * s])
+
+    fields = rim_fields(angle(s))
+    ahead = rim_fields(angle(s + 1j * step)).imag / step
+    assert fields[:, 0] == pytest.approx(np.array([-np.cos(angle(s)[0]), np.sin(angle(s)[0])]), rel=1e-14)
+    assert fields[:, 1:] == pytest.approx(ahead[:, :2], rel=1e-13)
+    assert angle_of(1.7 * fields) == pytest.approx(angle(s), rel=1e-12)
+
+
+@pytest.mark.parametrize(("counts", "elements"), [((2, 2, 2), (1, 4)), ((3, 2, 2), (2, 5)), ((3, 1, 2), (2, 4))])
+def test_ends_of_stretches_on_the_rim_are_those_of_their_last_and_first_elements(
+    counts: tuple[int, int, int], elements: tuple[int, int]
+) -> None:
+    """Contact, free, contact: the first end that moves is the end of an element, the second the start of one."""
+    problem = Problem(weight=15, alpha=60)
+    model = RodInHole(problem)
+    each = tuple((n,) for n in counts)
+    cuts = chain(model.problem, model.given, Pattern((True, False, True)), each, 8)[0].cuts
+    assert [part.tolist() for part in cuts] == [[0, 1], list(elements), [1, 0]]
