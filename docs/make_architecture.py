@@ -37,7 +37,7 @@ PURPOSE = {
     "studies/drag": "torque\nand drag\nof a well",
     "studies/audit": "formulas\nbeside\nexact loads",
     "studies/paper": "every\nnumber,\nrecomputed",
-    "studies/maps": "one number\nof many\nproblems",
+    "studies/maps": "one number of many problems",
     "answers": "",
     "answers/data": "as tables and plain data",
     "answers/words": "what it means, in sentences",

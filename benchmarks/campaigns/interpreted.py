@@ -5,7 +5,8 @@ changed line of a kernel costs a minute of compilation, and here none. Tests tak
 
 - ``INTERPRETED=no`` leaves the kernels compiled, for changes of what no kernel is made of;
 - ``MOST_SECONDS`` of the processor may go by in a test before it fails;
-- ``SECONDS_OUT`` names a file to which what each test took, and its outcome, is written.
+- ``SECONDS_OUT`` names a file to which what each test took, and its outcome, is written; in a file of tests most of
+  which fail or take too long, the others are given less time then.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import inspect
 import os
 import signal
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -104,7 +106,12 @@ if os.environ.get("INTERPRETED") != "no":
 MOST_SECONDS = float(os.environ.get("MOST_SECONDS", "0"))
 """Of a test with what it makes first; 0: as many as it takes."""
 
+MOST_FAILED, LESS = 4, 0.2
+"""Tests that fail, or take too long, before the rest of their file has so much less time, if more fail than pass."""
+
 _outcomes: dict[str, str] = {}
+_passed: Counter[Path] = Counter()
+_failed: Counter[Path] = Counter()
 
 
 class TooLongError(BaseException):
@@ -126,7 +133,9 @@ def pytest_runtest_protocol(item: Any) -> Iterator[None]:
     yield
     if "SECONDS_OUT" in os.environ:
         with Path(os.environ["SECONDS_OUT"]).open("a", encoding="utf-8") as file:
-            file.write(f"{time.process_time() - start:.3f} {_outcomes.pop(item.nodeid, 'passed')} {item.nodeid}\n")
+            outcome = _outcomes.pop(item.nodeid, "passed")
+            file.write(f"{time.process_time() - start:.3f} {outcome} {item.nodeid}\n")
+        {"passed": _passed, "failed": _failed}.get(outcome, Counter())[item.path] += 1
 
 
 @pytest.hookimpl(hookwrapper=True)
@@ -139,7 +148,8 @@ def pytest_runtest_makereport(item: Any) -> Iterator[None]:
 
 @pytest.hookimpl(hookwrapper=True)
 def _limited(item: Any) -> Iterator[None]:
-    signal.setitimer(signal.ITIMER_PROF, MOST_SECONDS)
+    slow = "SECONDS_OUT" in os.environ and _failed[item.path] >= max(MOST_FAILED, _passed[item.path])
+    signal.setitimer(signal.ITIMER_PROF, MOST_SECONDS * (LESS if slow else 1.0))
     try:
         yield
     finally:

@@ -34,7 +34,11 @@ SEED, LINES, SUMMARY = 25, HERE / "mutants.jsonl", HERE / "mutants.json"
 PAGE = HERE.parent / "results" / "mutants.md"
 
 SURVIVORS: dict[str, dict[str, str]] = json.loads((HERE / "mutants_survivors.json").read_text(encoding="utf-8"))
-"""Changes that lived, each with the test that was written for it, or why it is the same program."""
+"""Changes that live, or may, each with the test that was written for it, or why it is the same program; and whether it
+lived before that test was there."""
+
+DRAWN, DRAW = HERE / "mutants_drawn.json", 300
+"""The sample, a change each: file, operator, which of its occurrences, lines; and how many are drawn."""
 
 LONGEST = 60.0
 """Seconds of the processor after which a test that was written for a change has failed."""
@@ -45,6 +49,7 @@ LEFT_OUT = "_density.py", "_curved_density.py", "__init__.py"
 Mutant = tuple[str, str, int]  # path in src/rodwell, operator, which of its occurrences
 
 
+@functools.cache
 def every_mutant() -> list[Mutant]:
     """All changes that can be made."""
     found = []
@@ -72,26 +77,46 @@ def _operator(name: str) -> Any:
 
 
 @functools.cache
-def sample() -> list[Mutant]:
-    """All mutants in a random order: the first of them are a sample."""
-    mutants = every_mutant()
-    random.Random(SEED).shuffle(mutants)
-    return mutants
+def drawn() -> list[tuple[str, str, int, list[str]]]:
+    """The changes that were drawn: file, operator, which of its occurrences, and the lines that changed."""
+    if not DRAWN.exists():
+        chosen = random.Random(SEED).sample(every_mutant(), DRAW)
+        kept = ",\n".join(json.dumps([*one, _change(one)[1]], ensure_ascii=False) for one in chosen)
+        DRAWN.write_text(f"[\n{kept}\n]\n", encoding="utf-8")
+    return [tuple(one) for one in json.loads(DRAWN.read_text(encoding="utf-8"))]
+
+
+@functools.cache
+def mutant(number: int) -> Mutant:
+    """A change as it is found in the sources now: the same occurrence, another one, or another change of the file."""
+    name, operator, occurrence, change = drawn()[number]
+    if _change((name, operator, occurrence))[1] == change:
+        return name, operator, occurrence
+    every = [one for one in every_mutant() if one[0] == name]
+    same = sorted((one for one in every if one[1] == operator), key=lambda one: abs(one[2] - occurrence))
+    gone = random.Random(f"{SEED} {occurrence} {change}").choice(every)
+    return next((one for one in same if _change(one)[1] == change), gone)
 
 
 def _changed(number: int) -> tuple[str, str, list[str]]:
     """File, its text with a change, and the lines that changed."""
-    name, operator, occurrence = sample()[number]
+    return mutant(number)[0], *_change(mutant(number))
+
+
+@functools.cache
+def _change(one: Mutant) -> tuple[str, list[str]]:
+    """The text of a file with a change, and the lines that changed; none if there is no such occurrence."""
+    name, operator, occurrence = one
     before = (SOURCE / name).read_text(encoding="utf-8")
-    after = mutate_code(before, _operator(operator), occurrence)
+    after = mutate_code(before, _operator(operator), occurrence) or before
     lines = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
-    return name, after, [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
+    return after, [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
 
 
 def trial(number: int) -> resumable.Result:
     """Make one change, test it, take it back."""
     name, after, change = _changed(number)
-    operator = sample()[number][1].rpartition("/")[2]
+    operator = mutant(number)[1].rpartition("/")[2]
     known: resumable.Result = {
         "number": number, "file": name, "operator": operator, "change": change, "fault": None,
     }  # fmt: skip
@@ -110,9 +135,14 @@ def trial(number: int) -> resumable.Result:
     }
 
 
+def known_of(one: resumable.Result) -> dict[str, str]:
+    """What was done about a change; nothing of most."""
+    return SURVIVORS.get(f"{one['file']}: {one['change'][-1][1:].strip()}", {})
+
+
 def seen_to(one: resumable.Result) -> resumable.Result:
     """A survivor with what was done about it: the test that notices it now, tried; or why it is the same program."""
-    what = SURVIVORS.get(f"{one['file']}: {one['change'][-1][1:].strip()}", {})
+    what = known_of(one)
     told_of = {key: one[key] for key in ("number", "file", "operator", "change")} | what
     if "test" not in what:
         return told_of
@@ -126,16 +156,17 @@ def told(results: list[resumable.Result]) -> resumable.Result:
     """What the summary says."""
     outcomes = Counter(result["outcome"] for result in results)
     survivors = [seen_to(one) for one in results if one["outcome"] == "survived"]
-    noticed = sum(one.get("noticed now", False) for one in survivors)
-    programs = len(results) - outcomes["no program"]
+    before = sum(one["outcome"] == "killed" and "lived" in known_of(one) for one in results)
+    noticed = before + sum(one.get("noticed now", False) for one in survivors)
+    at_first, programs = outcomes["killed"] - before, len(results) - outcomes["no program"]
     by_file: dict[str, Counter[str]] = {}
     for one in results:
         by_file.setdefault(one["file"].rpartition("/")[0], Counter())[one["outcome"]] += 1
     return {
-        "what": inspect.cleandoc(__doc__ or "").splitlines()[0], "changes that can be made": len(sample()),
+        "what": inspect.cleandoc(__doc__ or "").splitlines()[0], "changes that can be made": len(every_mutant()),
         "no program": outcomes["no program"], "programs": programs,
-        "killed at first": outcomes["killed"], "share killed at first": round(outcomes["killed"] / programs, 4),
-        "killed by tests written since": noticed, "share killed": round((outcomes["killed"] + noticed) / programs, 4),
+        "killed at first": at_first, "share killed at first": round(at_first / programs, 4),
+        "killed by tests written since": noticed, "share killed": round((at_first + noticed) / programs, 4),
         "rooms": by_file, "survivors": survivors,
     }  # fmt: skip
 

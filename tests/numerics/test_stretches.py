@@ -15,7 +15,8 @@ from rodwell.numerics.stretches.basis import bent, tabulate
 from rodwell.numerics.stretches.carry import fields_at, fit, rim_fields, sampler
 from rodwell.numerics.stretches.chain import Shape, cartesian, cartesian_curvature, cartesian_derivatives
 from rodwell.numerics.stretches.descent import pressed_in, way_from
-from rodwell.numerics.stretches.walk import zero_within
+from rodwell.numerics.stretches.newton import Solved
+from rodwell.numerics.stretches.walk import locate, zero_within
 from rodwell.problem.problem import Problem
 
 PATTERN, COUNTS = Pattern((True, False, True, False, False, True)), ((2,), (2,), (1,), (1,), (1,), (2,))
@@ -149,3 +150,14 @@ def test_a_shape_is_carried_over_to_other_elements() -> None:
     finer = fit(links, BREAKS, -130.0, sampler(shape), held)
     s = np.linspace(0.0, 1.0, 57)
     assert fields_at(finer, s)[0][:, :3] == pytest.approx(fields_at(shape, s)[0][:, :3], abs=1e-9)
+
+
+@pytest.mark.parametrize("at", [0, 1])
+def test_a_zero_at_an_end_of_a_step_is_that_end_and_without_a_change_of_sign_there_is_none(at: int) -> None:
+    model = RodInHole(Problem(weight=15, alpha=60, twist=3.0))
+    shape = _disturbed(model)
+    nil, still = np.zeros_like(shape.nodes), np.zeros_like(shape.bubbles)
+    ends = Solved(model, shape), Solved(model, shape.moved(nil, still, 0 * BREAKS, -1.0))
+    loads = [end.shape.load for end in ends]
+    assert locate(model, *ends, lambda one: one.shape.load - loads[at]) is ends[at]
+    assert locate(model, *ends, lambda one: one.shape.load - loads[0] + 2.0) is None

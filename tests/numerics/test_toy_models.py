@@ -26,6 +26,7 @@ from rodwell.numerics.equilibria.maxima import maxima
 from rodwell.numerics.equilibria.newton import newton
 from rodwell.numerics.equilibria.state import State
 from rodwell.numerics.equilibria.two_meshes import MeshedState, TwoMeshes
+from rodwell.numerics.splines.banded import multiply
 from rodwell.numerics.splines.held import Ends
 from rodwell.numerics.splines.spaces import SplineSpace
 from rodwell.quantities.arrays import FloatArray
@@ -274,3 +275,13 @@ def test_machine_code_of_these_models_is_not_left_on_disk() -> None:
     folder = newton.stats.cache_path
     name = Toy.__module__.rpartition(".")[2].encode()
     assert folder is None or not any(name in file.read_bytes() for file in Path(folder).glob("*.nbi"))
+
+
+def test_tangents_have_length_one_and_rows_are_their_covectors() -> None:
+    """In the metric of the family: u' = π and λ = 10 count as one."""
+    meshes = meshes_of(FOLDING, 1)
+    state = from_nothing(meshes).fine
+    pushed = np.asarray(multiply(state.space.slope_gram, state.tangent)) / np.pi**2
+    assert state.tangent @ pushed + (state.tangent_lam / 10.0) ** 2 == pytest.approx(1.0, rel=1e-12)
+    assert state.row == pytest.approx(pushed, rel=1e-12, abs=1e-14)
+    assert state.row_lam == pytest.approx(state.tangent_lam / 100.0, rel=1e-12)

@@ -1,12 +1,17 @@
-"""Errors of measured numbers from two meshes, against the same in NumPy."""
+"""Errors of measured numbers from two meshes, against the same in NumPy; how far meshes are refined."""
 
 from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from rodwell.numerics.equilibria import two_meshes
 from rodwell.numerics.equilibria.error import CLAIMED_GAIN, NUMBER_NOISE
 from rodwell.numerics.equilibria.two_meshes import KIN, _judged
+from rodwell.numerics.splines.spaces import SplineSpace
 
 NONE = np.empty((0, 2), dtype=np.int64)
 
@@ -44,3 +49,27 @@ def test_a_number_that_is_none_is_not_passed_over(place: int) -> None:
     fine, coarse = np.ones((3, 3)), np.ones((3, 3))
     fine[0, place] = np.nan
     assert np.isnan(_judged(fine, coarse, np.array([[0, 1]]), NONE)[1])
+
+
+class OnMesh:
+    """What meshes ask of a family."""
+
+    tolerance = 1e-12
+
+    def __init__(self, space: SplineSpace) -> None:
+        self.space = space
+
+    def on(self, space: SplineSpace) -> OnMesh:
+        return OnMesh(space)
+
+
+@pytest.mark.parametrize(("most", "elements"), [(16, 8), (15, None)])
+def test_meshes_are_refined_up_to_the_limit_and_not_beyond(
+    most: int, elements: int | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Halved everywhere, four elements become eight, and the finer mesh has sixteen."""
+    monkeypatch.setattr(two_meshes, "_least_resolved", lambda *_: np.ones(4, dtype=bool))
+    family: Any = OnMesh(SplineSpace(np.linspace(0.0, 1.0, 5), 3))
+    point: Any = SimpleNamespace(coarse=None, fine=None)
+    finer = two_meshes.TwoMeshes(family, lambda *_: np.zeros((3, 1)), 1e-8, most).refined(point)
+    assert (None if finer is None else finer.coarse.space.elements) == elements

@@ -16,10 +16,11 @@ import rodwell
 from rodwell.cli.main import cli
 from rodwell.errors import InputError
 from rodwell.quantities.value import Value
-from rodwell.studies.paper import items, linear, scorer
+from rodwell.studies.paper import items, linear, scorer, stability
 from rodwell.studies.paper.agreement import Agreement, agreement
 from rodwell.studies.paper.claims import FORMULA, INTERVAL, Claim, matches, typeset
 from rodwell.studies.paper.table1 import ROWS
+from rodwell.studies.paper.work import CLEARANCE, Work
 
 PAPER = {
     "eq63": "16.5",
@@ -238,3 +239,23 @@ def test_claims_name_their_place() -> None:
             assert claim.place
             assert claim.quantity
             assert (claim.formula is None) == (claim.rule != FORMULA)
+
+
+def test_the_loads_of_fig_13_are_those_of_closed_forms_where_modes_switch() -> None:
+    """Where the horizontal clamped rod has a double load, (77) and (78): F = −π²(n² + (n + 2)²)."""
+    lying, _ = stability.fig13(Work())
+    for n in (1, 2, 3):
+        at = int(np.argmin(np.abs(lying.weights - n**2 * (n + 2) ** 2 * np.pi**4 * CLEARANCE)))
+        assert lying.exact[at] == pytest.approx(-(np.pi**2) * (n**2 + (n + 2) ** 2), rel=1e-8)
+
+
+def test_stability_diagrams_are_those_of_maps_at_the_same_weights() -> None:
+    """Curves are followed from point to point; a map computes each weight alone, from the straight rod on."""
+    diagram = stability.inclined(Work(), "", 10.0, 60.0)
+    ((weights, forces),) = diagram.lift_off
+    first = diagram.critical[0]
+    for quantity, x, loads in (("lift-off", weights, forces), ("critical", first.x, first.values)):
+        chosen = slice(3, None, 1 + len(x) // 6)
+        found = rodwell.map(diagram.problem, quantity, over={"weight": x[chosen]}, halvings=0)
+        assert found.values.size > 3
+        assert found.values == pytest.approx(loads[chosen], rel=1e-8)

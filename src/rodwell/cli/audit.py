@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import print_listing
+from rodwell.cli.mapping import StorePath, named_as_options, telling
 from rodwell.cli.options import (
     OutPath,
+    Progress,
     check_missed,
     print_json,
     print_written,
@@ -25,7 +27,9 @@ from rodwell.quantities.text import error_digit, minus, plain, signed
 
 if TYPE_CHECKING:
     from rodwell.answers.comparison.beside import Comparison, FormulaRow, Other
+    from rodwell.problem.problem import Problem
     from rodwell.studies.audit.audit import AtApplied, Audit
+    from rodwell.studies.audit.error_map import ErrorMap
 
 NAMES = {
     "critical": "the first critical load",
@@ -61,6 +65,14 @@ def _renamed(context: click.Context, option: click.Parameter, given: float | Non
 @click.option("--build", type=float, hidden=True, callback=_renamed, expose_value=False)
 @click.option("--turn", type=float, hidden=True, callback=_renamed, expose_value=False)
 @click.option("--chart/--no-chart", default=True, show_default=True, help="Draw the error over weight and inclination.")
+@click.option("--workers", default=1, show_default=True, help="Processes on this machine that compute the chart.")
+@click.option("--scheduler", metavar="URL", help="Address of a Dask scheduler, in place of --workers.")
+@click.option(
+    "--store",
+    type=StorePath(),
+    metavar="NAME.zarr",
+    help="Keep the loads of the chart, chunk by chunk, to go on after a break; needs rodwell[map].",
+)
 @units_option
 @click.option("--details", is_flag=True, help="Print every formula, not the verdict only.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead.")
@@ -71,6 +83,9 @@ def audit(
     build_angle: float | None,
     turn_angle: float | None,
     chart: bool,
+    workers: int,
+    scheduler: str | None,
+    store: str | None,
     units: str | None,
     details: bool,
     as_json: bool,
@@ -98,7 +113,10 @@ def audit(
 
     from rodwell.report.folders.audit import write_audit  # noqa: PLC0415
     from rodwell.studies.audit.audit import audit as compute  # noqa: PLC0415
-    from rodwell.studies.audit.error_map import error_map  # noqa: PLC0415
+
+    drawn = chart and read.problem.hole is None  # the map turns the hole, which would be another one if it is curved
+    if store is not None and not drawn:
+        raise InputError("--store", store, "keeps the loads of a chart, and none is drawn here: leave it out")
 
     def tell_all(written: bool) -> None:
         if as_json:
@@ -112,14 +130,24 @@ def audit(
 
     with told() as ready, progress_bar(not as_json, "exact loads") as tell:
         result = compute(read, extra=extra)
-        report = lambda done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
-        straight = result.problem.hole is None  # the map turns the hole, which would be another one if it is curved
-        errors = error_map(result.problem, rtol=read.rtol, progress=report) if chart and straight else None
         ready(tell_all)
+        options = {"workers": workers, "scheduler": scheduler, "started": telling(as_json), "rtol": read.rtol}
+        errors = _chart(result.problem, store, tell, options) if drawn else None
         tell("figure and data", 1.0)
         write_audit(result, errors, folder, read.about, read.source)
     missed = [f"{load.label} ± {error_digit(load.error)}" for load in result.loads if not load.meets(read.rtol)]
     check_missed(missed, read.rtol)
+
+
+def _chart(problem: Problem, store: str | None, tell: Progress, options: dict[str, Any]) -> ErrorMap:
+    """Errors of formulas over weight and inclination, of a map of critical loads."""
+    from rodwell.store.mapping import map as mapped  # noqa: PLC0415
+    from rodwell.studies.audit.error_map import CRITICAL, ErrorMap, chart_over  # noqa: PLC0415
+
+    report: Progress = lambda _what, done: tell("chart: critical loads over weight and inclination", done)  # noqa: E731
+    with named_as_options(store, "--store"):
+        found = mapped(problem, CRITICAL, over=chart_over(problem), out=store, halvings=0, progress=report, **options)
+    return ErrorMap.of(found, problem)
 
 
 def _decided(audit: Audit) -> None:

@@ -118,8 +118,8 @@ def map_command(
 
     of, over = _asked(case, vary, given)
     options = {name: given[name] for name in _OPTIONS}
-    with _told(out), progress_bar(not quiet and not as_json, "workers start") as tell:
-        result = compute(of, over=over, out=out, progress=tell, started=_telling(quiet or as_json), **options)
+    with named_as_options(out), progress_bar(not quiet and not as_json, "workers start") as tell:
+        result = compute(of, over=over, out=out, progress=tell, started=telling(quiet or as_json), **options)
 
     def tell_all(_: bool) -> None:
         if as_json:
@@ -171,7 +171,9 @@ def _number(text: str) -> Any:
         return text
 
 
-def _telling(silent: bool) -> Callable[[Workers], None]:
+def telling(silent: bool) -> Callable[[Workers], None]:
+    """What is called when workers have started: says where one can look at them."""
+
     def started(workers: Workers) -> None:
         if not silent and workers.dashboard:
             click.echo(f"Dashboard of the {workers.count} workers: {workers.dashboard}", err=True)
@@ -180,16 +182,18 @@ def _telling(silent: bool) -> Callable[[Workers], None]:
 
 
 @contextmanager
-def _told(out: str) -> Iterator[None]:
-    """Name inputs as the options that they are; let an interrupt say that what was done is kept."""
+def named_as_options(out: str | None, option: str = "--out") -> Iterator[None]:
+    """Name inputs as the options that they are; let an interrupt say that what was done is kept in ``out``."""
     try:
         yield
     except InputError as error:
         if hasattr(error, "problems") or error.field not in (*PARAMETERS, *FLAGS, *_OPTIONS, "out"):
             raise
-        raise InputError(f"--{error.field.replace('_', '-')}", error.value, error.reason) from None
+        named = option if error.field == "out" else f"--{error.field.replace('_', '-')}"
+        raise InputError(named, error.value, error.reason) from None
     except KeyboardInterrupt as interrupt:
-        interrupt.kept = f"what was done is kept in {printable(out)}; the same command goes on"  # type: ignore[attr-defined]
+        if out is not None:
+            interrupt.kept = f"what was done is kept in {printable(out)}; the same command goes on"  # type: ignore[attr-defined]
         raise
 
 

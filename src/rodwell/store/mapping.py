@@ -23,10 +23,11 @@ from rodwell.store.chunked import (
 from rodwell.store.map_arrays import attributes, coordinates, of_columns, of_jumps
 from rodwell.studies.maps import jumps
 from rodwell.studies.maps.block import COLUMNS
-from rodwell.studies.maps.computing import Memory, Progress, compute_cells, compute_jumps, jump_chunk
+from rodwell.studies.maps.computing import Progress, compute_cells, compute_jumps, jump_chunk, jump_region
+from rodwell.studies.maps.memory import in_memory
 from rodwell.studies.maps.question import Question, Samples, asked
 from rodwell.studies.maps.result import Map
-from rodwell.studies.maps.workers import Workers, working
+from rodwell.studies.maps.workers import Workers, team
 
 MOST_HALVINGS = 40
 
@@ -100,36 +101,19 @@ def map(  # noqa: A001 - the public name is rodwell.map
     if out is None and question.size > MOST_IN_MEMORY:
         raise InputError("out", None, f"must be given: {question.size} cells are too many for the memory")
     if out is not None:
-        return _in_store(question, out, halvings, tell, lambda: _team(workers, scheduler), started)
-    with _team(workers, scheduler) as team:
+        return _in_store(question, out, halvings, tell, lambda: team(workers, scheduler), started)
+    with team(workers, scheduler) as found:
         if started is not None:
-            started(team)
-        cells = Memory(COLUMNS, question.shape, question.region)
-        compute_cells(question, cells, team, tell)
-        found = jumps.edges(question, cells.read()) if halvings else []
-        size = jump_chunk(len(found))
-        located = Memory(jumps.columns(question), (len(found),), lambda k: (_part(k, size, len(found)),))
-        compute_jumps(question, found, located, team, tell, halvings)
-    return Map(question, cells.read, located.read, None)
+            started(found)
+        return in_memory(question, found, tell, halvings)
 
 
-def _team(workers: int | Workers, scheduler: str | None) -> Any:
-    """A context of workers: those given, which stay, or new ones."""
-    from contextlib import nullcontext  # noqa: PLC0415
-
-    return nullcontext(workers) if isinstance(workers, Workers) else working(workers, scheduler)
-
-
-def _part(k: int, size: int, count: int) -> slice:
-    return slice(k * size, min((k + 1) * size, count))
-
-
-def _in_store(question: Question, out: str | Path, halvings: int, tell: Progress, team: Any, started: Any) -> Map:
+def _in_store(question: Question, out: str | Path, halvings: int, tell: Progress, gathered: Any, started: Any) -> Map:
     identity = question.identity | {"halvings": halvings}
     with opened(out, identity, lambda group: _build(group, question, identity)) as group:
         cells = Kept(group, COLUMNS, question.region)
         if not group.attrs.get(COMPLETE):
-            with team() as workers:
+            with gathered() as workers:
                 if started is not None:
                     started(workers)
                 compute_cells(question, cells, workers, tell)
@@ -156,7 +140,7 @@ def _jumps(
         names = ", ".join(axis.name for axis in question.axes)
         new.attrs.update({"title": "Where the map jumps", "axes": names, COMPLETE: True})
 
-    located = Kept(make_subgroup(out, group, JUMPS, build), columns, lambda k: (_part(k, size, len(found)),))
+    located = Kept(make_subgroup(out, group, JUMPS, build), columns, lambda k: jump_region(k, len(found)))
     compute_jumps(question, found, located, workers, tell, halvings)
 
 

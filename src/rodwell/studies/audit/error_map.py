@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rodwell.analysis.straight.critical import critical_loads
 from rodwell.answers.comparison.beside import rod_of
-from rodwell.answers.comparison.exact_loads import WHERE, critical
+from rodwell.answers.comparison.exact_loads import WHERE
 from rodwell.errors import InputError
 from rodwell.formulas import FORMULAS
 from rodwell.formulas.record import Place
@@ -18,8 +18,14 @@ from rodwell.problem.checks import LARGEST_WEIGHT
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
 from rodwell.quantities.tolerance import RTOL
+from rodwell.studies.maps.computing import Progress
+from rodwell.studies.maps.memory import in_memory
+from rodwell.studies.maps.question import asked
+from rodwell.studies.maps.result import Map
+from rodwell.studies.maps.workers import Workers, team
 
-Progress = Callable[[float], None]
+CRITICAL, OVER = "critical", ("alpha", "weight")
+"""The number that formulas are held against, and what it is mapped over: dimensions of the arrays in this order."""
 
 PANELS: tuple[tuple[str, Place], ...] = (
     ("dawson_paslay", "bottom"), ("dawson_paslay", "middle"), ("dawson_paslay", "top"),
@@ -57,6 +63,39 @@ class ErrorMap:
     force: FloatArray
     error: FloatArray
 
+    @classmethod
+    def of(cls, found: Map, problem: Problem | None = None) -> ErrorMap:
+        """Hold formulas against a map of first critical loads, also one of a store: made by many workers, or resumed.
+
+        Parameters
+        ----------
+        found
+            What :func:`rodwell.map` made of "critical" over "weight" and "alpha" of a problem, or over one of them.
+        problem
+            The case in question, which is marked; that of the map, if not given.
+
+        Raises
+        ------
+        InputError
+            For a map of something else, or with a cell whose values make no problem.
+        NotConvergedError
+            If a cell has no load, with the reason.
+        """
+        question = found.question
+        rods = question.rods
+        if rods.quantity != CRITICAL or rods.folder is not None or not set(question.dims) <= set(OVER):
+            raise InputError("found", repr(found), 'must be a map of "critical" of a problem over "weight" and "alpha"')
+        found.refuse_gaps()
+        of = Problem(**rods.given)
+        numbers = {axis.name: np.array(axis.numbers) for axis in question.axes}
+        alphas, weights = (numbers.get(name, np.array([getattr(of, name)])) for name in OVER)
+        turned = question.dims == OVER[::-1]
+        force, error = (
+            (found.cells[name].T if turned else found.cells[name]).reshape(alphas.size, weights.size)
+            for name in ("value", "error")
+        )
+        return cls(of if problem is None else problem, weights, alphas, force, error)
+
     def exact(self, place: Place) -> FloatArray:
         """Exact critical compression at a place in B/L², compression positive, (m, n)."""
         cosine = np.cos(np.radians(self.alphas))
@@ -83,15 +122,40 @@ def chart_weights(weight: float, count: int) -> FloatArray:
     return np.geomspace(middle / REACH, top, count)
 
 
+def chart_over(
+    problem: Problem,
+    weights: Sequence[float] | FloatArray | None = None,
+    alphas: Sequence[float] | FloatArray | None = None,
+) -> dict[str, list[float] | float]:
+    """What :func:`rodwell.map` is to go over for a chart: γ and α in degrees, chosen around the problem if not given.
+
+    Raises
+    ------
+    InputError
+        For an empty range.
+    """
+    heavy = problem.weight * REACH > HEAVY
+    gammas = chart_weights(problem.weight, 13 if heavy else 23) if weights is None else np.asarray(weights, dtype=float)
+    angles = np.array(ALPHAS[:: 1 + heavy] if alphas is None else alphas, dtype=float)
+    if gammas.ndim != 1 or angles.ndim != 1 or min(gammas.size, angles.size) == 0 or gammas.size * angles.size == 1:
+        raise InputError("weights, alphas", None, "must each be a list of at least one number, and one of two")
+    grid = zip(OVER, (angles.tolist(), gammas.tolist()), strict=True)
+    return {name: values if len(values) > 1 else values[0] for name, values in grid}
+
+
 def error_map(
     problem: Problem,
     weights: Sequence[float] | FloatArray | None = None,
     alphas: Sequence[float] | FloatArray | None = None,
     *,
     rtol: float = RTOL,
+    workers: int | Workers = 1,
     progress: Progress | None = None,
 ) -> ErrorMap:
-    """Compute the first critical load over weight and inclination.
+    """Compute the first critical load over weight and inclination, as a map in memory.
+
+    To keep it, to go on with it or to put it on a cluster, call :func:`rodwell.map` with :func:`chart_over`, and
+    :meth:`ErrorMap.of` with what it returns.
 
     Parameters
     ----------
@@ -99,8 +163,10 @@ def error_map(
         Clearance, ends and the side of the wall; its weight sets the range.
     weights, alphas
         γ and α in degrees; chosen around the problem's weight, and 0 to 90, if not given.
-    rtol, progress
-        Tolerance of each load; called with the part done.
+    rtol
+        Tolerance of each load.
+    workers, progress
+        As for :func:`rodwell.map`.
 
     Raises
     ------
@@ -109,19 +175,9 @@ def error_map(
     NotConvergedError
         If a critical load cannot be computed.
     """
-    heavy = problem.weight * REACH > HEAVY
-    gammas = chart_weights(problem.weight, 13 if heavy else 23) if weights is None else np.asarray(weights, dtype=float)
-    angles = np.array(ALPHAS[:: 1 + heavy] if alphas is None else alphas, dtype=float)
-    if gammas.ndim != 1 or angles.ndim != 1 or gammas.size == 0 or angles.size == 0:
-        raise InputError("weights, alphas", None, "must each be a list of at least one number")
-    force, error = np.empty((2, angles.size, gammas.size))
-    for i, alpha in enumerate(angles):
-        for j, weight in enumerate(gammas):
-            load = critical(problem.but(weight=float(weight), alpha=float(alpha)), rtol)
-            force[i, j], error[i, j] = load.force, load.error
-            if progress is not None:
-                progress((i * gammas.size + j + 1) / force.size)
-    return ErrorMap(problem, gammas, angles, force, error)
+    question = asked(problem, CRITICAL, chart_over(problem, weights, alphas), rtol=rtol)
+    with team(workers) as found:
+        return ErrorMap.of(in_memory(question, found, progress), problem)
 
 
 def hanging_coefficients(

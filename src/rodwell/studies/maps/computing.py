@@ -38,31 +38,6 @@ class Keeper(Protocol):
         """All columns."""
 
 
-class Memory:
-    """Keeps a map in memory."""
-
-    def __init__(
-        self, columns: dict[str, tuple[str, Any, str]], shape: Sequence[int], region: Callable[..., Any]
-    ) -> None:
-        kinds = {name: (object if kind == "string" else kind, fill) for name, (kind, fill, _) in columns.items()}
-        self.columns: Block = {name: np.full(shape, fill, dtype=kind) for name, (kind, fill) in kinds.items()}
-        self.region = region
-
-    def missing(self, chunks: Iterator[Any]) -> list[Any]:
-        """Those of the chunks that are not there."""
-        return [chunk for chunk in chunks if not np.all(self.columns["outcome"][self.region(chunk)])]
-
-    def keep(self, chunk: Any, block: Block) -> None:
-        """Keep a chunk."""
-        region = self.region(chunk)
-        for name, column in self.columns.items():
-            column[region] = block[name].reshape(column[region].shape)
-
-    def read(self) -> Block:
-        """All columns."""
-        return self.columns
-
-
 def compute_cells(question: Question, keeper: Keeper, workers: Workers, tell: Progress) -> None:
     """Compute all chunks that are missing, and keep each as it is done.
 
@@ -95,6 +70,12 @@ def compute_jumps(
 def jump_chunk(count: int) -> int:
     """Jumps in a chunk."""
     return min(max(count // jumps.CHUNKS, jumps.SMALLEST), jumps.LARGEST)
+
+
+def jump_region(chunk: int, count: int) -> tuple[slice]:
+    """Where the jumps of a chunk lie among ``count`` of them."""
+    size = jump_chunk(count)
+    return (slice(chunk * size, min((chunk + 1) * size, count)),)
 
 
 class _Said:

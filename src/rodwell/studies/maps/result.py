@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.faces import Shown, drawn, face, plain
 from rodwell.quantities.value import Value
 from rodwell.studies.maps import jumps
 from rodwell.studies.maps.block import Block
-from rodwell.studies.maps.cells import MISSES_TOLERANCE, OUTCOMES, WITH_VALUE
+from rodwell.studies.maps.cells import IMPOSSIBLE, IN_WORDS, MISSES_TOLERANCE, OUTCOMES, WITH_VALUE
 from rodwell.studies.maps.question import Question
 
 if TYPE_CHECKING:
@@ -98,6 +99,28 @@ class Map(Shown):
             at = np.unravel_index(int(choose(np.where(known, self.values, number))), self.values.shape)
             out.append((Value(float(self.values[at]), float(self.errors[at])), self.parameters(at)))
         return tuple(out)
+
+    def refuse_gaps(self) -> None:
+        """Raise if a cell has no value: what is made of a whole map would not say where it is silent.
+
+        Raises
+        ------
+        InputError
+            If the values of the first such cell make no problem, with its parameters and the reason.
+        NotConvergedError
+            If it has no value otherwise.
+        """
+        outcomes = self.cells["outcome"]
+        gaps = np.argwhere(~np.isin(outcomes, WITH_VALUE))
+        if not gaps.size:
+            return
+        at = tuple(gaps[0])
+        where = ", ".join(f"{name} = {value}" for name, value in self.parameters(at).items())
+        reason = self.cells["reason"][at] or IN_WORDS[int(outcomes[at])]
+        why = f"{len(gaps)} of {outcomes.size} cells have no value; at {where}: {reason}"
+        if outcomes[at] == IMPOSSIBLE:
+            raise InputError("over", None, why)
+        raise NotConvergedError(why)
 
     def parameters(self, at: Any) -> dict[str, Any]:
         """The parameters of a cell, by name: numbers in the units of the axes, or names."""

@@ -7,7 +7,7 @@ import os
 import re
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
@@ -64,6 +64,11 @@ def working(workers: int = 1, scheduler: str | None = None, *, dask: bool | None
         with _in_one_thread(), ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
             check_workers(pool)
             yield Workers(pool, workers)
+
+
+def team(workers: int | Workers, scheduler: str | None = None) -> AbstractContextManager[Workers]:
+    """A context of workers: those given, which stay, or new ones, see :func:`working`."""
+    return nullcontext(workers) if isinstance(workers, Workers) else working(workers, scheduler)
 
 
 def needs_extra(field: str, value: object, package: str) -> None:

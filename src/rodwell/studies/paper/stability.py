@@ -13,11 +13,13 @@ from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.curves.critical import critical_curves
 from rodwell.analysis.curves.curve import Curve
 from rodwell.analysis.curves.states import lift_off_curve
-from rodwell.analysis.straight.critical import critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.formulas import FORMULAS
 from rodwell.problem.problem import Problem
 from rodwell.quantities.arrays import FloatArray
+from rodwell.studies.maps.memory import in_memory
+from rodwell.studies.maps.question import asked
+from rodwell.studies.maps.workers import team
 from rodwell.studies.paper.work import CLEARANCE, Work, rod
 
 FIG5_WEIGHTS = (5.0, 40.0, 140.0, 280.0)
@@ -28,6 +30,9 @@ STEPS = (0.15, 0.5, 1.0, 1.35)
 
 INCLINED = ((60.0, 300.0), (30.0, 300.0), (10.0, 300.0), (5.0, 200.0), (2.0, 150.0), (0.0, 350.0))
 """Fig. 6(a) to (f): α in degrees, and the γ up to which the panel goes."""
+
+FIG13_ALPHAS = (90.0, 60.0)
+"""α in degrees of Fig. 13(a) and (b)."""
 
 GRID = 601
 """Weights at which curves are drawn."""
@@ -141,11 +146,12 @@ def _row(work: Work, weight: float) -> StabilityRow:
 def fig6(work: Work) -> tuple[Stability, ...]:
     """Stability diagrams of inclined rods, Fig. 6(a) to (f)."""
     return tuple(
-        _inclined(work, f"({letter})", alpha, until) for letter, (alpha, until) in zip("abcdef", INCLINED, strict=True)
+        inclined(work, f"({letter})", alpha, until) for letter, (alpha, until) in zip("abcdef", INCLINED, strict=True)
     )
 
 
-def _inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
+def inclined(work: Work, label: str, alpha: float, until: float) -> Stability:
+    """Stability diagram of a rod at α degrees up to a weight; of a vertical one without lift-off, where it buckles."""
     problem = rod(0.0, alpha)
     critical = critical_curves(problem, "weight", (0.0, until), modes=3, rtol=work.rtol)
     if alpha == 0.0:
@@ -180,12 +186,13 @@ class Fit:
 
 
 def fig13(work: Work) -> tuple[Fit, ...]:
-    """Fig. 13(a) and (b): α = π/2 and π/3."""
+    """Fig. 13(a) and (b): α = π/2 and π/3; a map of first critical loads."""
     formula, switches = FORMULAS["dellinger"].function, [n * n * (n + 2) ** 2 * np.pi**4 * CLEARANCE for n in (1, 2, 3)]
     weights = np.unique([*np.linspace(0.0, 300.0, 101), *switches])
-    out = []
-    for label, alpha in (("(a)", 90.0), ("(b)", 60.0)):
-        exact = [critical_loads(rod(weight, alpha), 1, rtol=work.rtol)[0].force for weight in weights]
-        fit = [formula(1.0, weight, alpha, CLEARANCE) for weight in weights]
-        out.append(Fit(label, alpha, weights, np.array(exact), np.array(fit)))
-    return tuple(out)
+    question = asked(rod(0.0), "critical", {"alpha": list(FIG13_ALPHAS), "weight": weights}, rtol=work.rtol)
+    with team(1) as alone:
+        exact = in_memory(question, alone)
+    exact.refuse_gaps()
+    fits = [[formula(1.0, weight, alpha, CLEARANCE) for weight in weights] for alpha in FIG13_ALPHAS]
+    panels = zip(("(a)", "(b)"), FIG13_ALPHAS, exact.values, fits, strict=True)
+    return tuple(Fit(label, alpha, weights, loads, np.array(fit)) for label, alpha, loads, fit in panels)
