@@ -68,11 +68,9 @@ def _renamed(context: click.Context, option: click.Parameter, given: float | Non
 @click.option("--workers", default=1, show_default=True, help="Processes on this machine that compute the chart.")
 @click.option("--scheduler", metavar="URL", help="Address of a Dask scheduler, in place of --workers.")
 @click.option(
-    "--store",
-    type=StorePath(),
-    metavar="NAME.zarr",
+    "--store", type=StorePath(), metavar="NAME.zarr",
     help="Keep the loads of the chart, chunk by chunk, to go on after a break; needs rodwell[map].",
-)
+)  # fmt: skip
 @units_option
 @click.option("--details", is_flag=True, help="Print every formula, not the verdict only.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead.")
@@ -241,9 +239,7 @@ def _percent(side: Comparison | None, bold: bool) -> str:
 
 def _force(audit: Audit, value: float, digits: int = 5) -> str:
     """A force in the case's units for a case with dimensions, else in B/L²."""
-    if audit.scales is not None:
-        return audit.scales.text(value, "force", digits)
-    return plain(value, digits)
+    return plain(value, digits) if audit.scales is None else audit.scales.text(value, "force", digits)
 
 
 def _print_reasons(console: Any, audit: Audit) -> None:
@@ -297,9 +293,7 @@ def _print_values(console: Any, audit: Audit, others: Sequence[Other]) -> None:
     from rodwell.report.reports.audit import other_value  # noqa: PLC0415
 
     rows = []
-    for other in others:
-        if other.value is None:
-            continue
+    for other in (one for one in others if one.value is not None):
         error = "" if other.relative_error is None else f"{signed(100 * other.relative_error, 2)} %"
         rows.append((_safe(other.formula.name), other_value(audit, other), error, "no" if other.reasons else "yes"))
     print_listing(console, ["formula", ">value", ">small angle", "valid"], rows)
