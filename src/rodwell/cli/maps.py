@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.listing import wrapped
+from rodwell.cli.off_wall import off_wall_option, print_ending
 from rodwell.cli.options import (
     check_missed,
     json_option,
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     multiple=True,
     help="Look for branches that hang together with none of these; can be given twice.",
 )
+@off_wall_option
 @click.option("--largest-step", default=0.06, show_default=True, help="Longest step of continuation.")
 @rtol_option
 @json_option
@@ -60,6 +62,7 @@ def diagram(
     then: tuple[str, ...],
     to: tuple[float, ...],
     search: tuple[str, ...],
+    off_wall: bool,
     largest_step: float,
     rtol: float,
     as_json: bool,
@@ -90,6 +93,7 @@ def diagram(
             secondary=secondary,
             then=None if further is None else (further[0], further[1][1]),
             search=search,
+            off_wall=off_wall,
             rtol=rtol,
             largest_step=largest_step,
             progress=tell,
@@ -113,7 +117,6 @@ def diagram(
 
 
 def _print_diagram(result: Diagram) -> None:
-    from rodwell.analysis.branch.special import END  # noqa: PLC0415
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
@@ -140,10 +143,7 @@ def _print_diagram(result: Diagram) -> None:
             known = Value(p.force if p.parameter == "force" else p.value, 0.0 if p.kind == "end" else p.error)
             remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
             click.echo(f"  {KINDS[p.kind]:<{widest}}  {name} = {with_error(known)}   {index}{places_text(p.s)}{remark}")
-        if branch.closed:
-            click.echo("  closed: the end is where it began")
-        elif branch.ended_because != END and (not branch.reached_end or branch.origin.parent):
-            click.echo(f"  ended: {branch.ended_because}")
+        print_ending(branch)
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
     click.echo()
