@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.options import places_text
-from rodwell.quantities.text import minus, plain, with_error
+from rodwell.quantities.text import minus, plain, signed, with_error
 
 if TYPE_CHECKING:
     from rodwell.analysis.beyond.off_wall_branch import OffWallBranch
@@ -17,6 +17,12 @@ off_wall_option = click.option(
     "--off-wall/--on-wall", default=False, show_default=True,
     help="Where a branch lifts off it leaves the wall and goes on off it; else the rod is kept on the wall.",
 )  # fmt: skip
+
+
+def why_not_passed(beyond: OffWallBranch) -> str:
+    """How far a branch goes off the wall, and why it ends: for a load that it does not pass."""
+    low, high = (f"{signed(float(force), 6)} B/L²" for force in (beyond.force.min(), beyond.force.max()))
+    return f"off the wall the branch covers {low} to {high} at s = 1 (it ended: {minus(beyond.ended_because)})"
 
 
 def print_ending(branch: Branch) -> None:

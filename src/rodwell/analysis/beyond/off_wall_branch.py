@@ -172,6 +172,10 @@ class OffWallBranch:
             for k, pair in enumerate(pairs) if k not in exact
         )  # fmt: skip
 
+    def passes(self, force: float) -> bool:
+        """Whether it has a state at an end force in B/L², tension positive."""
+        return bool(self.force.min() <= force <= self.force.max())
+
     def at(self, force: float) -> ContactState:
         """The first state at an end force in B/L², tension positive.
 
