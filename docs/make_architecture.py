@@ -50,6 +50,7 @@ PURPOSE = {
     "analysis/path": "load paths\nwith snaps",
     "analysis/loads": "sensitivities, twist, long rods",
     "analysis/branch": "solutions, branches, diagrams",
+    "analysis/beyond": "branches off the wall, beyond lift-off",
     "analysis/space": "frames, surfaces, scene",
     "analysis/state": "one equilibrium: fields, certificate",
     "analysis/straight": "critical loads\nand modes",

@@ -27,6 +27,7 @@ from rodwell.problem.ends import ENDS
 COMMANDS = {
     "diagram": "diagram --weight 15 --alpha 90 --until -700",
     "diagram-inclined": "diagram --weight 15 --alpha 80 --modes 2 --until -500 --out results/inclined",
+    "diagram-off-wall": "diagram --weight 15 --alpha 90 --modes 1 --until -165 --off-wall --out results/off-wall",
     "diagram-coil": "diagram --weight 15 --alpha 90 --turns 1 --out results/coil",
     "curve-critical": "curve critical --over weight --from 0 --to 70 --alpha 90 --modes 2 --out results/critical",
     "curve-lift-off": "curve lift-off --over alpha --from 0 --to 90 --weight 15 --out results/lift-off",

@@ -9,6 +9,7 @@ import click
 
 from rodwell.cli.keep import keep, keep_options, take_keep
 from rodwell.cli.listing import wrapped
+from rodwell.cli.off_wall import off_wall_option, why_not_passed
 from rodwell.cli.options import force_at, json_option, note_rigid_wall, print_json, progress_bar
 from rodwell.quantities.text import plain, signed
 
@@ -28,15 +29,19 @@ if TYPE_CHECKING:
     "without dimensions); may be given several times.  "
     "[default: half way from buckling to lift-off, and 1.3 times that way]",
 )
+@off_wall_option
 @click.option(
     "--rtol", default=1e-8, show_default=True, help="Relative tolerance of the other program and of agreement."
 )
 @keep_options("the differences of all fields")
 @json_option
-def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: bool, **given: Any) -> None:
+def verify(
+    case: Path, mode: int, at: tuple[str, ...], off_wall: bool, rtol: float, as_json: bool, **given: Any
+) -> None:
     """Solve CASE, a TOML file, once more as the paper's fifteen equations with SciPy's solve_bvp, and compare.
 
-    Every field and the lift-off load are compared with the engine's. Takes some seconds for each state. The exit code
+    Every field and the lift-off load are compared with the engine's; with --off-wall states beyond lift-off are those
+    of a rod that has left the wall, held against balance in space. Takes some seconds for each state. The exit code
     is 1 if the two do not agree. `rodwell keys` explains the keys of a case file.
     """
     from rodwell.analysis.branch.verifying.verify import verify as solve_again  # noqa: PLC0415
@@ -50,12 +55,13 @@ def verify(case: Path, mode: int, at: tuple[str, ...], rtol: float, as_json: boo
     forces = [force_at(text, read) for text in at]
     with progress_bar(not as_json, "the engine's branch") as tell:
         try:
-            branch = branch_to_verify(read, mode, forces)
+            branch = branch_to_verify(read, mode, forces, off_wall=off_wall)
         except InputError as error:
             name = "--at" if error.field == "until" else error.field
             raise InputError(name, ", ".join(at) if name == "--at" else error.value, error.reason) from None
-        why = why_out_of_reach(branch, read.scales)
-        missed = [force for force in forces if not passes(branch, force)]
+        off = branch.beyond
+        why = why_out_of_reach(branch, read.scales) if off is None else why_not_passed(off)
+        missed = [force for force in forces if not (passes(branch, force) or (off is not None and off.passes(force)))]
         forces = [force for force in forces if force not in missed]
         if missed and not forces:
             raise NotConvergedError(f"--at = {', '.join(at)} cannot be reached: {why}")
@@ -96,11 +102,13 @@ def _print(result: Verification, title: str, mode: int) -> None:
     click.echo(f"{title}: mode {mode}, {ends_text(result.branch.problem)}")
     wrapped("Engine (one function y(s), splines) against SciPy's solve_bvp (the paper's 15 equations and (B1)–(B15)).")
     wrapped("End force F at s = 1 in B/L², tension positive; differences relative to each field's largest value.")
+    if any(state.off_wall for state in result.states):
+        wrapped("Off the wall: balance of forces and moments in space, stretch by stretch, their ends unknown.")
     for state in result.states:
         verdict = "agree" if state.agrees else "DO NOT AGREE"
         worst = state.worst
         click.echo(
-            f"  F = {signed(state.force, 8)}: {verdict}; largest difference "
+            f"  F = {signed(state.force, 8)}{', off the wall' * state.off_wall}: {verdict}; largest difference "
             f"{plain(state.differences[worst], 2)}, in {worst}"
         )
         wrapped(f"solve_bvp: {state.nodes} mesh points, residual {plain(state.residual, 2)}. {state.message}", "      ")

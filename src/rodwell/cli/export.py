@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rodwell.cli.off_wall import off_wall_option
 from rodwell.cli.options import OutPath, check_missed, force_at, note_rigid_wall, progress_bar, units_option
 from rodwell.errors import printable
 from rodwell.quantities.text import plain
 
 if TYPE_CHECKING:
     from rodwell.analysis.branch.solution import Solution
+    from rodwell.analysis.off_wall.state import ContactState
     from rodwell.case.case import Case
 
 LIFT_OFF = "lift-off"
@@ -32,6 +34,7 @@ LIFT_OFF = "lift-off"
 )  # fmt: skip
 @click.option("--mode", default=1, show_default=True, help="Buckling mode, in the order of compression.")
 @click.option("--mirror", is_flag=True, help="The other arm, ω₂(1) > 0.")
+@off_wall_option
 @click.option("--rod-radius", help='Radius of the rod, "5 cm" or a number in L.  [default: the case\'s, or 0.2 Δ]')
 @click.option(
     "--radial-scale", type=float,
@@ -46,6 +49,7 @@ def export(
     files: tuple[Path, ...],
     mode: int,
     mirror: bool,
+    off_wall: bool,
     rod_radius: str | None,
     radial_scale: float | None,
     places: int | None,
@@ -72,7 +76,7 @@ def export(
     try:
         radius = checked_rod_radius(rod_radius, read.scales)
         with progress_bar(True, "the branch") as tell:
-            state = _state(read, force, mode, mirror, at)
+            state = _state(read, force, mode, mirror, at, off_wall)
             tell("files", 0.9)
             written = write(
                 state,
@@ -95,13 +99,18 @@ def export(
     check_missed([] if state.converged else ["the state that was written"], read.rtol)
 
 
-def _state(case: Case, force: float | None, mode: int, mirror: bool, at: str) -> Solution:
+def _state(
+    case: Case, force: float | None, mode: int, mirror: bool, at: str, off_wall: bool
+) -> Solution | ContactState:
     """The state asked for by ``--at``, on the branch of the mode."""
     from rodwell.analysis.branch.follow import follow  # noqa: PLC0415
     from rodwell.answers.result.reach import passes, why_out_of_reach  # noqa: PLC0415
     from rodwell.errors import NotConvergedError  # noqa: PLC0415
 
-    branch = follow(case.problem, mode, until=force, mirror=mirror, rtol=case.rtol)
+    off_wall = off_wall and force is not None
+    branch = follow(case.problem, mode, until=force, mirror=mirror, off_wall=off_wall, rtol=case.rtol)
+    if force is not None and branch.beyond is not None and not passes(branch, force):
+        return branch.beyond.at(force)
     if force is not None and not passes(branch, force):
         raise NotConvergedError(f"--at = {at} cannot be reached: {why_out_of_reach(branch, case.scales)}")
     if force is not None:
@@ -112,7 +121,7 @@ def _state(case: Case, force: float | None, mode: int, mirror: bool, at: str) ->
     return branch.lift_off.solution
 
 
-def _text(state: Solution, case: Case) -> str:
+def _text(state: Solution | ContactState, case: Case) -> str:
     physical = "" if case.scales is None else f" ({case.scales.text(state.force, 'force', 6)})"
-    index = "stable" if state.stable else f"stability index {state.stability_index}"
+    index = "stable" if state.stability_index == 0 else f"stability index {state.stability_index}"
     return f"End force at s = 1: {plain(state.force, 10)} B/L²{physical}, tension positive; {index}"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rodwell.cli.maps_text import tell_curves, tell_diagram
+from rodwell.cli.off_wall import off_wall_option
 from rodwell.cli.options import (
     check_missed,
     json_option,
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     multiple=True,
     help="Look for branches that hang together with none of these; can be given twice.",
 )
+@off_wall_option
 @click.option("--largest-step", default=0.06, show_default=True, help="Longest step of continuation.")
 @rtol_option
 @json_option
@@ -57,6 +59,7 @@ def diagram(
     then: tuple[str, ...],
     to: tuple[float, ...],
     search: tuple[str, ...],
+    off_wall: bool,
     largest_step: float,
     rtol: float,
     as_json: bool,
@@ -87,6 +90,7 @@ def diagram(
             secondary=secondary,
             then=None if further is None else (further[0], further[1][1]),
             search=search,
+            off_wall=off_wall,
             rtol=rtol,
             largest_step=largest_step,
             progress=tell,

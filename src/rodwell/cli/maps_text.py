@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rodwell.cli.listing import wrapped
+from rodwell.cli.off_wall import print_ending
 from rodwell.cli.options import places_text, print_json, print_written
 from rodwell.quantities.text import plain, with_error
 
@@ -49,7 +50,6 @@ def tell_curves(curves: Sequence[Curve], out: Path | None, *, as_json: bool) -> 
 
 
 def _print_diagram(result: Diagram) -> None:
-    from rodwell.analysis.branch.special import END  # noqa: PLC0415
     from rodwell.answers.words.first_met import KEPT  # noqa: PLC0415
     from rodwell.answers.words.steps import steps_note  # noqa: PLC0415
     from rodwell.problem.words import ends_text  # noqa: PLC0415
@@ -76,10 +76,7 @@ def _print_diagram(result: Diagram) -> None:
             known = Value(p.force if p.parameter == "force" else p.value, 0.0 if p.kind == "end" else p.error)
             remark = "" if branch.meets_tolerance(p) else "   misses the tolerance"
             click.echo(f"  {KINDS[p.kind]:<{widest}}  {name} = {with_error(known)}   {index}{places_text(p.s)}{remark}")
-        if branch.closed:
-            click.echo("  closed: the end is where it began")
-        elif branch.ended_because != END and (not branch.reached_end or branch.origin.parent):
-            click.echo(f"  ended: {branch.ended_because}")
+        print_ending(branch)
     for line in result.unexplored:
         click.echo(f"not explored: {line}")
     click.echo()

@@ -12,15 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from rodwell.analysis.branch.branch import Branch
+from rodwell.analysis.branch.special import END
 from rodwell.analysis.branch.symmetry import ODD, Reflection
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.plots.ordinates import ORDINATES, lies, telling
+from rodwell.plots.paths.off_wall import all_forces, draw_off_wall, named_at
 from rodwell.plots.smooth import BETWEEN, smooth
 from rodwell.plots.style import (
     GREY,
     INK,
     LIFTS_OFF,
+    OFF_WALL,
     RC,
     SECONDARY,
     SIZE,
@@ -59,6 +62,8 @@ def plot_bifurcation(
     which the case gives its loads. Without ``ax`` a panel beside the whole enlarges the way of mode 1 from buckling to
     lift-off.
 
+    States off the wall with which branches go on (``off_wall``) are dotted, if they have that number.
+
     Stable parts (under dead loads, for a rod kept on the wall) are thick, unstable ones thin and dashed. Images of the
     branches by the reflections that the problem has are drawn too. Where the contact pressure is positive somewhere
     lines are pale, since there the wall would have to pull.
@@ -89,7 +94,7 @@ class _Look:
         self.branches, self.critical, self.ordinate = branches, critical, ordinate
         self.forces = Forces(scales, branches[0].problem.hung_weight)
         self.top = max(float(np.max(np.abs(b.numbers(ordinate)))) for b in branches)
-        farthest = max(float(np.max(np.abs(b.force))) for b in branches)
+        farthest = max(float(np.max(np.abs(all_forces(b)))) for b in branches)
         name, label = ORDINATES[ordinate]
         self.fx, ux = axis("force", scales, farthest)
         self.fy, uy = axis(name, scales, self.top)
@@ -122,6 +127,7 @@ def _panel(ax: Any, look: _Look, *, named: bool) -> None:
             line = _Line(branch, image, look.ordinate)
             _draw(ax, line, style, look)
             look.kinds |= _special(ax, line, style["color"], look)
+            _go_on(ax, branch, image, style, look)
     if named:
         _labels(ax, look)
         ax.set_ylabel(look.up)
@@ -135,7 +141,11 @@ def _legend(ax: Any, look: _Look) -> None:
             ax.plot([], [], marker, color=_face(kind), mec=INK, ms=6, label=label)
     ax.plot([], [], color=INK, lw=2.2, label="stable")
     ax.plot([], [], color=INK, lw=1.0, ls=UNSTABLE, label="unstable")
-    ax.plot([], [], color=INK, lw=1.4, alpha=PALE, label="off the wall somewhere")
+    if any(branch.beyond is not None for branch in look.branches):
+        ax.plot([], [], color=INK, lw=2.4, ls=OFF_WALL, label="off the wall (thin: unstable)")
+        ax.plot([], [], ".", color=INK, ms=5, label="contact changes")
+    else:
+        ax.plot([], [], color=INK, lw=1.4, alpha=PALE, label="off the wall somewhere")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
 
 
@@ -168,7 +178,7 @@ def _enlarged(ax: Any, part: Any, look: _Look, window: tuple[float, float]) -> N
 
 def _straight(ax: Any, look: _Look) -> None:
     first = look.critical[0].force
-    end = min(float(b.force.min()) for b in look.branches)
+    end = min(float(np.min(all_forces(b))) for b in look.branches)
     start = first + 0.25 * (first - end)
     ax.plot([look.x(start), look.x(first)], [0, 0], color=INK, lw=2.2)
     ax.plot([look.x(first), look.x(end)], [0, 0], color=GREY, lw=1.0, ls=UNSTABLE)
@@ -223,6 +233,18 @@ def _special(ax: Any, line: _Line, color: str, look: _Look) -> set[str]:
     return {kind for kind, _, _ in line.special}
 
 
+def _go_on(ax: Any, branch: Branch, image: Reflection, style: dict[str, Any], look: _Look) -> None:
+    """Draw what follows off the wall, with what happens there: changes of contact as small dots."""
+    if branch.beyond is None:
+        return
+    color = {"color": style["color"]}
+    for kind, force, y in draw_off_wall(ax, branch.beyond, image, look.ordinate, (look.x, look.fy), **color):
+        marker, face, size = (MARKERS[kind][0], _face(kind), 6) if kind in MARKERS else (".", style["color"], 5)
+        if kind != END:
+            ax.plot(look.x(force), y * look.fy, marker, color=face, mec=style["color"], ms=size, zorder=5)
+        look.kinds.add(kind)
+
+
 MOST_NAMES = 10
 """Branches that are named: those first that leave the straight rod."""
 
@@ -231,11 +253,11 @@ def _labels(ax: Any, look: _Look) -> None:
     """Name the branches at their ends, pushed apart where they would overlap, each with a line to its end."""
     named = [(i, b) for i, b in enumerate(look.branches) if "mirror" not in b.name and not _pulled(b)]
     named = sorted(named, key=lambda item: item[1].origin.parent is not None)[:MOST_NAMES]
+    places = [(*named_at(b, look.ordinate), i, b) for i, b in named]
     ends = sorted(
-        ((_upper(float(b.numbers(look.ordinate)[-1]) * look.fy, look.ordinate), float(look.x(b.force[-1])), i, b)
-         for i, b in named),
+        ((_upper(y * look.fy, look.ordinate), float(look.x(force)), i, b) for force, y, i, b in places),
         key=lambda item: -item[0],
-    )  # fmt: skip
+    )
     low, high = ax.get_ylim()
     right, last = max(x for _, x, _, _ in ends), np.inf
     for y, x, number, branch in ends:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.discrete.measures import Measured
+from rodwell.problem.ends import HOLDS_SLOPE
 from rodwell.quantities.scales import Scales
 
 ORDINATES = {
@@ -18,9 +19,6 @@ ORDINATES = {
     Measured.P_MAX: ("largest_pressure", "largest contact pressure max p"),
 }
 """What can be drawn against the end compression: name in the nomenclature and label."""
-
-HOLDS_SLOPE = ("clamped", "guided")
-"""Ends that hold the slope y', and so bend the rod: at others ω₂ vanishes."""
 
 STRAIGHT_END = 1e-6
 """Part of the curvature at the other end below which an end counts as straight."""

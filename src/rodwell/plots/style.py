@@ -47,6 +47,9 @@ SECONDARY = "#5a6b7b"
 """What branches off a mode: told apart by the marks on the lines."""
 
 SOLID = "-"
+OFF_WALL = (0, (1, 0.7))
+"""States that have left the wall, dotted finely: thick where they are stable, thin where not."""
+
 UNSTABLE, LIMIT, DASHDOT, FORMULA = (0, (5, 2)), (0, (1, 1.3)), (0, (6, 1.5, 1, 1.5)), (0, (3, 1.2, 1, 1.2, 1, 1.2))
 """What dashes mean in every figure: unstable; a limit that something is held against; lift-off where colours have
 another meaning; a formula of practice."""

@@ -18,6 +18,9 @@ KNOWN = ENDS + OFF_WALL_ENDS
 HOLD_ANGLE = ("clamped", "pinned", "ball")
 """End conditions that hold y."""
 
+HOLDS_SLOPE = ("clamped", "guided")
+"""End conditions that hold the slope y', and so bend the rod: at others ω₂ vanishes."""
+
 WITH_Y_HELD = {"guided": "clamped", "free": "pinned", "loose": "ball"}
 """The others, each with the one that holds y besides: what picks one of the equal states of a rod that can be turned
 around the cylinder as a whole."""

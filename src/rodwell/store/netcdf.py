@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import h5netcdf
 import numpy as np
 
+from rodwell.analysis.beyond.off_wall_branch import OffWallBranch
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
@@ -19,7 +20,7 @@ from rodwell.quantities.names import QUANTITIES
 from rodwell.quantities.scales import Scales
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
-from rodwell.store.path_arrays import path_attributes, path_variables
+from rodwell.store.path_arrays import off_wall_attributes, off_wall_variables, path_attributes, path_variables
 
 if TYPE_CHECKING:
     from rodwell.answers.result.answer import Answer  # what it is made of is slow to import
@@ -98,11 +99,18 @@ def write_answer(answer: Answer, path: Path) -> None:
 
 
 def write_branches(diagram: Diagram, path: Path) -> None:
-    """Write all branches of a diagram to a NetCDF file."""
+    """Write all branches of a diagram to a NetCDF file.
+
+    States off the wall with which branch number k goes on, from 1, are in the group ``off_wall_k``.
+    """
     variables = joined_variables(diagram.branches)
     if diagram.critical:
         variables |= _critical(diagram.critical)
-    _write(variables, _attributes(diagram.branches[0]) | {"converged": int(diagram.converged)}, path)
+    with h5netcdf.File(path, "w") as file:
+        write_variables(file, variables, _attributes(diagram.branches[0]) | {"converged": int(diagram.converged)})
+        for number, branch in enumerate(diagram.branches, start=1):
+            if branch.beyond is not None:
+                write_off_wall(file.create_group(f"off_wall_{number}"), branch.beyond)
 
 
 def write_curves(curves: Sequence[Curve], path: Path) -> None:
@@ -132,6 +140,12 @@ def write_load_path(result: LoadPath, path: Path) -> None:
     """Write states and events of a load path to a NetCDF file."""
     variables, left_out = path_variables(result)
     _write(variables, path_attributes(result, left_out), path)
+
+
+def write_off_wall(group: h5netcdf.Group, beyond: OffWallBranch) -> None:
+    """Write states off the wall with which a branch goes on to a group of a NetCDF file."""
+    variables, left_out = off_wall_variables(beyond)
+    write_variables(group, variables, off_wall_attributes(beyond, left_out))
 
 
 def _write(variables: dict[str, Variable], attributes: dict[str, Any], path: Path) -> None:

@@ -1,13 +1,14 @@
-"""Load paths as labelled arrays: states of a rod that may leave the wall, what touches in each, and events."""
+"""Load paths, and branches off the wall, as labelled arrays: states, what touches in each, and events."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from rodwell._version import __version__
+from rodwell.analysis.beyond.off_wall_branch import OffWallBranch
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.state.fields import GRID
@@ -47,6 +48,9 @@ CONVENTIONS = (
 )
 
 
+BRANCH = "branch"
+
+
 class Told(NamedTuple):
     """A state of a path: on which leg, in which of its unbroken pieces (from 0 along the path), its stability index."""
 
@@ -68,6 +72,52 @@ def path_variables(path: LoadPath, places: int = GRID) -> tuple[dict[str, Variab
     What a path has none of is left out.
     """
     told, left_out = _told(path)
+    return state_variables(told, places) | _events(path) | _straight(path), left_out
+
+
+def off_wall_variables(beyond: OffWallBranch, places: int = GRID) -> tuple[dict[str, Variable], int]:
+    """States of a branch off the wall, what touches in them, and special points; how many had to be left out.
+
+    Dimensions as in :func:`path_variables`; ``special`` (special points).
+    """
+    told, left_out = [], 0
+    for i in range(len(beyond)):
+        try:
+            state = beyond.state(i)
+        except NotConvergedError:
+            left_out += 1
+            continue
+        told.append(Told(BRANCH, 0, state, state.stability_index))
+    points = beyond.special_points
+    special = {
+        "special_kind": _along("special", [point.kind for point in points], "what happens there"),
+        **_numbers("special", "special_force", [point.reached for point in points], "end force there", "force"),
+        "special_index_before": _along("special", [point.index_before for point in points], "stability index before"),
+        "special_index_after": _along("special", [point.index_after for point in points], "stability index after"),
+        "special_s": _along("special", [", ".join(f"{s:.9g}" for s in point.s) for point in points], "where"),
+        "special_met": _along("special", [int(point.met) for point in points], "1 if its load meets the tolerance"),
+    }
+    states = state_variables(told, places)
+    return {name: variable for name, variable in states.items() if name not in ("leg", "run")} | special, left_out
+
+
+def off_wall_attributes(beyond: OffWallBranch, left_out: int) -> dict[str, Any]:
+    """What the arrays of a branch off the wall belong to."""
+    return problem_attributes(beyond.problem) | {
+        "title": "Branch of a heavy rod in a hole, off its wall", "conventions": CONVENTIONS, "until": beyond.until,
+        "reached_end": int(beyond.reached_end), "ended_because": beyond.ended_because,
+        "converged": int(beyond.converged), "states_left_out": left_out, "rtol": beyond.rtol,
+        "rodwell_version": __version__,
+    }  # fmt: skip
+
+
+def off_wall_dataset(beyond: OffWallBranch, places: int = GRID) -> xr.Dataset:
+    """Return :func:`off_wall_variables` as an xarray Dataset, fields at ``places`` places along the rod."""
+    return _as_dataset(*off_wall_variables(beyond, places), off_wall_attributes, beyond)
+
+
+def state_variables(told: list[Told], places: int) -> dict[str, Variable]:
+    """States as labelled arrays, with fields along the rod and what touches in each."""
     s = np.linspace(0.0, 1.0, places)
     fields = [one.state.fields(s) for one in told]
     errors = [one.state.field_errors(s) for one in told]
@@ -91,7 +141,7 @@ def path_variables(path: LoadPath, places: int = GRID) -> tuple[dict[str, Variab
         out[name] = Variable(("state", "s"), np.array([found[name] for found in fields]), about)
     about = {"long_name": "error estimate of each field, largest over s, in the field's units"}
     out["field_error"] = Variable(("state", "field"), np.array([[e[name] for name in FIELDS] for e in errors]), about)
-    return out | _touching(told) | _events(path) | _straight(path), left_out
+    return out | _touching(told)
 
 
 def path_attributes(path: LoadPath, left_out: int) -> dict[str, Any]:
@@ -117,11 +167,16 @@ def path_attributes(path: LoadPath, left_out: int) -> dict[str, Any]:
 
 def path_dataset(path: LoadPath, places: int = GRID) -> xr.Dataset:
     """Return :func:`path_variables` as an xarray Dataset, fields at ``places`` places along the rod."""
+    return _as_dataset(*path_variables(path, places), path_attributes, path)
+
+
+def _as_dataset(
+    data: dict[str, Variable], left_out: int, attributes: Callable[[Any, int], dict[str, Any]], result: object
+) -> xr.Dataset:
     import xarray as xr  # noqa: PLC0415 - slow to import
 
-    data, left_out = path_variables(path, places)
     coords = {name: data.pop(name) for name in ("s", "field")}
-    return xr.Dataset(data, coords=coords, attrs=path_attributes(path, left_out))
+    return xr.Dataset(data, coords=coords, attrs=attributes(result, left_out))
 
 
 def _told(path: LoadPath) -> tuple[list[Told], int]:

@@ -15,6 +15,9 @@ it. The group ``restart`` holds what the branch is made of, bit by bit:
 ``event_name``      (event) what was located; its pairs come after those of the points
 ==================  ======================================================================================
 
+States off the wall stand in the group ``off_wall``, for reading; a branch that is read back finds them again from
+lift-off, by the attributes ``off_wall_until`` and ``off_wall_rtol``.
+
 Attributes hold the format's number, the problem (JSON), the parameter, name and origin of the branch, the metric
 (``scale_c``, ``slope_scale``, ``lam_scale``), degree, Gauss points in an element, and tolerances.
 """
@@ -34,6 +37,7 @@ from rodwell._version import __version__
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.making import made
 from rodwell.analysis.branch.special import Origin
+from rodwell.analysis.branch.watching import crossed
 from rodwell.analysis.discrete.family import family
 from rodwell.analysis.discrete.measures import measured_meshes
 from rodwell.analysis.straight.critical import critical_loads
@@ -48,7 +52,7 @@ from rodwell.problem.varying import ParameterPath, words_for
 from rodwell.quantities.table import Variable
 from rodwell.store.dataset import branch_attributes, branch_variables
 from rodwell.store.folder import whole_folder
-from rodwell.store.netcdf import write_variables
+from rodwell.store.netcdf import write_off_wall, write_variables
 
 FORMAT = 1
 """Number of the format; a change of what the group holds gets another."""
@@ -86,6 +90,8 @@ def save_branch(branch: Branch, path: str | Path) -> Path:
     with whole_folder(path.parent, "path") as folder, h5netcdf.File(folder / path.name, "w") as file:
         write_variables(file, branch_variables(branch), branch_attributes(branch))
         _write(branch, file.create_group(GROUP))
+        if branch.beyond is not None:
+            write_off_wall(file.create_group("off_wall"), branch.beyond)
     return path
 
 
@@ -147,7 +153,7 @@ def _write(branch: Branch, group: Any) -> None:
 
 
 def _attributes(branch: Branch, points: int) -> dict[str, Any]:
-    meshes, origin = branch.trace.meshes[0], branch.origin
+    meshes, origin, beyond = branch.trace.meshes[0], branch.origin, branch.beyond
     equilibria = meshes.coarse
     return {
         "format": FORMAT,
@@ -171,7 +177,7 @@ def _attributes(branch: Branch, points: int) -> dict[str, Any]:
         "lam_scale": equilibria.lam_scale,
         "rtol": meshes.rtol,
         "most_elements": meshes.most_elements,
-    }
+    } | ({} if beyond is None else {"off_wall_until": beyond.until, "off_wall_rtol": beyond.rtol})
 
 
 class _Reading:
@@ -198,7 +204,10 @@ class _Reading:
         error = float(about.get("start_error", mode.error if mode else 0.0))
         origin = Origin(str(about["name"]), mode, bool(about["switched"]), parent, bool(about["mirror"]), error)
         ending = bool(about["reached_end"]), str(about["ended_because"])
-        return made(self.problem, origin, trace, *ending, str(about["parameter"]))
+        branch = made(self.problem, origin, trace, *ending, str(about["parameter"]))
+        if "off_wall_until" not in about:
+            return branch
+        return crossed(branch, float(about["off_wall_until"]), float(about["off_wall_rtol"]))
 
     def _meshes(self) -> list[TwoMeshes]:
         about, out, start, every = self.about, list[TwoMeshes](), 0, self.arrays["breaks"]

@@ -11,7 +11,8 @@ import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Exploration, Progress
-from rodwell.analysis.branch.follow import LARGEST_STEP, Following
+from rodwell.analysis.branch.follow import LARGEST_STEP
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.computed import Computed, compute

@@ -48,6 +48,9 @@ class Branch(BranchRecord, Shown):
         Whether it was followed to where it was asked to end.
     ended_because
         Why it ended.
+    beyond
+        Its states off the wall, from lift-off on, where it was asked to leave the wall (``off_wall``), or None. Points,
+        numbers and special points of the branch itself are those on the wall.
     """
 
     @property
@@ -130,7 +133,12 @@ class Branch(BranchRecord, Shown):
 
         Each state must also solve the paper's own equations (:attr:`Solution.certificate`).
         """
-        return all(solution.converged for solution in self) and all(map(self.meets_tolerance, self.special_points))
+        off_wall = self.beyond is None or self.beyond.converged
+        return (
+            off_wall
+            and all(solution.converged for solution in self)
+            and all(map(self.meets_tolerance, self.special_points))
+        )
 
     def meets_tolerance(self, point: SpecialPoint) -> bool:
         """Whether a special point of this branch is known to the tolerance: its place, and its state."""
@@ -191,7 +199,7 @@ class Branch(BranchRecord, Shown):
     def renamed(self, origin: Origin) -> Branch:
         """Return the same branch under another name."""
         ending = self.reached_end, self.ended_because
-        return Branch(self.problem, origin, self.trace, self.special_points, *ending, self.parameter)
+        return Branch(self.problem, origin, self.trace, self.special_points, *ending, self.parameter, self.beyond)
 
 
 def states_to_lift_off(branch: Branch, count: int = 5) -> list[Solution]:

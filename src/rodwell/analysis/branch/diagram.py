@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.coiled import coil
 from rodwell.analysis.branch.exploring import Exploration, Joint, Progress
-from rodwell.analysis.branch.follow import LARGEST_STEP, Following
+from rodwell.analysis.branch.follow import LARGEST_STEP
 from rodwell.analysis.branch.rest import at_rest, reach_in_space
 from rodwell.analysis.branch.searching import WAYS
 from rodwell.analysis.branch.searching import search as search_for_more
 from rodwell.analysis.branch.special import SpecialPoint
 from rodwell.analysis.branch.starts import checked_end
 from rodwell.analysis.branch.symmetry import Reflection
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import checked_step
 from rodwell.analysis.discrete.family import PATHS
@@ -135,6 +136,7 @@ class Diagram:
             "special_points": [
                 special_dict(point) | {"converged": branch.meets_tolerance(point)} for point in branch.special_points
             ],
+            **({} if branch.beyond is None else {"off_wall": branch.beyond.as_dict()}),
         }
 
 
@@ -152,6 +154,7 @@ def diagram(
     secondary: bool = True,
     then: tuple[Parameter | Along, float] | None = None,
     search: Sequence[str] = (),
+    off_wall: bool = False,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -184,6 +187,10 @@ def diagram(
         Ways to look for branches that hang together with none of these: "unfolding" (states of the problem without
         twist, or in a horizontal cylinder, carried over to this one), "deflation" (further states at some loads, sought
         by Newton's method kept off those that are known). Named "isolated"; ``Diagram.searched`` says what was done.
+    off_wall
+        Whether branches leave the wall where they lift off, and go on off it: :attr:`rodwell.Branch.beyond`. Otherwise
+        the rod is kept on the wall. What leaves them off the wall is not followed. Not together with ``then``,
+        ``search``, or turns.
     rtol, largest_step
         As for :func:`rodwell.follow`.
     progress
@@ -197,8 +204,11 @@ def diagram(
         If the critical loads cannot be computed, or a primary branch cannot be started.
     """
     first_run.begin(problem)
-    how, modes = Following(checked_rtol(rtol), checked_step(largest_step)), checked_whole("modes", modes, 1, MOST_MODES)
+    how = Following(checked_rtol(rtol), checked_step(largest_step), off_wall=off_wall)
+    modes = checked_whole("modes", modes, 1, MOST_MODES)
     tell = progress or (lambda _what, _done: None)
+    if off_wall:
+        _check_off_wall(problem, then, search)
     ways = _checked_ways(problem, search)
     further = None if then is None else _checked_further(problem, *then)
     if problem.turns != 0:
@@ -225,6 +235,21 @@ def diagram(
     return Diagram(
         problem, work.critical, tuple(work.branches), tuple(work.joints), until, tuple(work.unexplored), searched
     )
+
+
+def _check_off_wall(problem: Problem, then: object, search: Sequence[str]) -> None:
+    """Raise if branches of a diagram cannot go on off the wall."""
+    from rodwell.analysis.beyond.crossing import check_crosses  # noqa: PLC0415 - most diagrams stay on the wall
+
+    check_crosses(problem)
+    if problem.turns != 0:
+        reason = (
+            "must be 0 with off_wall: the branch of a coil begins where the wall would have to pull; follow it from "
+        )
+        raise InputError("turns", problem.turns, reason + "a state in contact (follow, start)")
+    for name, given in (("then", then), ("search", tuple(search))):
+        if given:
+            raise InputError(name, given, "must be left out where branches leave the wall (off_wall)")
 
 
 def _lies(problem: Problem) -> bool:

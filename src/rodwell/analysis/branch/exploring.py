@@ -10,10 +10,11 @@ from itertools import combinations
 import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
-from rodwell.analysis.branch.follow import Following, branch_off, follow
+from rodwell.analysis.branch.follow import branch_off, follow
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, REJOINS, Origin, SpecialPoint
 from rodwell.analysis.branch.symmetry import arms_alike
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete.family import reflections
 from rodwell.analysis.straight.critical import CriticalLoads, Mode
 from rodwell.analysis.straight.mixed import mixed_modes
@@ -48,8 +49,9 @@ class Exploration:
 
     def __init__(self, problem: Problem, critical: CriticalLoads, until: float, how: Following) -> None:
         self.problem, self.critical, self.until, self.how = problem, critical, until, how
-        self._follow = partial(follow, problem, rtol=how.rtol, largest_step=how.largest_step)
-        self._branch_off = partial(branch_off, until=until, rtol=how.rtol, largest_step=how.largest_step)
+        off_wall, rtol, step = how.off_wall, how.rtol, how.largest_step
+        self._follow = partial(follow, problem, off_wall=off_wall, rtol=rtol, largest_step=step)
+        self._branch_off = partial(branch_off, until=until, off_wall=off_wall, rtol=rtol, largest_step=step)
         self.branches: list[Branch] = []
         self.joints: list[Joint] = []
         self.unexplored: list[str] = []
@@ -99,7 +101,15 @@ class Exploration:
             self.branches.append(further.renamed(Origin(name, parent=branch.name)))
 
     def follow_secondary(self, tell: Progress) -> None:
-        """Follow what leaves each branch point, those on secondary branches included."""
+        """Follow what leaves each branch point, those on secondary branches included, of those on the wall."""
+        self._follow_secondary(tell)
+        for branch in self.branches:
+            for point in () if branch.beyond is None else branch.beyond.special_points:
+                if point.kind == BRANCH_POINT:
+                    where = f"{branch.name} at F = {point.force:.8g}"
+                    self.unexplored.append(f"{where}: what leaves a branch off the wall is not followed")
+
+    def _follow_secondary(self, tell: Progress) -> None:
         done, count = 0, 0
         while done < len(self.branches):
             parent = self.branches[done]

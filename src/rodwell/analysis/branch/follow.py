@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.functionals import Numbers, checked_numbers
@@ -20,7 +20,7 @@ from rodwell.analysis.branch.starts import (
     place_of,
 )
 from rodwell.analysis.branch.tracing import Progress, traced
-from rodwell.analysis.branch.watching import Watched
+from rodwell.analysis.branch.watching import Following, Watched, crossed
 from rodwell.analysis.discrete import first_run
 from rodwell.analysis.discrete.choices import MOST_WORK, checked_step
 from rodwell.analysis.discrete.family import PATHS
@@ -50,20 +50,6 @@ REACH = 6.0
 """Without ``until``, a branch is followed for lift-off to at most this many times its scale of load."""
 
 
-@dataclass(frozen=True)
-class Following:
-    """How branches are followed: to which tolerance, with which longest step, and who is told."""
-
-    rtol: float
-    largest_step: float
-    progress: Progress | None = None
-    watched: Watched = field(default_factory=Watched)
-
-    def stepping(self, first: float) -> Stepping:
-        """Steps of which the first is as given, if it is not too long."""
-        return Stepping(first=min(first, self.largest_step), largest=self.largest_step, most_work=MOST_WORK)
-
-
 def follow(
     problem: Problem,
     mode: int | Mode | None = None,
@@ -74,6 +60,7 @@ def follow(
     parameter: Parameter | Along = "force",
     events: Numbers | None = None,
     stop: Numbers | None = None,
+    off_wall: bool = False,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -103,6 +90,9 @@ def follow(
         Numbers whose zeros are located along the branch, by the names that their special points get: measured numbers
         by name in the nomenclature, or functions of a :class:`Solution` that return a number. At the first zero of
         one in ``stop`` the branch ends. Two zeros within one step are not seen.
+    off_wall
+        Whether the branch leaves the wall where it lifts off, and goes on off it: :attr:`Branch.beyond`. Otherwise the
+        rod is kept on the wall. Needs ``until``, the end force; events and stop conditions are watched on the wall.
     rtol
         Relative tolerance of every measured number and special point.
     largest_step
@@ -124,9 +114,10 @@ def follow(
         If the branch cannot even be started.
     """
     watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
-    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
-    first_run.begin(problem)
     parameter = checked_parameter(parameter, PATHS)
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched, off_wall)
+    how.check(problem, parameter, until)
+    first_run.begin(problem)
     if start is not None:
         if mode is not None or mirror:
             raise InputError("start", None, "a branch from a given state takes neither mode nor mirror: leave them out")
@@ -168,7 +159,7 @@ def _from_straight(
     simple = len(first.together) == 1
     leaves = Leaving(falling=first.number - 1, rising=first.number) if simple else Leaving()
     result = traced(
-        problem, start, limit, stepping, ends_at=(LIFT_OFF,) if until is None else (), leaves=leaves,
+        problem, start, limit, stepping, ends_at=(LIFT_OFF,) if until is None else how.ends_at, leaves=leaves,
         progress=how.progress, halt=how.watched.halt(problem, "force"),
     )  # fmt: skip
     if len(result.points) == 1:
@@ -180,7 +171,7 @@ def _from_straight(
     reached = result.end == (LIFT_OFF if until is None else END)
     name = first.name + (", mirror arm" if mirror else "")
     origin = Origin(name, None if first.mixed else first, switched=True, mirror=mirror, error=first.error)
-    return how.watched.seen(made(problem, origin, result, reached, result.end))
+    return how.crossed(how.watched.seen(made(problem, origin, result, reached, result.end)), until)
 
 
 def from_state(
@@ -208,12 +199,15 @@ def from_state(
         check_side(fold, until)
     begin = at_state(problem, start, parameter, here, until, how.rtol, fold=fold is not None)
     how.watched.tried(start)
+    how.check_start(start)
     result = traced(
-        problem, begin, until, how.stepping(FIRST_STEP_ON), parameter=parameter, progress=how.progress,
-        leaves=None if fold is None else onward(fold), halt=how.watched.halt(problem, parameter),
+        problem, begin, until, how.stepping(FIRST_STEP_ON), ends_at=how.ends_at, parameter=parameter,
+        progress=how.progress, leaves=None if fold is None else onward(fold),
+        halt=how.watched.halt(problem, parameter),
     )  # fmt: skip
     origin = Origin(f"from {parameter} = {begin[1].lam:.6g}")
-    return how.watched.seen(made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter))
+    branch = made(problem, origin, result, result.end in (END, CLOSED), result.end, parameter)
+    return how.crossed(how.watched.seen(branch), until)
 
 
 def branch_off(
@@ -223,6 +217,7 @@ def branch_off(
     mirror: bool = False,
     events: Numbers | None = None,
     stop: Numbers | None = None,
+    off_wall: bool = False,
     rtol: float = RTOL,
     largest_step: float = LARGEST_STEP,
     progress: Progress | None = None,
@@ -238,7 +233,7 @@ def branch_off(
         Value of the branch's parameter (the end force, usually) at which to end.
     mirror
         The other of the two directions. On a symmetric branch it gives the mirror image.
-    events, stop, rtol, largest_step, progress
+    events, stop, off_wall, rtol, largest_step, progress
         As for :func:`follow`.
     origin
         Name and parent, for diagrams.
@@ -255,21 +250,26 @@ def branch_off(
     problem, parameter = point.solution.problem, point.parameter
     until = checked_end(problem, parameter, until)
     watched = Watched(checked_numbers("events", events), checked_numbers("stop", stop))
-    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched)
+    how = Following(checked_rtol(rtol), checked_step(largest_step), progress, watched, off_wall)
+    how.check(problem, parameter, until)
     watched.tried(point.solution)
+    how.check_start(point.solution)
     start, stepping = at_branch_point(point, mirror, how.rtol), how.stepping(FIRST_STEP)
     result = traced(
-        problem, start, until, stepping, parameter=parameter, leaves=crossing(point), progress=progress,
-        halt=watched.halt(problem, parameter),
+        problem, start, until, stepping, ends_at=how.ends_at, parameter=parameter, leaves=crossing(point),
+        progress=progress, halt=watched.halt(problem, parameter),
     )  # fmt: skip
     if len(result.points) == 1:
         raise NotConvergedError(f"the branch at {point.value:.8g} could not be followed: {result.end}")
     origin = replace(origin or Origin(f"secondary from {point.value:.6g}", switched=True), error=point.error)
-    return watched.seen(made(problem, origin, result, result.end in (END, REJOINS, CLOSED), result.end, parameter))
+    branch = made(problem, origin, result, result.end in (END, REJOINS, CLOSED), result.end, parameter)
+    return how.crossed(watched.seen(branch), until)
 
 
 def extended(branch: Branch, until: float, *, progress: Progress | None = None) -> Branch:
-    """Return a branch continued from its last point down to the end force ``until``.
+    """Return a branch continued from its last point down to the end force ``until``, on the wall.
+
+    One that has left the wall is followed on off it, once more from lift-off.
 
     Raises
     ------
@@ -277,6 +277,8 @@ def extended(branch: Branch, until: float, *, progress: Progress | None = None) 
         If ``until`` is out of range.
     """
     until = checked_force("until", until)
+    if branch.beyond is not None:
+        return crossed(branch, until, branch.beyond.rtol, progress)
     stepping = Stepping(first=FIRST_STEP_ON, largest=LARGEST_STEP, most_work=MOST_WORK)
     result = traced(branch.problem, branch.last, until, stepping, progress=progress)
     return continued(branch, result, result.end == END, result.end)

@@ -25,6 +25,10 @@ def missed(branch: Branch) -> list[str]:
         if not branch.meets_tolerance(point) and point.kind != END:
             value = minus(f"{point.value:.8g} ± {point.error:.0e}")
             out.append(f"{branch.name}: {NAMES.get(point.kind, point.kind)} at {branch.parameter} = {value}")
+    for away in () if branch.beyond is None else branch.beyond.special_points:
+        if not away.met:
+            value = minus(f"{away.force:.8g} ± {away.reached.error:.0e}")
+            out.append(f"{branch.name}, off the wall: {NAMES.get(away.kind, away.kind)} at force = {value}")
     states = [solution for solution in branch if not solution.converged]
     if states:
         first = minus(f"{states[0].point.lam:.6g}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +23,9 @@ from rodwell.problem.problem import Problem
 from rodwell.problem.varying import Parameter
 from rodwell.quantities.arrays import FloatArray
 
+if TYPE_CHECKING:
+    from rodwell.analysis.beyond.off_wall_branch import OffWallBranch
+
 
 class BranchRecord:
     """Points of a branch, special points, and the states between them: see :class:`rodwell.Branch`."""
@@ -35,12 +39,14 @@ class BranchRecord:
         reached: bool,
         why: str,
         parameter: Parameter = "force",
+        beyond: OffWallBranch | None = None,
     ) -> None:
         self.problem, self.origin, self.parameter = problem, origin, parameter
         self.trace = trace
         self.special_points = special_points
         self._solutions: dict[int, Solution] = {}
         self.reached_end, self.ended_because = reached, why
+        self.beyond = beyond
 
     def __len__(self) -> int:
         return len(self.trace.points)

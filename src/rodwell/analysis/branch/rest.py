@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from rodwell.analysis.branch.follow import FIRST_STEP_ON, Following
+from rodwell.analysis.branch.follow import FIRST_STEP_ON
 from rodwell.analysis.branch.making import made
 from rodwell.analysis.branch.minimum import equilibrium
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import END, TOUCH_DOWN, Origin
 from rodwell.analysis.branch.starts import at_state
 from rodwell.analysis.branch.tracing import traced
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.straight.scale import EULER
 from rodwell.errors import InputError, NotConvergedError

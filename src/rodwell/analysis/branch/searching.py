@@ -14,9 +14,10 @@ import numpy as np
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import Exploration, Progress, same_state
-from rodwell.analysis.branch.follow import Following, from_state
+from rodwell.analysis.branch.follow import from_state
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import END, STRAIGHT, Origin
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family
 from rodwell.analysis.discrete.measures import measured_meshes

@@ -1,4 +1,7 @@
-"""Events and stop conditions that users bring: numbers of a state whose zeros on a branch are located like others."""
+"""How branches are followed, with events and stop conditions that users bring, and off the wall beyond lift-off.
+
+Events are numbers of a state whose zeros on a branch are located like others.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +13,13 @@ from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.functionals import Number, Numbers, changes_sign, number_of, value_of, value_on
 from rodwell.analysis.branch.making import made
 from rodwell.analysis.branch.solution import Solution, solution_of
-from rodwell.analysis.branch.special import END, SpecialPoint
-from rodwell.errors import NotConvergedError
+from rodwell.analysis.branch.special import END, LIFT_OFF, SpecialPoint
+from rodwell.analysis.branch.tracing import Progress
+from rodwell.analysis.discrete.choices import MOST_WORK
+from rodwell.analysis.discrete.measures import Measured
+from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.continuation.events import LocatedEvent
-from rodwell.numerics.continuation.walk import Halt, Trace
+from rodwell.numerics.continuation.walk import Halt, Stepping, Trace
 from rodwell.numerics.equilibria.state import State
 from rodwell.problem.problem import Problem
 from rodwell.problem.varying import Parameter
@@ -58,6 +64,70 @@ class Watched:
         order = sorted((*branch.special_points, *found), key=lambda point: _place(branch, point))
         ending = branch.reached_end, branch.ended_because
         return Branch(branch.problem, branch.origin, branch.trace, tuple(order), *ending, branch.parameter)
+
+
+@dataclass(frozen=True)
+class Following:
+    """How branches are followed: to which tolerance, with which longest step, and who is told."""
+
+    rtol: float
+    largest_step: float
+    progress: Progress | None = None
+    watched: Watched = field(default_factory=Watched)
+    off_wall: bool = False
+
+    def stepping(self, first: float) -> Stepping:
+        """Steps of which the first is as given, if it is not too long."""
+        return Stepping(first=min(first, self.largest_step), largest=self.largest_step, most_work=MOST_WORK)
+
+    @property
+    def ends_at(self) -> tuple[str, ...]:
+        """Events at which the part of a branch on the wall ends."""
+        return (LIFT_OFF,) if self.off_wall else ()
+
+    def check(self, problem: Problem, parameter: Parameter, until: float | None) -> None:
+        """Raise if a branch that is to go on off the wall cannot."""
+        from rodwell.analysis.beyond.crossing import check_crosses  # noqa: PLC0415 - most who follow stay on the wall
+
+        if not self.off_wall:
+            return
+        if parameter != "force":
+            raise InputError("parameter", str(parameter), "must be force where branches go on off the wall (off_wall)")
+        if until is None:
+            raise InputError("until", None, "must be given with off_wall: the end force to which it is followed")
+        check_crosses(problem)
+
+    def check_start(self, start: Solution) -> None:
+        """Raise if a branch that is to go on off the wall would not begin on it."""
+        if self.off_wall and start.number(Measured.P_MAX).value > 0.0:
+            raise InputError("start", start, "is kept on the wall, which would have to pull: begin where contact is "
+                             "complete, or leave off_wall out")  # fmt: skip
+
+    def crossed(self, branch: Branch, until: float | None) -> Branch:
+        """Return a branch that has lifted off with what follows off the wall; any other as it is."""
+        if not self.off_wall or until is None or branch.ended_because != LIFT_OFF:
+            return branch
+        return crossed(branch, until, self.rtol, self.progress)
+
+
+def crossed(branch: Branch, until: float, rtol: float, progress: Progress | None = None) -> Branch:
+    """Return a branch that ended at lift-off with its states off the wall, followed to the end force ``until``.
+
+    Where none was found that goes on, it says so.
+    """
+    from rodwell.analysis.beyond.crossing import beyond_lift_off  # noqa: PLC0415 - most who follow stay on the wall
+
+    lifts = next(point for point in branch.special_points if point.kind == LIFT_OFF)
+    before, beyond = branch[lifts.after], None
+    back = 2.0 * float(branch.force[0]) - until  # as far on the other side of its start
+    try:
+        beyond = beyond_lift_off(before, lifts.force, until, back, rtol, progress)
+    except NotConvergedError as error:
+        reached, why = False, str(error)
+    else:
+        reached, why = beyond.reached_end, beyond.ended_because
+    points = tuple(point for point in branch.special_points if point.kind != END)
+    return Branch(branch.problem, branch.origin, branch.trace, points, reached, why, branch.parameter, beyond)
 
 
 def zeros(branch: Branch, name: str, which: Number) -> list[SpecialPoint]:

@@ -15,13 +15,14 @@ from typing import Any
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.exploring import LYING
-from rodwell.analysis.branch.follow import FIRST_STEP_ON, LARGEST_STEP, Following, branch_off
+from rodwell.analysis.branch.follow import FIRST_STEP_ON, LARGEST_STEP, branch_off
 from rodwell.analysis.branch.making import made
 from rodwell.analysis.branch.rest import at_rest, reach_in_space
 from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.branch.special import BRANCH_POINT, END, LIFT_OFF, Origin, SpecialPoint
 from rodwell.analysis.branch.starts import at_state
 from rodwell.analysis.branch.tracing import traced
+from rodwell.analysis.branch.watching import Following
 from rodwell.analysis.discrete import first_run
 from rodwell.errors import InputError, NotConvergedError
 from rodwell.numerics.continuation.events import INDEX

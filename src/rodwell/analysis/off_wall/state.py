@@ -107,6 +107,11 @@ class ContactState:
         """
         return self.fine.solved.index
 
+    @property
+    def converged(self) -> bool:
+        """Whether it passes its certificate."""
+        return self.certificate.passed
+
     @cached_property
     def turns(self) -> int:
         """Whole turns of the end s = 1 around the hole."""

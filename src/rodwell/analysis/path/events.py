@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from rodwell.analysis.beyond.between import around, nearest_first
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.control import FORCE, Control
 from rodwell.analysis.off_wall.state import BRIDGED, STRAIGHT, ContactState
@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from rodwell.quantities.scales import Scales
 
 LOADING, UNLOADING = "loading", "unloading"
-
-ROUND_OFF = 1e-12
-"""By how much of itself a load asked for may lie beyond the last state."""
 
 CRITICAL, LIFT_OFF, SNAP, FOLD, BRANCH_POINT = "critical", "lift_off", "snap", "fold", "branch_point"
 LOAD_PEAK = "load_peak"
@@ -144,22 +141,12 @@ class Leg:
     def near(self, value: float, control: Control) -> list[PatternedState]:
         """Known states on either side of a value of the controlled quantity, the nearer first."""
         run = self.passing(value, control)
-        pair = None if run is None else _around(self.runs[run], value, control)
-        return sorted(pair or (), key=lambda state: abs(control.value(state.solved) - value))
+        return [] if run is None else nearest_first(around(self.runs[run], value, control)[0], value, control)
 
     def passing(self, value: float, control: Control) -> int | None:
         """Which run passes a value of the controlled quantity: the last one that does; None if none does."""
         runs = range(len(self.runs) - 1, -1, -1)
-        return next((i for i in runs if _around(self.runs[i], value, control) is not None), None)
-
-
-def _around(run: list[PatternedState], value: float, control: Control) -> tuple[PatternedState, PatternedState] | None:
-    """The first two states of a run between which a value of the controlled quantity lies."""
-    for one, other in pairwise(run):
-        slack, known = ROUND_OFF * abs(value), [control.value(state.solved) for state in (one, other)]
-        if min(known) - slack <= value <= max(known) + slack:
-            return one, other
-    return None
+        return next((i for i in runs if around(self.runs[i], value, control)), None)
 
 
 @dataclass(frozen=True, eq=False)

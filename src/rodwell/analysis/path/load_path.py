@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodwell.analysis.off_wall.certificate import LIMIT
-from rodwell.analysis.off_wall.conditions import conditions
+from rodwell.analysis.beyond.between import state_at
 from rodwell.analysis.off_wall.control import FORCE, Control, shortening
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.state import ContactState, contact_state
@@ -191,16 +190,7 @@ class LoadPath(Shown):
         model = RodInHole(self.problem, self.wall_stiffness)
         if _straight(leg, value, control):
             return contact_state(straight_state(model, control.straight_load(value) or 0.0))
-        missed = ""
-        for near in leg.near(value, control):
-            state = control.at(near, value)
-            if state is None or any(one.value <= -1e-9 for one in conditions(state)):
-                continue
-            found = contact_state(state)
-            if found.certificate.worst <= LIMIT:
-                return found
-            missed = f": what was found misses its balance by {found.certificate.worst:.1e}"
-        raise NotConvergedError(f"no state of the {leg.name} path was found at {control.name} = {value:.8g}{missed}")
+        return state_at(leg.near(value, control), value, control, f"{leg.name} path")
 
     @cached_property
     def curve(self) -> dict[str, FloatArray]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from rodwell.analysis.beyond.carry import carried
 from rodwell.analysis.off_wall.conditions import PatternedState
 from rodwell.analysis.off_wall.model import RodInHole
 from rodwell.analysis.off_wall.soft import sunk
 from rodwell.analysis.path.events import CRITICAL, LIFT_OFF, LOADING, SNAP, Destination, Leg, PathPoint
 from rodwell.analysis.path.legs import Walked, walked
-from rodwell.analysis.path.start import OnWall, arched, carried, leaving_places, on_wall, released
+from rodwell.analysis.path.start import OnWall, arched, leaving_places, on_wall, released
 from rodwell.analysis.path.straightening import How
 from rodwell.analysis.straight.without_wall import loads_without_wall
 from rodwell.errors import NotConvergedError

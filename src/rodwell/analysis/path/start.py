@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rodwell.analysis.beyond.carry import carried, sampled
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.follow import follow
 from rodwell.analysis.branch.solution import Solution
-from rodwell.analysis.off_wall.arrange import arranged, solved
+from rodwell.analysis.off_wall.arrange import arranged
 from rodwell.analysis.off_wall.changes import changed, growing_direction
 from rodwell.analysis.off_wall.conditions import UNHELD, PatternedState, conditions
 from rodwell.analysis.off_wall.model import RodInHole
@@ -18,7 +19,7 @@ from rodwell.analysis.off_wall.pattern import Pattern
 from rodwell.analysis.off_wall.state import ContactState, contact_state
 from rodwell.analysis.straight.critical import Mode
 from rodwell.numerics.stretches.bordered import Row
-from rodwell.numerics.stretches.carry import Sampler, angle_of, rim_fields
+from rodwell.numerics.stretches.carry import angle_of
 from rodwell.numerics.stretches.chain import RADIUS
 from rodwell.numerics.stretches.newton import solve
 from rodwell.problem.ends import OFF_WALL_ENDS
@@ -50,26 +51,6 @@ class OnWall:
     states: tuple[int, ...]
     start: PatternedState
     snap: ContactState | None
-
-
-def sampled(solution: Solution) -> Sampler:
-    """Sample a state of the rod kept on the wall."""
-    family, state = solution.meshes.fine, solution.point.fine
-    clearance, rise = solution.problem.clearance, solution.problem.rise
-
-    def sample(s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        angle = np.array(family.space.evaluate(state.c, s, 3)) / clearance
-        angle[0] += rise * s / clearance
-        angle[1] += rise / clearance
-        return rim_fields(angle), angle
-
-    return sample
-
-
-def carried(model: RodInHole, solution: Solution) -> PatternedState | None:
-    """A state of the rod kept on the wall as a chain of one stretch in contact."""
-    pattern = Pattern((True,), solution.problem.turns)
-    return solved(model, pattern, np.zeros(0), solution.force, sampled(solution))
 
 
 def on_wall(

@@ -17,9 +17,8 @@ MARKS = ("o", "s", "^", "D", "v", "P")
 def plot_verified(result: Verification, ax: Any = None) -> Any:
     """Draw the largest difference of each field between engine and ``solve_bvp``, state by state; return the axes."""
     ax = new_axes() if ax is None else ax
-    names = list(result.states[0].differences)
     for number, state in enumerate(result.states):
-        values = [max(state.differences[name], SMALLEST) for name in names]
+        names, values = list(state.differences), [max(size, SMALLEST) for size in state.differences.values()]
         colour, mark = MODES[number % len(MODES)], MARKS[number % len(MARKS)]
         ax.plot(values, names, mark, color=colour, mec=INK, ms=6, label=f"F = {signed(state.force, 7)} B/L²")
         ax.axvline(state.tolerance, color=colour, lw=1.2, ls=LIMIT)

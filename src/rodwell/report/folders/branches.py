@@ -12,23 +12,44 @@ from rodwell.analysis.curves.curve import Curve
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.curves import plot_curves
 from rodwell.plots.style import RC
+from rodwell.quantities.table import Cell, Table
 from rodwell.report.folders.figures import save_figure
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
+from rodwell.store.tables import write_csv
 from rodwell.store.text import write_json
 
 
 def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
     """Write figure, branches (NetCDF) and special points (JSON) of a diagram to ``out``: all files, or none.
 
-    Returns the names of the files.
+    States off the wall, where branches leave it, are in the NetCDF file and in a table (CSV). Returns the names of the
+    files.
     """
     with whole_folder(out) as folder:
         _draw_diagram(diagram, folder)
         write_branches(diagram, folder / "branches.nc")
         write_json(diagram.as_dict(), folder / "diagram.json")
+        if any(branch.beyond is not None for branch in diagram.branches):
+            write_csv(off_wall_table(diagram), folder / "off-wall.csv")
         return tuple(sorted(file.name for file in folder.iterdir()))
+
+
+def off_wall_table(diagram: Diagram) -> Table:
+    """States off the wall of all branches of a diagram, in the order of travel."""
+    columns = (
+        "branch", "end force at s = 1, tension positive [B/L^2]", "energy relative to the straight rod [B/L]",
+        "approach of the ends [L]", "largest gap [clearance]", "stability index",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for branch in diagram.branches:
+        if branch.beyond is not None:
+            off, name = branch.beyond, branch.name
+            numbers = (off.force, off.numbers("energy"), off.numbers("end_shortening"), off.largest_gap)
+            for *values, index in zip(*numbers, off.stability_index, strict=True):
+                rows.append((name, *map(float, values), int(index)))
+    return Table("off the wall", columns, tuple(rows))
 
 
 def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:

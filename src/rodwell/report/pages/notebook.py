@@ -10,6 +10,7 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.analysis.discrete.measures import Measured
 from rodwell.analysis.endless.endless import Endless
 from rodwell.analysis.endless.state import NUMBERS
+from rodwell.analysis.path.events import MEANING
 from rodwell.analysis.path.load_path import LoadPath
 from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.answers.result.answer import Answer
@@ -108,6 +109,18 @@ def _(result: Branch) -> Card:
         )
         for point in result.special_points
     )
+    if result.beyond is not None:
+        happens = {**MEANING, **KINDS}
+        rows += tuple(
+            (
+                f"off the wall: {happens[away.kind]}",
+                number(away.reached),
+                "" if away.kind == "end" else short(away.reached.error),
+                f"{away.index_before} → {away.index_after}",
+                ", ".join(f"{s:.6g}" for s in away.s),
+            )
+            for away in result.beyond.special_points
+        )
     head = ("what", parameter, "± error", "stability index", "s/L")
     note = f"{FORCE} Stability index: 0 is stable under dead loads, for a rod kept on the wall."
     return Card(f"Branch: {result.name}", lines, (Grid(head, rows, (1, 2)),), note)
