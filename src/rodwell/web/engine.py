@@ -102,6 +102,9 @@ class Engine:
             if send is not None and not last:
                 send({"kind": "diagram", "diagram": plain(so_far), "whole": False})
 
+        for older in self._known.values():
+            for branch in older.branches:
+                branch.forget_tables()  # nine tenths of what is kept
         found = explore(data, case, _seldom(self._teller(send, check), check), reached, self._unit)
         self._known[key] = found
         while len(self._known) > KEPT:
