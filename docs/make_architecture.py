@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-from make_howto import DPI
 from matplotlib.patches import FancyBboxPatch
+from shown import DPI
 
 from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
 

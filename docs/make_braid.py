@@ -8,8 +8,8 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from make_howto import DPI, number, table
 from matplotlib.patches import Arc, Circle
+from shown import DPI, number, table
 
 import rodwell
 from rodwell.analysis.branch.solution import Solution

@@ -8,8 +8,8 @@ import time
 from pathlib import Path
 
 import numpy as np
-from make_howto import table
 from scipy.integrate import quad
+from shown import table
 
 import rodwell
 from rodwell.analysis.endless.local import LIMITS, local_state

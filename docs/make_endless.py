@@ -6,7 +6,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from make_howto import DPI, table
+from shown import DPI, table
 
 import rodwell
 from rodwell.analysis.endless.local import HELICAL, LIMITS, SINUSOIDAL, local_state

@@ -12,7 +12,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from make_howto import DPI, table
+from shown import DPI, table
 
 from rodwell.plots.style import GREY, INK, MODES, RC, new_axes
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from make_howto import DPI, number, table
 from matplotlib.figure import Figure
+from shown import DPI, number, table
 
 import rodwell
 from rodwell.answers.comparison.exact_loads import PLACES, critical, exact_loads

@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Sequence
-from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import matplotlib as mpl
 import matplotlib.image
 import numpy as np
+from shown import DPI, number, save, table
 
 import rodwell
 from rodwell.analysis.branch.special import SpecialPoint
@@ -25,8 +23,6 @@ from rodwell.plots.cylinder import plot_cylinder_moments, plot_shapes
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.style import RC
 from rodwell.problem.ends import ENDS
-
-DPI = 140
 
 COMMANDS = {
     "diagram": "diagram --weight 15 --alpha 90 --until -700",
@@ -80,24 +76,7 @@ def pages(out: Path) -> dict[str, str]:
         "ends-critical.md": ends_table(lift_off=False),
         "ends-lift-off.md": ends_table(lift_off=True),
         "columns.md": column_table(),
-        "exact-paper.md": paper_table(),
-        "exact-engine.md": engine_table(),
     }
-
-
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table."""
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
-
-
-def number(value: float, digits: int = 4) -> str:
-    """A number with a typographic minus sign."""
-    return f"{value:.{digits}f}".replace("-", "−")
-
-
-def _save(ax: Any, path: Path) -> None:
-    ax.figure.savefig(path, dpi=DPI)
 
 
 def untouched_table() -> str:
@@ -119,7 +98,7 @@ def coils(path: Path) -> None:
     flat = rodwell.diagram(rodwell.Problem(15), modes=2, until=-260.0, secondary=False)
     coil = rodwell.coil(rodwell.Problem(15, turns=1), until=-260.0)
     ax = plot_bifurcation([*flat, coil], flat.critical, ordinate=Measured.ENERGY)
-    _save(ax, path)
+    save(ax, path)
 
 
 def wall(out: Path) -> dict[str, str]:
@@ -136,10 +115,10 @@ def wall(out: Path) -> dict[str, str]:
     diagram = rodwell.diagram(problem, modes=2, until=-400.0)
     branch = diagram["secondary 1"]
     step = max(1, len(branch) // 8)
-    _save(plot_shapes([*list(branch)[:-1:step], branch[-1]]), out / "fig4.png")
+    save(plot_shapes([*list(branch)[:-1:step], branch[-1]]), out / "fig4.png")
     lift = diagram.branches[0].lift_off
     assert lift is not None
-    _save(plot_cylinder_moments(lift.solution), out / "cylinder.png")
+    save(plot_cylinder_moments(lift.solution), out / "cylinder.png")
     certificate = lift.solution.certificate
     worst = sorted(certificate.residuals.items(), key=lambda item: -item[1])[:6]
     shown = [(name, f"{value:.1e}".replace("-", "−")) for name, value in worst]
@@ -160,14 +139,14 @@ def pair(path: Path) -> None:
     ax = plot_curves(curves)
     ax.set_ylim(0, 500)
     ax.legend(loc="center right", bbox_to_anchor=(1.0, 0.68))
-    _save(ax, path)
+    save(ax, path)
 
 
 def veering(out: Path) -> None:
     """Critical loads against weight: horizontal and inclined cylinder."""
     for alpha in (90, 60):
         curves = rodwell.critical_curves(rodwell.Problem(0, alpha=alpha), "weight", (0.0, 300.0))
-        _save(plot_curves(curves), out / f"critical-{alpha}.png")
+        save(plot_curves(curves), out / f"critical-{alpha}.png")
 
 
 def on_top(path: Path) -> None:
@@ -175,7 +154,7 @@ def on_top(path: Path) -> None:
     rod = rodwell.Problem(0, on_top=True)
     ax = plot_curves(rodwell.critical_curves(rod, "weight", (0.0, 160.0), modes=3))
     ax.axhline(0.0, color="#1f2933", lw=0.8)
-    _save(ax, path)
+    save(ax, path)
 
 
 def twisted_coil(path: Path) -> None:
@@ -289,39 +268,6 @@ def column_table() -> str:
             multiples = (abs(load) / math.pi**2 for load in loads)
             rows.append((f"{first}–{last}", *(f"{x:.6f}" for x in multiples)))
     return table(("Ends", "−F₁/π²", "−F₂/π²", "−F₃/π²"), rows)
-
-
-def paper_table() -> str:
-    """The paper's closed-form values, enclosed."""
-    rows = []
-    for item in rodwell.paper_values():
-        value, _ = item.value.text(30)
-        verdict = "yes" if item.agrees else "**no**"
-        rows.append((item.equation, item.quantity, item.printed, value, verdict, item.proof))
-    return table(("Where", "Quantity", "Printed", "Exact, 30 digits", "As printed", "Proof"), rows)
-
-
-def engine_table() -> str:
-    """Certified first loads beside those of the engine."""
-    clamped, rows = ("clamped", "clamped"), []
-    for weight, alpha, ends, on_top in (
-        (60, 35, clamped, False),
-        (140, 60, clamped, False),
-        (125, 2, clamped, False),
-        (60, 35, ("pinned", "free"), False),
-        (60, 35, ("guided", "clamped"), False),
-        (40, 70, clamped, True),
-    ):
-        problem = rodwell.Problem(weight, alpha=alpha, ends=ends, on_top=on_top)
-        proved, mode = rodwell.certify(problem, 1)[0], rodwell.critical_loads(problem, 1)[0]
-        if not proved.force.within(mode.force, mode.error):
-            raise RuntimeError(f"docs: {problem}: {mode.force} ± {mode.error} lies outside its enclosure")
-        share = abs(float(proved.force.middle - Fraction(mode.force))) / mode.error
-        engine = f"{mode.force:.12f} ± {mode.error:.0e}".replace("-", "−")
-        exact = proved.force.text(30)[0].replace("-", "−")
-        place = f"{'–'.join(ends)}{', on top' if on_top else ''}"
-        rows.append((str(weight), f"{alpha}°", place, exact, engine, f"{share:.2f}"))
-    return table(("γ", "α", "Ends", "F, 30 digits proved", "Engine", "Error / estimate"), rows)
 
 
 def numbers() -> dict[str, str]:

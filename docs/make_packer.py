@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import matplotlib as mpl
-from make_howto import DPI, table
+from shown import DPI, table
 
 import rodwell
 from rodwell.formulas.pushing import tubing_shortening

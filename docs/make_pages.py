@@ -29,6 +29,7 @@ import make_paper
 import make_wells
 import matplotlib.pyplot as plt
 from click.testing import CliRunner
+from shown import table
 
 import rodwell
 from rodwell.case.catalogue import package_catalogue
@@ -65,7 +66,7 @@ COMMANDS = {
 JOBS = (
     "commands", "make_howto", "make_gallery", "make_formulas", "examples", "make_paper", "make_convergence",
     "make_errors", "make_path", "make_long", "make_wells", "make_drag", "make_endless", "make_packer", "make_braid",
-    "make_report",
+    "make_report", "make_exact",
     "make_architecture", "make_dependencies",
 )  # fmt: skip
 """What is made, the longest first; modules have ``pages(out)`` and perhaps ``numbers()``."""
@@ -167,7 +168,7 @@ def nomenclature_tables() -> str:
             si = names.SI_UNITS[q.dimension]
             rows.append((q.symbol, f"`{q.name}`", q.meaning, unit, PRETTY.get(si, si), q.equation))
         head = ("Symbol", "Name in code", "Meaning", "Unit", "SI", "Equation")
-        parts.append(f"## {title}\n\n{make_howto.table(head, rows)}")
+        parts.append(f"## {title}\n\n{table(head, rows)}")
     return "\n".join(parts)
 
 
@@ -182,7 +183,7 @@ def twist_table() -> str:
         loads = [f"{branch.lift_off.force:.4f}".replace("-", "−") for branch in (plain, *arms)]
         rows.append((f"{weight}, mode {mode}", parity, *loads))
     head = ("γ, mode", "y", "lift-off, T₁ = 0", "T₁ = 0.5, arm ω₂(1) < 0", "T₁ = 0.5, arm ω₂(1) > 0")
-    return make_howto.table(head, rows)
+    return table(head, rows)
 
 
 def _branch_point(weight: float, mode: int, until: float) -> str:
@@ -212,7 +213,7 @@ def command_tables() -> str:
         parts.append(f"## rodwell {name}\n\n{command.get_short_help_str(200)}\n\n```sh\nrodwell {name} {usage}\n```\n")
         options = [p for p in command.params if isinstance(p, click.Option)]
         rows = [(f"`{', '.join((*p.opts, *p.secondary_opts))}`", p.help or "") for p in options]
-        parts.append(make_howto.table(("Option", "Meaning"), rows) if rows else "")
+        parts.append(table(("Option", "Meaning"), rows) if rows else "")
     return "\n".join(parts)
 
 
@@ -231,7 +232,7 @@ def case_keys() -> str:
         title = "Before the first section" if section == TOP else head
         text = "" if section == TOP else f"{purpose(section)}\n"
         parts.append(f"### {title}\n\n{text}")
-        parts.append(make_howto.table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
+        parts.append(table(("Key", "Kind", "Examples", "Default", "Meaning"), rows))
     return "\n".join(parts)
 
 
@@ -253,18 +254,18 @@ def catalogue_tables() -> str:
     parts = []
     for (kind, source, note), rows in groups.items():
         parts.append(f"### {kind.capitalize()}\n\nSource: {source}. {note[:1].upper()}{note[1:]}.\n")
-        parts.append(make_howto.table(("Name", "Outer diameter", "Inner diameter", "Nominal weight"), rows))
+        parts.append(table(("Name", "Outer diameter", "Inner diameter", "Nominal weight"), rows))
     rows = []
     for m in map(catalogue.material, catalogue.names("material")):
         numbers = (cell(m.youngs_modulus, "stress", SI), cell(m.density, "density", SI), f"{m.poisson:g}")
         rows.append((f"`{m.name}`", *numbers, m.source, m.note))
     parts.append("### Materials\n")
-    parts.append(make_howto.table(("Name", "E", "Density", "ν", "Source", "Note"), rows))
+    parts.append(table(("Name", "E", "Density", "ν", "Source", "Note"), rows))
     rows = []
     for g in map(catalogue.grade, catalogue.names("grade")):
         rows.append((f"`{g.name}`", cell(g.yield_strength, "stress"), cell(g.yield_strength, "stress", SI), g.source))
     parts.append("### Grades\n")
-    parts.append(make_howto.table(("Name", "Yield strength", "SI", "Source"), rows))
+    parts.append(table(("Name", "Yield strength", "SI", "Source"), rows))
     return "\n".join(parts)
 
 

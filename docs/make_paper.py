@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from make_howto import number
+from shown import number
 
 import rodwell
 from rodwell.plots.paper.figures import DRAW

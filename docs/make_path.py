@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from make_howto import table
+from shown import table
 
 import rodwell
 

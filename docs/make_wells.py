@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import numpy as np
-from make_howto import table
+from shown import table
 
 import rodwell
 from rodwell.analysis.loads.long_rod import HALF_WAVES, PipeString, critical_compression, lift_off_compression

@@ -1,9 +1,10 @@
-"""No circle between files, whether they import at the top, in a function, for types only, or by a string."""
+"""No circle between files, however they import each other; no file longer, no folder fuller than one looks through."""
 
 from __future__ import annotations
 
 import ast
 import graphlib
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,10 @@ FILES = {
     ".".join(p.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__"): p
     for p in (SOURCE / "rodwell").rglob("*.py")
 }
+ROOT = Path(__file__).parents[1]
+OF_OTHERS = (".min.js",)  # three.js, as it came
+MADE = {"_build", "_generated", "jupyter_execute"}  # while the documentation is built
+LINES, IN_A_FOLDER = 300, 20
 
 
 def named(name: str) -> str:
@@ -53,6 +58,26 @@ def test_hooks_of_results_are_filled_by_the_door_and_refuse_to_be_empty(monkeypa
     monkeypatch.setattr(faces, "_faces", {})
     with pytest.raises(LookupError, match="'html' is empty"):
         faces.Shown()._repr_html_()
+
+
+def scripts(room: Path) -> list[Path]:
+    """Python and JavaScript that is written by hand, in a room and below."""
+    found = [path for suffix in ("py", "js") for path in room.rglob(f"*.{suffix}")]
+    return [path for path in found if not path.name.endswith(OF_OTHERS) and MADE.isdisjoint(path.parts)]
+
+
+@pytest.mark.parametrize("room", [SOURCE / "rodwell", *(ROOT / name for name in ("tests", "docs", "benchmarks"))])
+def test_no_file_has_more_lines_than_one_looks_through(room: Path) -> None:
+    lines = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in scripts(room)}
+    assert lines
+    assert {path: number for path, number in lines.items() if number > LINES} == {}
+
+
+@pytest.mark.parametrize("room", [SOURCE / "rodwell", ROOT / "tests"])
+def test_no_folder_has_more_files_than_one_looks_through(room: Path) -> None:
+    """But that of the commands, which has one for each."""
+    folders = Counter(path.parent for path in scripts(room))
+    assert {folder: n for folder, n in folders.items() if n > IN_A_FOLDER and folder.name != "cli"} == {}
 
 
 @pytest.mark.parametrize("name", ["html", "plot", "dataset", "plain"])

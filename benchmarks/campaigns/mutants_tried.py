@@ -42,14 +42,17 @@ COMPILING = 10.0
 ROOMS = {
     "numerics/splines/lanes": "numerics/test_lanes.py",
     "numerics/splines/products": "numerics/test_lanes.py",
-    "numerics/stretches": "numerics/test_stretches.py physics/test_off_wall.py analysis/test_load_path.py "
-    "analysis/test_string_path.py analysis/test_bridging.py analysis/test_soft_wall.py",
-    "numerics": "numerics validation/test_critical_loads.py validation/test_sections.py analysis/test_branches.py "
-    "analysis/test_pressures.py analysis/test_curves.py",
-    "physics/on_wall/endless": "analysis/test_endless.py physics/test_curved.py",
-    "physics/off_wall": "physics/test_off_wall.py numerics/test_stretches.py analysis/test_load_path.py",
-    "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/test_certify.py "
-    "validation/test_without_wall.py",
+    "numerics/stretches": "numerics/test_stretches.py physics/test_off_wall.py analysis/path/test_load_path.py "
+    "analysis/path/test_other_load_paths.py analysis/path/test_snapping.py analysis/path/test_string_path.py "
+    "analysis/path/test_bridging.py analysis/path/test_soft_wall.py",
+    "numerics": "numerics validation/test_critical_loads.py validation/test_sections.py "
+    "analysis/branch/test_branches.py analysis/branch/test_branch_points.py analysis/test_pressures.py "
+    "analysis/curves/test_curves.py",
+    "physics/on_wall/endless": "analysis/endless/test_endless.py physics/test_curved.py",
+    "physics/off_wall": "physics/test_off_wall.py numerics/test_stretches.py analysis/path/test_load_path.py "
+    "analysis/path/test_other_load_paths.py analysis/path/test_snapping.py",
+    "physics/exact": "physics/test_exact.py physics/test_reduction.py analysis/proof validation/test_without_wall.py "
+    "validation/test_touching.py",
     "physics": "physics validation/test_critical_loads.py validation/test_sections.py",
     "quantities": "quantities case answers/test_answer.py report/test_report.py studies/test_screening.py",
 }

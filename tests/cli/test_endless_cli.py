@@ -25,7 +25,7 @@ def run_json(line: str) -> Any:
 
 
 def test_states_at_a_load() -> None:
-    """β = 3: numbers of two other programs (tests/analysis/test_endless.py)."""
+    """β = 3: numbers of two other programs (tests/analysis/endless/test_endless.py)."""
     text = run("endless --beta 3").output
     assert "contact mean        1.384684352" in text
     assert "contact mean         2.248630717" in text

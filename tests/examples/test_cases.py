@@ -93,7 +93,7 @@ COMMANDS = (
 def test_what_a_command_prints_and_its_report_are_written_well(
     line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """`drag` is read in tests/studies/test_drag_input.py, where its example is computed."""
+    """`drag` is read in tests/studies/drag/test_drag_input.py, where its example is computed."""
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.chdir(EXAMPLES)
     ran = CliRunner().invoke(cli, shlex.split(line.format(out=tmp_path / "out")))

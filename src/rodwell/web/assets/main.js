@@ -8,6 +8,7 @@ import { keys } from "./keys.js";
 import { Link } from "./link.js";
 import { Player } from "./play.js";
 import { showBar, showDetails, showLoads, showState } from "./panel.js";
+import { Scene } from "./scene.js";
 import { Snaps } from "./snap.js";
 import { blank, clear, noNumbers } from "./stale.js";
 import { Taking } from "./take.js";
@@ -20,8 +21,6 @@ let state = null; // inputs, load, branch …: what is asked for
 let diagram = null, diagramOf = ""; // the diagram shown, and for which inputs it holds
 let shown = null, shownOf = ""; // the state shown, and the diagram it is of: none where it was followed to new inputs
 let origin = null; // what was asked for to get it: from there it is followed
-let rod = null; // the viewer, false without WebGL
-let known = false; // whether the viewer has the triangles of the scene
 const sent = new Map(); // when which load was asked for, by number of request
 let askedOf = ""; // of which branch
 let load = null; // its control
@@ -31,8 +30,9 @@ let unread = ""; // what is wrong with the address; it stands until something is
 const figure = new Diagram($("diagram"), (to) => go(chosen(to), true));
 const curves = new Curves({ push: $("push"), side: $("side") }, (fraction, text) => {
   $("cursor").textContent = text || "Point at a curve to read it.";
-  if (rod) rod.mark(fraction);
+  scene.mark(fraction);
 });
+const scene = new Scene($("rod"), { state: () => state, shown: () => shown, begun: (rod) => { hooks.drawn = rod.drawn; hooks.widest = rod.vertices; } });
 const inputs = new Inputs({ state: () => state, hello: () => hello, go, say });
 const link = new Link(heard, (isLost) => {
   $("banner").hidden = !isLost;
@@ -114,7 +114,7 @@ function show(dragged = false) {
     if (state.path) $("busy").textContent = "updating: a rod off the wall is shown once its new load path has been followed …";
     if (underWay) return;
     link.drop("state", "verdict", "details", "path", ...(dragged ? [] : ["diagram"]));
-    const content = () => ({ ...wanted(), path: false, load: state.load, from: origin, known });
+    const content = () => ({ ...wanted(), path: false, load: state.load, from: origin, known: scene.known });
     sent.set(link.ask("diagram", content, dragged), performance.now());
     pending = of;
   } else {
@@ -191,7 +191,7 @@ function askState() {
   const of = JSON.stringify({ ...request(), load: null });
   if (of !== askedOf) link.drop("state"); // states on the way to a load are those of its branch and inputs
   askedOf = of;
-  sent.set(link.ask("state", { ...request(), known }), performance.now());
+  sent.set(link.ask("state", { ...request(), known: scene.known }), performance.now());
 }
 
 // A state of a branch, or one that was followed to other inputs before these have branches.
@@ -207,7 +207,8 @@ function haveState({ kind, state: found, id, passing, inputs: of }) {
   load.write(passing ? found.load : state.load);
   if (!followed) figure.point(found);
   curves.show(found.curves);
-  scene(found);
+  scene.show(found);
+  showBar(found.bar);
   showState(found);
   say(unread || (found.note && state.branch && found.branch !== state.branch ? found.note : ""));
   hooks.values = Object.fromEntries(Object.entries(found.values).map(([name, each]) => [name, each.value]));
@@ -228,27 +229,12 @@ function settled() {
   // at a special point the line that says which one stays; verdicts are those of a rod on the wall
   if (state.special === null && !shown.beyond) link.ask("verdict", request());
   link.ask("details", request());
-  if (rod === false) taking.picture();
+  if (scene.viewer === false) taking.picture();
   if (!load.slider.matches(":active") && !player.since) history.replaceState(null, "", address.written(state, hello));
 }
 
-function scene(found) {
-  const element = $("rod");
-  if (typeof rodwellViewer === "undefined") return addEventListener("load", () => { if (shown === found) scene(found); }, { once: true }); // read after this script, which asks first
-  element.querySelectorAll(".tag, .scale").forEach((each) => { each.style.visibility = ""; });
-  if (rod === null) {
-    $("true-scale").checked = state.scale === "true";
-    rod = rodwellViewer(element, { ...found.scene, embedded: true });
-    if (rod) { hooks.drawn = rod.drawn; hooks.widest = rod.vertices; $("true-scale").onchange?.(); }
-  } else if (rod) {
-    rod.show({ ...found.scene, embedded: true });
-  }
-  known = Boolean(rod);
-  showBar(found.bar);
-}
-
 function request() { return { ...wanted(), load: state.load, branch: state.branch, which: state.which, special: state.special }; }
-const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg, rod: () => rod });
+const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg, rod: () => scene.viewer });
 
 function failed(message) {
   $("busy").textContent = "";
@@ -269,7 +255,7 @@ function failed(message) {
 
 // The rod snaps while the load moves: no number of a shape in between.
 const snaps = new Snaps($("snapping"), {
-  diagram: () => diagram, rod: () => rod, ask: (at) => link.ask("snap", { ...wanted(), ...at }),
+  diagram: () => diagram, rod: () => scene.viewer, ask: (at) => link.ask("snap", { ...wanted(), ...at }),
   blank: () => { hooks.ready = false; hooks.values = null; figure.point(null); noNumbers(); clearTimeout(settle); },
   show: (found) => { shown = null; haveState({ state: found }); },
 });
@@ -296,7 +282,7 @@ addEventListener("popstate", () => {
   if (!hello) return;
   play(false);
   fromAddress();
-  if (rod && $("true-scale").checked !== (state.scale === "true")) { $("true-scale").checked = state.scale === "true"; $("true-scale").onchange?.(); }
+  scene.scale();
   if (diagram && diagramOf && state.y) { $("ordinate").value = state.y; $("branch").value = state.branch; figure.show(diagram, state.y, shown); }
 });
 keys({ state: () => state, diagram: () => diagram, shown: () => shown, go, chosen, play: () => play(!player.since), beyond, step: (part) => go({ load: load.stepped(part, state.load), special: null }, true) });

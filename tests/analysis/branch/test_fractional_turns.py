@@ -30,7 +30,7 @@ def test_a_weightless_rod_winds_evenly(turns: float) -> None:
 
 @pytest.mark.parametrize("turns", [0.5, 1.5, 0.8])
 def test_a_heavy_rod_by_collocation(turns: float) -> None:
-    """The same state by another program: scipy's collocation of the four equations of tests/analysis/shooting.py."""
+    """The same state by another program: scipy's collocation of the equations of tests/analysis/branch/shooting.py."""
     weight, delta, force = 40.0, 0.02, -60.0
     state = equilibrium(Problem(weight, 90.0, clearance=delta, turns=turns), force)
 

@@ -44,3 +44,7 @@ def cutter(survey: Survey, **more: Any) -> Cutter:
 def operation(kind: str, survey: Survey, force: float = 0.0, **more: Any) -> Operation:
     """An operation with the bit at the last station."""
     return replace(Operation(kind, kind, float(survey.md[-1]), force), **more)
+
+
+def horizontal(length: float) -> Survey:
+    return Survey.of([0.0, length], [90.0, 90.0])

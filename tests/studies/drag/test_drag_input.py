@@ -108,7 +108,7 @@ def test_a_survey_that_begins_below_the_surface_is_led_to_it_and_says_so() -> No
 
 
 def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
-    example = Path(__file__).parents[2] / "examples" / "wells" / "horizontal.toml"
+    example = Path(__file__).parents[3] / "examples" / "wells" / "horizontal.toml"
     ran = CliRunner().invoke(cli, ["drag", str(example), "--out", str(tmp_path / "out"), "--json"])
     assert ran.exit_code == 0, ran.output
     assert violations(of_page(tmp_path / "out" / "report.html")) == []
@@ -129,7 +129,7 @@ def test_the_command_writes_a_folder_and_prints_json(tmp_path: Path) -> None:
 
 
 def test_friction_from_measurements_on_the_command_line(tmp_path: Path) -> None:
-    folder = Path(__file__).parents[2] / "examples" / "wells"
+    folder = Path(__file__).parents[3] / "examples" / "wells"
     measured = ["--calibrate", str(folder / "extended-reach-hookloads.csv")]
     ran = CliRunner().invoke(
         cli, ["drag", str(folder / "extended-reach.toml"), *measured, "--out", str(tmp_path / "out")]
