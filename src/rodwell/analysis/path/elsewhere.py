@@ -37,7 +37,7 @@ NEAR = 0.05
 FARTHEST, WANTED = 0.25, 0.1
 """Most arclength of a step, as along a load path, and what is aimed at: the next one is longer or shorter by that."""
 
-SHORTER, SHORTEST = 0.4, 1e-4
+SHORTER, SHORTEST = 0.4, 1e-3
 """By how much a step is shortened that did not succeed, and part of the whole way below which it is not any more."""
 
 LOCATED = 1e-4
@@ -195,6 +195,9 @@ class _Mover:
             return False
         k = int(np.argmin([place for place, _ in located]))
         at = located[k][1]
+        if at.solved.index:
+            self.why = "it loses stability there, and the rod gives way"
+            return False
         vanished = together(at, broken, k)
         s = ", ".join(f"{one.s:.4g}" for one in vanished)
         self.why = f"contact changes there at s = {s}, in a way that was not resolved"
