@@ -46,7 +46,7 @@ function heard(message) {
   else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
   else if (message.kind === "diagram" || message.kind === "path") haveDiagram(message);
   else if (message.kind === "state" || message.kind === "followed") haveState(message);
-  else if (message.kind === "verdict" && shown !== null) $("verdict").textContent = message.text;
+  else if (message.kind === "verdict" && shown !== null && !shown.beyond) $("verdict").textContent = message.text;
   else if (message.kind === "details") showDetails(message.details);
   else if (message.kind === "lost") lose(message);
   else if (message.kind === "snap") snaps.play(message.scenes);
