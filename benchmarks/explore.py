@@ -89,7 +89,7 @@ class Explorer:
         path = next(filter(None, map(shutil.which, ("chromium", "google-chrome"))))
         self.browser = play.chromium.launch(executable_path=path, args=flags)
         self.page = self.browser.new_page(viewport={"width": 1440, "height": 900})
-        self.bytes = 0
+        self.bytes, self.known = 0, set[int]()
         self.page.on("response", self._count)
         self.began = time.perf_counter()
         command = [sys.executable, "-m", "rodwell", "explore", str(CASE), "--no-browser"]
@@ -129,7 +129,9 @@ class Explorer:
     def memory(self) -> dict[str, float]:
         """Megabytes of the page's heap and of the server's processes."""
         heap = self.page.evaluate("(window.gc && gc(), performance.memory.usedJSHeapSize)")
-        resident = sum(_resident(pid) for pid in self.tree())
+        tree = self.tree()
+        self.known |= set(tree)  # one that computes and does not leave off in time is replaced
+        resident = sum(map(_resident, tree))
         return {"page": heap / 1e6, "server": resident / 1e3}
 
     def end(self, how: int) -> int:
@@ -204,6 +206,7 @@ def soak(play: Any, minutes: float) -> dict[str, Any]:
     grown = {f"{name}_MB": known[-1][name] - known[0][name] for name in ("page", "server")}
     most = {f"{name}_MB": max(each[name] for each in known) - known[0][name] for name in ("page", "server")}
     out: dict[str, Any] = {"minutes": minutes, "moves": count, "first": known[0], "grown": grown, "most": most}
+    out["processes"] = len(one.known)  # at the beginning 3: server, engine, Python's watch over what they share
     with WATCH.over("hanging up"):
         out["left_after_hang_up"] = told("left_after_hang_up", one.end(signal.SIGHUP))
     return out

@@ -3,9 +3,9 @@
     python benchmarks/fuzz.py [--examples 5000] [--seed 25] [--only axes]
 
 Targets: values of the parameters of maps, questions of maps with cases, places of stores and addresses of schedulers,
-catalogues, case files with ranges, and surveys as text. Damaged case and survey files have campaigns of their own
-(``campaigns/case_files.py``, ``campaigns/survey_files.py``). Examples grow from words that readers stumble over, and
-Hypothesis makes them small again where one fails. Writes ``results/fuzz.md``.
+catalogues, case files with ranges, surveys as text, and requests to the explorer. Damaged case and survey files have
+campaigns of their own (``campaigns/case_files.py``, ``campaigns/survey_files.py``). Examples grow from words that
+readers stumble over, and Hypothesis makes them small again where one fails. Writes ``results/fuzz.md``.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from fuzz_explorer import TARGETS as OF_EXPLORER
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
@@ -134,6 +135,7 @@ TARGETS: dict[str, tuple[Callable[[Any], None], Any]] = {
     "catalogues": (catalogues, TEXTS | ENTRY | st.lists(ENTRY, max_size=3).map("".join)),
     "studies": (studies, VALUES),
     "surveys": (surveys, TEXTS | st.lists(TEXTS, max_size=6).map("\n".join)),
+    **OF_EXPLORER,
 }
 """What is fuzzed, and with what."""
 

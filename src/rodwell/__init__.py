@@ -72,6 +72,7 @@ _HOME = {
     "export": "rodwell.report.folders.export",
     "extended": "rodwell.analysis.branch.follow",
     "follow": "rodwell.analysis.branch.follow",
+    "follow_contact": "rodwell.analysis.path.elsewhere",
     "jointed_string": "rodwell.analysis.endless.jointed",
     "lift_off_curve": "rodwell.analysis.curves.states",
     "local_state": "rodwell.analysis.endless.local",
@@ -120,6 +121,7 @@ if TYPE_CHECKING:
     from rodwell.analysis.loads.sensitivity import Sensitivity, sensitivities
     from rodwell.analysis.loads.torsion import Torsion, torsion
     from rodwell.analysis.loads.turns import turns_of_least_energy
+    from rodwell.analysis.path.elsewhere import follow_contact
     from rodwell.analysis.path.follow import load_path
     from rodwell.analysis.path.load_path import LoadPath
     from rodwell.analysis.proof.certify import CertifiedLoads, certify

@@ -226,8 +226,8 @@ def test_beyond_lift_off(page: Any) -> None:
     moved(page, before)
     page.locator("#controls input[type=range]").first.press("ArrowRight")
     beyond = "document.getElementById('busy').textContent.startsWith('computing: beyond lift-off')"
-    blank = "document.getElementById('now').textContent === '…' && !window.__rodwell.ready"
-    until(page, f"{beyond} && {blank}")  # looked at together: the path may be there a moment later
+    stays = "document.getElementById('now').textContent.includes('load path, unloading') && !window.__rodwell.ready"
+    until(page, f"{beyond} && {stays}")  # followed meanwhile; looked at together: the path may be there a moment later
     assert page.locator("#message").is_hidden()  # the branch that is asked for comes with the load path
 
 

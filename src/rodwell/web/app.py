@@ -84,8 +84,10 @@ async def conversation(socket: WebSocket, desk: Desks) -> None:
     await reply(desk.hello)
     try:
         while True:
-            text = await socket.receive_text()
-            request = _request(text)
+            message = await socket.receive()
+            if message["type"] == "websocket.disconnect":
+                break
+            request = _request(message.get("text") or "")  # a page sends no bytes
             if request is None:
                 await reply(json.dumps({"kind": "failed", "message": "that is no request", "last": True}))
                 continue
@@ -99,13 +101,20 @@ async def conversation(socket: WebSocket, desk: Desks) -> None:
 
 
 def _request(text: str) -> dict[str, Any] | None:
+    """A request as the page sends it; None for anything else, which goes no farther than here."""
     try:
-        request = json.loads(text) if len(text) <= LARGEST_REQUEST else None
-    except ValueError:
+        request = json.loads(text, parse_constant=_refused) if len(text) <= LARGEST_REQUEST else None
+        json.dumps(request, ensure_ascii=False).encode()  # halves of characters, which no answer could name
+    except (ValueError, RecursionError):
         return None
     if not isinstance(request, dict) or not isinstance(request.get("kind"), str):
         return None
     return request if isinstance(request.get("inputs", {}), dict) else None
+
+
+def _refused(name: str) -> float:
+    """JSON has no NaN and no Infinity, though Python reads them."""
+    raise ValueError(name)
 
 
 @cache

@@ -10,7 +10,7 @@ from rodwell.analysis.path.events import SNAP
 from rodwell.errors import InputError
 from rodwell.web import files, off_wall, state, words
 from rodwell.web.chosen import chosen
-from rodwell.web.explored import STRAIGHT, Explored
+from rodwell.web.explored import STRAIGHT, Explored, checked_load
 
 Request = Mapping[str, Any]
 
@@ -39,7 +39,7 @@ def _state(found: Explored, request: Request) -> dict[str, Any]:
 
 
 def _verdict(found: Explored, request: Request) -> dict[str, Any]:
-    return {"text": words.sentence(found, found.force(float(request["load"])))}
+    return {"text": words.sentence(found, found.force(checked_load("load", request.get("load"))))}
 
 
 def _details(found: Explored, request: Request) -> dict[str, Any]:

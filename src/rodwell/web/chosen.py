@@ -37,7 +37,9 @@ def chosen(found: Explored, request: Mapping[str, Any]) -> Chosen:
     """
     asked, which, special = request.get("branch") or "", request.get("which") or 0, request.get("special")
     load = checked_load("load", request.get("load"))
-    for name, value in (("which", which), ("special", special or 0)):
+    if not isinstance(asked, str):
+        raise InputError("branch", asked, "must be text: the name of a branch")
+    for name, value in (("which", which), ("special", 0 if special is None else special)):
         if isinstance(value, bool) or not isinstance(value, int):
             raise InputError(name, value, "must be a whole number")
     if asked and asked != STRAIGHT and special is not None:

@@ -13,7 +13,7 @@ from typing import Any
 from rodwell.errors import InputError, RodwellError
 from rodwell.web.worker import Start, work
 
-ORDER = ("diagram", "path", "snap", "state", "verdict", "details", "copy", "file")
+ORDER = ("follow", "diagram", "path", "snap", "state", "verdict", "details", "copy", "file")
 """What is answered first."""
 
 PATIENCE = 5.0

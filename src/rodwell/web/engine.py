@@ -68,12 +68,11 @@ class Engine:
             If it cannot be answered.
         """
         kind = request.get("kind")
-        if kind not in ("diagram", "path", *ASKED):
-            raise InputError("kind", kind, f"must be one of diagram, path, {', '.join(ASKED)}")
-        if kind == "diagram":
-            self._diagram(request, send, check)
-        elif kind == "path":
-            self._path(request, send, check)
+        own = {"diagram": self._diagram, "path": self._path, "follow": self._follow}
+        if kind in own:
+            own[kind](request, send, check)
+        elif kind not in ASKED:
+            raise InputError("kind", kind, f"must be one of {', '.join([*own, *ASKED])}")
         else:
             found = self.explored(request, check)
             from rodwell.web import asked  # noqa: PLC0415 - the first diagram does not wait for it
@@ -102,6 +101,9 @@ class Engine:
             if send is not None and not last:
                 send({"kind": "diagram", "diagram": plain(so_far), "whole": False})
 
+        for older in self._known.values():
+            for branch in older.branches:
+                branch.forget_tables()  # nine tenths of what is kept
         found = explore(data, case, _seldom(self._teller(send, check), check), reached, self._unit)
         self._known[key] = found
         while len(self._known) > KEPT:
@@ -144,20 +146,36 @@ class Engine:
         data = {**data, "load": load}
         return data, self.given.case_of(data)
 
-    def _followed(self, request: Request, send: Send, check: Callable[[], None]) -> None:
-        """Send the state that was shown, followed to the inputs of a request; nothing where it cannot be."""
-        from rodwell.web.followed import followed  # noqa: PLC0415 - the first diagram does not wait for it
+    def _followed(self, request: Request, check: Callable[[], None]) -> dict[str, Any] | None:
+        """The state that was shown, followed to the inputs of a request, as a message; None where it cannot be."""
+        from rodwell.web.followed import followed, followed_off_wall  # noqa: PLC0415 - the first diagram does not wait
         from rodwell.web.state import plain_state  # noqa: PLC0415
 
         load, start = checked_load("load", request.get("load")), self._origin(request["from"])
-        found = None if start is None else followed(start, *self.given.moved(request.get("inputs")), load, check)
+        if start is None:
+            return None
+        follow = followed if isinstance(start.solution, Solution) else followed_off_wall
+        found = follow(start, *self.given.moved(request.get("inputs")), load, check)
         if found is None:
-            return
+            return None
         self._kept[_followed_key(request, found.branch)] = found
         while len(self._kept) > KEPT:
             self._kept.popitem(last=False)
         shown = plain_state(found.explored, found.solution, found.branch, 0, 1, known=bool(request.get("known")))
-        send({"kind": "followed", "state": shown | {"note": "", "asked": load}, "inputs": request.get("inputs") or {}})
+        inputs = request.get("inputs") or {}
+        return {"kind": "followed", "state": shown | {"note": "", "asked": load}, "inputs": inputs}
+
+    def _follow(self, request: Request, send: Send, check: Callable[[], None]) -> None:
+        """Send a state of the load path that was shown, followed to other inputs, or why it cannot be.
+
+        Nothing else: the diagram of these inputs comes from the process that has no path.
+        """
+        why, found = "it is not known any more", None
+        try:
+            found = self._followed(request, check) if isinstance(request.get("from"), Mapping) else None
+        except RodwellError as error:
+            why = str(error)
+        send((found or {"kind": "lost", "why": why}) | {"last": True})
 
     def _origin(self, origin: Request) -> Followed | None:
         """The state that was shown, if it is still known: one that was followed itself, or one of a branch."""
@@ -169,12 +187,14 @@ class Engine:
         if known is not None or key not in self._known:
             return known
         it = chosen(self._known[key], origin)
-        return Followed(self._known[key], it.shown, it.branch) if isinstance(it.shown, Solution) else None
+        return Followed(self._known[key], it.shown, it.branch)
 
     def _diagram(self, request: Request, send: Send, check: Callable[[], None]) -> None:
         if isinstance(request.get("from"), Mapping) and _key(request) not in self._known:
             with contextlib.suppress(RodwellError):  # what is wrong with the inputs is told with their branches
-                self._followed(request, send, check)
+                message = self._followed(request, check)
+                if message is not None:
+                    send(message)
         found = self.explored(request, check, send)
         send({"kind": "diagram", "diagram": plain(found), "whole": True, "last": True})
 

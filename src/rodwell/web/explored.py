@@ -217,7 +217,7 @@ def explore(
         return first
     if len(computed.branches) > 1:
         reached(first, False)
-    how = Following(case.rtol, LARGEST_STEP)
+    how = Following(case.rtol, LARGEST_STEP, lambda _: tell("secondary branches", 0.8))
     work = Exploration(case.problem, computed.critical, computed.until, how)
     work.branches += first.branches
     work.follow_secondary(tell)

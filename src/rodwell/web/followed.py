@@ -16,11 +16,14 @@ from rodwell.analysis.branch.tracing import FLAT
 from rodwell.analysis.discrete.choices import MOST_ELEMENTS_OF_BRANCH
 from rodwell.analysis.discrete.family import family
 from rodwell.analysis.discrete.measures import measured_meshes
+from rodwell.analysis.off_wall.state import ContactState
+from rodwell.analysis.path.elsewhere import follow_contact
 from rodwell.case.case import Case
 from rodwell.errors import NotConvergedError
 from rodwell.problem.problem import Problem
 from rodwell.problem.varying import FORCE, NUMBERS
 from rodwell.web.explored import STRAIGHT, Explored, uncomputed
+from rodwell.web.state import Shown
 
 MOST_STEPS = 30
 """A state that takes more is left to the branches, which take hundreds and are computed next."""
@@ -34,7 +37,7 @@ class Followed:
     """A state, its branch by name, and what is known of its inputs: of a state that was followed, nothing else."""
 
     explored: Explored
-    solution: Solution
+    solution: Shown
     branch: str
 
 
@@ -70,6 +73,7 @@ def followed(
     NotConvergedError
         If the state could not be solved again.
     """
+    assert isinstance(start.solution, Solution)
     there = uncomputed(data, case, start.explored.kept_unit)
     old, new, force = start.solution.problem, case.problem, there.force(load)
     along = _along(old, new, start.solution.force, force)
@@ -96,6 +100,24 @@ def followed(
     if branch.ended_because == ENDED_STRAIGHT or np.max(np.abs(last.point.fine.c)) <= FLAT * new.clearance:
         return Followed(there, _straight(new, force, start.solution, case.rtol), STRAIGHT)
     return Followed(there, last, start.branch) if branch.reached_end else None
+
+
+def followed_off_wall(
+    start: Followed, data: Mapping[str, Any], case: Case, load: float, check: Callable[[], None]
+) -> Followed:
+    """Follow a state of a load path, of a rod that may have left the wall; arguments as of :func:`followed`.
+
+    Raises
+    ------
+    InputError
+        Where something else than a number of the problem differs, or the state is not stable.
+    NotConvergedError
+        If the rod gives way on the way there, or contact changes in a way that was not resolved.
+    """
+    assert isinstance(start.solution, ContactState)
+    there = uncomputed(data, case, start.explored.kept_unit)
+    found = follow_contact(start.solution, case.problem, there.force(load), progress=lambda _: check())
+    return Followed(there, found, start.branch)
 
 
 def _along(old: Problem, new: Problem, before: float, after: float) -> dict[str, tuple[float, float]] | None:

@@ -50,6 +50,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
         return
     pipe.send((0, True, as_json(given.hello(), compact=True)))
     from rodwell.web.engine import Cancelled, Engine  # noqa: PLC0415 - slow: the page is loaded meanwhile
+    from rodwell.web.memory import give_back  # noqa: PLC0415 - with the engine
 
     engine = Engine(given)
     pipe.send((0, True, ""))
@@ -80,7 +81,7 @@ def work(pipe: Connection, cancelled: Any, start: Start) -> None:
             what = f"{type(cause).__name__}: {cause}"
             send({"kind": "failed", "of": request.get("kind"), "message": f"not computed: {what}", "last": True})
         if request.get("kind") == "diagram":
-            gc.collect()  # branches and their states refer to each other: left to itself, Python keeps hundreds of them
+            give_back()
 
 
 def _first(engine: Engine, pipe: Connection, cancelled: Any) -> list[tuple[int, dict[str, Any]]]:

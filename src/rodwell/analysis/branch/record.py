@@ -64,6 +64,13 @@ class BranchRecord:
         first, last = self.values[0], self.values[-1]
         return f"<Branch {self.name}: {len(self)} points, {self.parameter} = {first:.6g} … {last:.6g}>"
 
+    def forget_tables(self) -> None:
+        """Let go of what is made again where it is needed, most of what a branch keeps: all but what was found."""
+        self._solutions.clear()
+        for meshes in (*self.trace.meshes, *(point.solution.meshes for point in self.special_points)):
+            meshes.coarse.forget_tables()
+            meshes.fine.forget_tables()
+
     @property
     def name(self) -> str:
         """Name of the branch."""

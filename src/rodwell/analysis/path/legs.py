@@ -129,6 +129,7 @@ def _tell(out: Walked, path: Followed, how: How) -> None:
             continue
         if event.kind == BRANCH_POINT or (event.kind == FOLD and _met_another(event.state, how)):
             continue
+        how.tell(event.state)  # to locate it takes as long as some steps
         one = resolved_event(event, how.rtol)
         kind = event.kind
         if kind == "gap_opens" and _complete(event):
@@ -160,6 +161,7 @@ def _give_way(out: Walked, path: Followed, sense: float, how: How) -> None:
         out.last = None
         return
     load, finer = Value(last.load, 0.0), last
+    how.tell(last)
     if path.events and path.events[-1].value is not None:
         resolved = resolved_event(path.events[-1], how.rtol)
         load, finer = resolved.load, resolved.event.state
@@ -188,8 +190,9 @@ def _to(
 ) -> None:
     """Go where the flow leads from a state that gives way at a load, with ``held`` of what is controlled."""
     control = how.control
-    where = (BEYOND_BUCKLING, 0.0) if flat(event) else (BEYOND, NEAR)
-    snap = snapped(event, sense, how.seeds, control, *where)
+    how.tell(event)
+    beyond, near = (BEYOND_BUCKLING, 0.0) if flat(event) else (BEYOND, NEAR)
+    snap = snapped(event, sense, how.seeds, control, beyond, near, how.progress)
     if snap is None:
         out.ended = (
             f"the rod gives way at F = {load.value:.8g} B/L², and where it goes was not resolved: no minimum found by "

@@ -37,7 +37,7 @@ def loaded(model: RodInHole, until: float, mirror: bool, how: How) -> Walked:
     elif leaving_places(problem):
         start = released(problem, mirror, how.rtol)
     elif problem.pressed:
-        begun = on_wall(problem, 1, mirror, how.rtol, before)
+        begun = on_wall(problem, 1, mirror, how.rtol, before, how.progress)
         start = None if begun is None else begun.start
     if start is None or not before(start):
         return walked(None, model, control.of_straight(top), until, leg, how)

@@ -7,6 +7,7 @@ contact is then solved for behind the hard wall. Frictionless, and without inert
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +49,9 @@ STIFFNESS = 1e6
 
 FLOW_DEGREE, ELEMENTS_PER_HALF_WAVE, FEWEST_ELEMENTS = 7, 3.0, 12
 
+Tell = Callable[[float], object]
+"""Called with the end force of what is being computed; what it raises ends that."""
+
 SAME_ENERGY = 1e-6
 """States whose energies agree to this part are the same, up to mirror images."""
 
@@ -68,18 +72,24 @@ class Snap:
 
 
 def snapped(
-    event: PatternedState, sense: float, seeds: int, control: Control, beyond: tuple[float, ...], near: float
+    event: PatternedState,
+    sense: float,
+    seeds: int,
+    control: Control,
+    beyond: tuple[float, ...],
+    near: float,
+    tell: Tell | None = None,
 ) -> Snap | None:
     """The state to which the rod goes from one that has just ceased to be stable.
 
     ``sense`` is that in which the controlled quantity changes; the flow starts ``beyond`` the event, farther where it
-    ended ``near`` it.
+    ended ``near`` it. ``tell`` is called with the end force at each step downhill.
     None if no start led to a state that could be solved.
     """
     for part in beyond:
         value = control.value(event.solved)
         value += sense * part * control.scale(value, event.load)
-        minima = _minima(event, seeds, control, value, near if part != beyond[-1] else 0.0)
+        minima = _minima(event, seeds, control, value, near if part != beyond[-1] else 0.0, tell)
         for group in _alike(minima, event.solved, control):
             low = group[0]
             soft = event.model.soft
@@ -90,13 +100,15 @@ def snapped(
     return None
 
 
-def _minima(event: PatternedState, seeds: int, control: Control, value: float, near: float) -> list[Solved]:
+def _minima(
+    event: PatternedState, seeds: int, control: Control, value: float, near: float, tell: Tell | None
+) -> list[Solved]:
     """Minima behind a soft wall to which the disturbed state flows; none if the first is ``near`` that state."""
     minima: list[Solved] = []
     ways: list[Way] = []
     for seed in range(seeds):
         for sign in (1.0, -1.0):
-            low = flowed(event, _disturbed(kicked(event.solved, sign), seed), control, value, ways=ways)
+            low = flowed(event, _disturbed(kicked(event.solved, sign), seed), control, value, ways=ways, tell=tell)
             if low is not None:
                 minima.append(low)
             if near and len(minima) == 1 and distance(minima[0], event.solved) < near:
@@ -140,10 +152,11 @@ def flowed(
     value: float,
     flow: Flow = Flow(),
     ways: list[Way] | None = None,
+    tell: Tell | None = None,
 ) -> Solved | None:
     """The minimum behind a soft wall to which the flow leads from a sampled shape, with what is controlled held.
 
-    ``ways``: of other flows there, which it may join.
+    ``ways``: of other flows there, which it may join. ``tell`` is called with the end force at each step.
     """
     model, load = event.model, value if control.by_force else event.load
     pattern, nowhere = Pattern((False,), event.pattern.turns), np.zeros(0)
@@ -151,7 +164,13 @@ def flowed(
     shape, _ = arranged(model, pattern, nowhere, load, sample, degree=FLOW_DEGREE, elements=elements)
     stiffness = 0.0 if model.soft else flow.stiffness  # a soft wall is in the model already
     row = control.row(shape.chain, value)
-    return descended(model, shape, stiffness, row, control.index_at, flow.wanted, ways)
+
+    def index(one: Solved) -> int:
+        if tell is not None:
+            tell(one.shape.load)
+        return control.index_at(one)
+
+    return descended(model, shape, stiffness, row, index, flow.wanted, ways)
 
 
 def kicked(state: Solved, sign: float) -> Shape:

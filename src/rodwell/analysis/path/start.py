@@ -54,16 +54,26 @@ class OnWall:
 
 
 def on_wall(
-    problem: Problem, mode: int, mirror: bool, rtol: float, before: Callable[[PatternedState], bool]
+    problem: Problem,
+    mode: int,
+    mirror: bool,
+    rtol: float,
+    before: Callable[[PatternedState], bool],
+    tell: Callable[[float], object] | None = None,
 ) -> OnWall | None:
     """Buckle the rod on the wall and follow it while it is stable and loads grow; None if it is never.
 
     An arm that is unstable at first, as twist makes one of the two, goes back in load, folds, and is stable on its way
     forth: where the straight rod buckles it snaps to there. The state from which chains go on is the last one
-    ``before`` the end of the path.
+    ``before`` the end of the path. ``tell`` is called with the end force of each state.
     """
     model = RodInHole(problem)
-    branch = follow(problem, mode, until=None, mirror=mirror, rtol=rtol)
+
+    def told(force: float) -> None:
+        if tell is not None:
+            tell(force)
+
+    branch = follow(problem, mode, until=None, mirror=mirror, rtol=rtol, progress=told)
     kept: list[int] = []
     force = branch.force
     stable = (branch.stability_index == 0) & (force < force[0])

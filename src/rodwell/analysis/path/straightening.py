@@ -47,6 +47,11 @@ class How:
     mode: Mode
     progress: Callable[[float], str | None] | None = None
 
+    def tell(self, state: PatternedState) -> None:
+        """Say that the path is still at a state: who is told may end it by what it raises."""
+        if self.progress is not None:
+            self.progress(state.load)
+
 
 def straight_state(model: RodInHole, load: float) -> PatternedState:
     """The straight rod at a load, as a chain in contact everywhere."""

@@ -132,6 +132,12 @@ class Family:
         """The same with another tolerance of the steps."""
         return self.tolerances if step == self.tolerance else self.tolerances._replace(step=step)
 
+    def forget_tables(self) -> None:
+        """Let go of what was computed for the mesh: it is made again where it is needed."""
+        for family in (self, vars(self).get("_with_extra_steps", self)):
+            vars(family).pop("mesh", None)
+        self.space.forget_tables()
+
     @property
     def _metric(self) -> tuple[float, float]:
         return self.slope_scale**-2, self.lam_scale**-2

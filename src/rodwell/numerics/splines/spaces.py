@@ -181,6 +181,12 @@ class SplineSpace:
             del self._tables[next(iter(self._tables))]
         return found
 
+    def forget_tables(self) -> None:
+        """Let go of all tables of the basis, most of what a space keeps: they are made again where they are needed."""
+        self._tables.clear()
+        for name in ("table", "samples", "pieces"):
+            vars(self).pop(name, None)
+
     def at_points(self, coefficients: FloatArray) -> FloatArray:
         """Values and two derivatives at the quadrature points, shape (3, m); (k, 3, m) of a block (k, size)."""
         block = np.ascontiguousarray(np.atleast_2d(coefficients))

@@ -3,6 +3,7 @@
 // input is dragged, the next one waits until the state shown has been followed to the one before.
 
 const ON_THE_WAY = "state";
+const OF_INPUTS = ["diagram", "follow"];
 const PATIENCE = 1000; // milliseconds for a state to be followed: on a busy machine it takes hundreds, and what is broken off shows none
 
 export class Link {
@@ -39,8 +40,10 @@ export class Link {
   take(message) {
     if (message.kind === "hello") { this.lost(false); this.heard(message); return; }
     const release = message.id === this.following;
-    if (message.kind === "followed") { // for a diagram that a newer one may be about to end
-      if (message.id > (this.dropped.diagram ?? 0)) this.heard({ ...message, passing: message.id !== this.newest.diagram });
+    if (message.kind === "followed" || message.kind === "lost") { // for a diagram that a newer one may be about to end
+      const kind = message.last ? "follow" : "diagram"; // a state of the load path is all that was asked for
+      if (message.last && this.running[kind] === message.id) delete this.running[kind];
+      if (message.id > (this.dropped[kind] ?? 0)) this.heard({ ...message, passing: message.id !== this.newest[kind] });
     } else this.answered(message);
     if (release) this.release();
   }
@@ -64,10 +67,14 @@ export class Link {
     return this.number;
   }
 
+  // Whether a request of a kind waits, or is being answered.
+  under(kind) { return Boolean(this.waiting[kind] || this.running[kind]); }
+
   release() {
     clearTimeout(this.tired);
     this.following = null;
     this.next("diagram");
+    this.next("follow");
   }
 
   // What is no longer wanted, whatever comes.
@@ -77,8 +84,8 @@ export class Link {
 
   next(kind) {
     const waiting = this.waiting[kind];
-    // a newer diagram goes out at once and ends the older one; of the others one is under way at a time
-    if (!waiting || this.socket.readyState !== WebSocket.OPEN || (this.running[kind] && kind !== "diagram")) return;
+    // for newer inputs it goes out at once and ends the older one; of the others one is under way at a time
+    if (!waiting || this.socket.readyState !== WebSocket.OPEN || (this.running[kind] && !OF_INPUTS.includes(kind))) return;
     delete this.waiting[kind];
     const { id, content } = waiting, request = { kind, id, ...(typeof content === "function" ? content() : content) };
     this.running[kind] = id;

@@ -21,6 +21,7 @@ let state = null; // inputs, load, branch …: what is asked for
 let diagram = null, diagramOf = ""; // the diagram shown, and for which inputs it holds
 let shown = null, shownOf = ""; // the state shown, and the diagram it is of: none where it was followed to new inputs
 let origin = null; // what was asked for to get it: from there it is followed
+let lost = ""; // why it was not, until another one is shown
 const sent = new Map(); // when which load was asked for, by number of request
 let askedOf = ""; // of which branch
 let load = null; // its control
@@ -45,8 +46,9 @@ function heard(message) {
   else if (message.kind === "progress") $("busy").textContent = `computing: ${message.what} …`;
   else if (message.kind === "diagram" || message.kind === "path") haveDiagram(message);
   else if (message.kind === "state" || message.kind === "followed") haveState(message);
-  else if (message.kind === "verdict" && shown !== null) $("verdict").textContent = message.text;
+  else if (message.kind === "verdict" && shown !== null && !shown.beyond) $("verdict").textContent = message.text;
   else if (message.kind === "details") showDetails(message.details);
+  else if (message.kind === "lost") lose(message);
   else if (message.kind === "snap") snaps.play(message.scenes);
   else if (message.kind === "copy") taking.haveCopy(message);
   else if (message.kind === "file") taking.haveFile(message);
@@ -111,11 +113,13 @@ function show(dragged = false) {
   if (of !== diagramOf || (withPath && !state.path)) {
     const underWay = of === pending && diagramOf === "";
     stale(fits);
-    if (state.path) $("busy").textContent = "updating: a rod off the wall is shown once its new load path has been followed …";
+    const off = state.path && origin?.beyond; // known where the load path is
+    if (state.path && !off) $("busy").textContent = "updating: a rod off the wall is shown once its new load path has been followed …";
     if (underWay) return;
-    link.drop("state", "verdict", "details", "path", ...(dragged ? [] : ["diagram"]));
-    const content = () => ({ ...wanted(), path: false, load: state.load, from: origin, known: scene.known });
-    sent.set(link.ask("diagram", content, dragged), performance.now());
+    link.drop("state", "verdict", "details", "path", ...(dragged ? [] : ["diagram", "follow"]));
+    const content = (path) => ({ ...wanted(), path, load: state.load, from: origin, known: scene.known });
+    const both = () => { link.ask("diagram", { ...wanted(), path: false }); return content(true); };
+    sent.set(off ? link.ask("follow", both, dragged) : link.ask("diagram", () => content(false), dragged), performance.now());
     pending = of;
   } else {
     if (state.load === null) state.load = diagram.suggested; // what an address leaves out
@@ -153,8 +157,17 @@ function leave() {
   hooks.values = null;
   shown = null;
   curves.data = null;
+  if (lost) $("verdict").textContent = lost;
 }
 
+function lose({ why }) {
+  if (origin === null) return; // that has been said
+  origin = null;
+  lost = `The state shown was not followed to these inputs: ${why}. The new load path is computed.`;
+  leave();
+}
+
+function followed() { return shown !== null && origin.beyond && origin.load === state.load && holds(); }
 function holds() { return shown !== null && JSON.stringify(origin.inputs) === JSON.stringify(wanted().inputs); }
 
 function haveDiagram({ diagram: data, whole, of }) {
@@ -181,7 +194,7 @@ function haveDiagram({ diagram: data, whole, of }) {
 }
 
 function askState() {
-  if (state.load === null || (state.path && !withPath && !has(diagram, state.branch))) return; // the load path comes later
+  if (state.load === null || (state.path && !withPath && (lost || link.under("follow") || followed() || !has(diagram, state.branch)))) return; // the load path comes later
   const last = diagram.range[1];
   if (state.load > last * (1 + 1e-12) + 1e-300 && state.until === null && !state.branch) { // beyond what was followed: once, farther
     state.until = Number((1.05 * state.load).toPrecision(4));
@@ -196,16 +209,16 @@ function askState() {
 
 // A state of a branch, or one that was followed to other inputs before these have branches.
 function haveState({ kind, state: found, id, passing, inputs: of }) {
-  const followed = kind === "followed";
-  if (!followed && snaps.holds(found, shown)) return; // shown once the rod has gone over
+  const moved = kind === "followed";
+  if (!moved && snaps.holds(found, shown)) return; // shown once the rod has gone over
   passing ??= id !== undefined && id !== link.newest.state; // the slider is farther already
-  [shown, shownOf] = [found, followed ? "" : diagramOf];
-  origin = { inputs: followed ? of : wanted().inputs, until: followed ? null : state.until, load: found.asked, branch: found.branch, which: found.which };
+  [shown, shownOf, lost] = [found, moved ? "" : diagramOf, ""];
+  origin = { inputs: moved ? of : wanted().inputs, until: moved ? null : state.until, load: found.asked, branch: found.branch, which: found.which, beyond: found.beyond };
   document.body.classList.remove("blank");
   inputs.readMoved(origin.inputs);
   if (!passing && !load.slider.matches(":active")) load.set(state.load);
   load.write(passing ? found.load : state.load);
-  if (!followed) figure.point(found);
+  if (!moved) figure.point(found);
   curves.show(found.curves);
   scene.show(found);
   showBar(found.bar);
@@ -215,12 +228,12 @@ function haveState({ kind, state: found, id, passing, inputs: of }) {
   hooks.values.load = found.load;
   hooks.values.index = found.index;
   hooks.updates += 1;
-  hooks.ready = $("busy").textContent === "" && !passing && !followed;
+  hooks.ready = $("busy").textContent === "" && !passing && !moved;
   const began = sent.get(id) ?? performance.now();
   for (const each of sent.keys()) if (each <= id) sent.delete(each);
   requestAnimationFrame(() => { hooks.times.push(performance.now() - began); if (hooks.times.length > 500) hooks.times.shift(); });
   clearTimeout(settle);
-  if (!passing && !followed) settle = setTimeout(settled, 120);
+  if (!passing && !moved) settle = setTimeout(settled, 120);
 }
 
 // The load stands still: what takes longer is asked for, and the address follows.
@@ -237,6 +250,7 @@ function request() { return { ...wanted(), load: state.load, branch: state.branc
 const taking = new Taking({ shown: () => (shownOf === "" ? null : shown), state: () => state, hello: () => hello, request, values: () => hooks.values, ask: (kind, content) => link.ask(kind, content), svg: () => figure.at.svg, rod: () => scene.viewer });
 
 function failed(message) {
+  if (message.of === "follow") return lose({ why: message.message });
   $("busy").textContent = "";
   say(message.message);
   if (message.of === "path") link.newest.path = null;
@@ -260,10 +274,7 @@ const snaps = new Snaps($("snapping"), {
   show: (found) => { shown = null; haveState({ state: found }); },
 });
 
-function say(text) {
-  $("message").textContent = text;
-  $("message").hidden = !text;
-}
+function say(text) { Object.assign($("message"), { textContent: text, hidden: !text }); }
 
 const player = new Player($("play"), { state: () => state, diagram: () => diagram, go, held: () => Boolean(snaps.pending) });
 const play = (on) => player.play(on);

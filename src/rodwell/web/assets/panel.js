@@ -129,11 +129,15 @@ export async function copy(text, what) {
 export async function snapshot(state, hello, rod) {
   const css = await Promise.all(["viewer.css", "explore.css"].map(async (name) => (await fetch(name)).text()));
   const body = document.body.cloneNode(true);
-  body.querySelectorAll("script, noscript, dialog, button, #banner, #message, input[type=range], .tools label, .hit").forEach((each) => each.remove());
+  body.querySelectorAll("script, noscript, dialog, button, .row, #banner, #message, #cursor, input[type=range], .tools label, .hit").forEach((each) => each.remove());
   const still = body.querySelector("#rod img.still");
   body.querySelectorAll("#rod canvas").forEach((each) => each.remove());
   const picture = rod ? rod.picture() : document.querySelector("#rod img.still").src;
   if (picture) { still.src = picture; still.hidden = false; }
+  const scale = document.createElement("p"); // what stands beside the scene is hidden with it
+  scale.textContent = body.querySelector("#rod .scale").textContent;
+  body.querySelector("#rod .frame").after(scale, body.querySelector("#rod .bar"));
+  if (!state.inputs.sections && !body.querySelector("#section-controls .control")) body.querySelector("#sectioned").remove();
   body.querySelector("#rod").classList.remove("live");
   const live = document.body.querySelectorAll("input[type=number], select");
   body.querySelectorAll("input[type=number], select").forEach((each, i) => {
