@@ -159,7 +159,7 @@ def test_a_load_beyond_a_fold_is_said_to_be_out_of_reach_with_the_load_of_the_fo
 
 
 def test_far_too_much_work_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rodwell.analysis.branch.follow.MOST_WORK", 2000.0)
+    monkeypatch.setattr("rodwell.analysis.branch.watching.MOST_WORK", 2000.0)
     branch = follow(Problem(16.5), until=-2000.0)
     assert not branch.reached_end
     assert "work allowed for one branch is used up" in branch.ended_because

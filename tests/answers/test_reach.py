@@ -92,7 +92,7 @@ def test_the_front_page_judges_a_load_out_of_reach(steep: Answer) -> None:
 
 def test_without_lift_off_nothing_is_said_to_stay_on_the_wall(monkeypatch: pytest.MonkeyPatch) -> None:
     """A branch that ends on the wall before the load: its state there is not known."""
-    monkeypatch.setattr("rodwell.analysis.branch.follow.MOST_WORK", 1000.0)  # it ends before it lifts off
+    monkeypatch.setattr("rodwell.analysis.branch.watching.MOST_WORK", 1000.0)  # it ends before it lifts off
     result = answer(case({"applied": [-100, -122]}))
     first, last = result.assessment.applied
     assert (first.what, last.what, last.reached) == (STRAIGHT, UNKNOWN, False)
@@ -118,7 +118,7 @@ def test_an_end_that_is_out_of_reach_loses_nothing() -> None:
 
 
 def test_a_load_larger_than_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rodwell.analysis.branch.follow.MOST_WORK", 20000.0)
+    monkeypatch.setattr("rodwell.analysis.branch.watching.MOST_WORK", 20000.0)
     result = answer(case({"applied": -1e12}))
     assert not result.assessment.applied[0].reached
     assert result.lift_off is not None
@@ -132,7 +132,7 @@ def test_loads_of_a_study_that_are_out_of_reach() -> None:
 
 
 def test_a_study_whose_branches_end_early(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rodwell.analysis.branch.follow.MOST_WORK", 1000.0)
+    monkeypatch.setattr("rodwell.analysis.branch.watching.MOST_WORK", 1000.0)
     found = study({
         "dimensionless": {"weight": [14, 15], "alpha": 90, "clearance": 0.01}, "load": {"applied": [-100, -125]},
         "analysis": {"rtol": 1e-4},

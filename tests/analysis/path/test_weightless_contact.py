@@ -83,13 +83,19 @@ def test_it_touches_the_opposite_wall(clearance: float) -> None:
     assert float(touching.solved.forces[0]) == pytest.approx(0.0, abs=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("clearance", "exact", "within"), [(0.01, -157.818791660462, 2e-8), (1e-4, -16.0 * np.pi**2, 1e-7)]
-)
-def test_its_point_of_contact_grows_to_a_line(clearance: float, exact: float, within: float) -> None:
+@pytest.mark.parametrize(("clearance", "exact"), [(0.01, -157.818791660462), (1e-4, -16.0 * np.pi**2)])
+def test_its_point_of_contact_grows_to_a_line(clearance: float, exact: float) -> None:
+    """Where the curvature of the gap beside the point vanishes.
+
+    It is known to some 1e-5 only, since nothing places a point of contact without curvature; among many loads that
+    evens out.
+    """
     state = spans(clearance, -152.0)
     assert contact_certificate(state).passed
-    state = refined(state, 4)  # nothing places a point of contact without curvature: the place is found to 1e-8 or so
-    along = tangent_in_load(state.solved, -1.0)
-    found = search(state.model, state.solved, along, lambda one: float(one.openings[0]), 1e-3, 1.0)
-    assert found.shape.load == pytest.approx(exact, rel=within)
+    state = refined(state, 2)
+    away = np.linspace(-0.3, 0.3, 61)
+    found = [at_load(state, exact + float(one)) for one in away]
+    curvatures = [float(one.solved.openings[0]) for one in found if one is not None]
+    assert len(curvatures) == away.size
+    roots = np.roots(np.polyfit(away, curvatures, 2))
+    assert roots[np.argmin(np.abs(roots))] == pytest.approx(0.0, abs=1e-7 * abs(exact))
