@@ -8,7 +8,19 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from rodwell.plots.style import DARK, DARK_TELLING, DARK_WARN, MARKS, MODES, TELLING, WARN, with_dark_style
+from rodwell import Problem
+from rodwell.plots.style import (
+    DARK,
+    DARK_TELLING,
+    DARK_WARN,
+    MARKS,
+    MODES,
+    TELLING,
+    WARN,
+    in_lines,
+    parameters,
+    with_dark_style,
+)  # fmt: skip
 
 ENOUGH = 20.0
 
@@ -82,3 +94,12 @@ def test_a_figure_has_a_rule_for_every_colour_on_a_dark_page() -> None:
     assert ET.fromstring(svg).tag.endswith("svg")
     for light, dark in DARK.items():
         assert f'[style*="stroke: {light}"]{{stroke:{dark} !important}}' in svg
+
+
+def test_what_a_figure_is_of_is_broken_into_lines_between_its_parts() -> None:
+    text = parameters(Problem(15.0, 60.0, build=0.2, sections=((0.5, 1.0), (0.5, 0.5))))
+    lines = in_lines(text, 40).split("\n")
+    assert len(lines) > 1
+    assert all(len(line) <= 41 for line in lines)  # the comma at the end stands beyond
+    assert ",  ".join(line.removesuffix(",") for line in lines) == text
+    assert in_lines(text, 200) == text

@@ -30,6 +30,7 @@ from rodwell.plots.style import (
     SOLID,
     UNSTABLE,
     WIDE,
+    in_lines,
     marked,
     new_axes,
     parameters,
@@ -76,13 +77,17 @@ def plot_bifurcation(
     look = _Look(branches, critical, scales, ordinate)
     _panel(ax, look, named=True)
     _legend(ax, look)
-    ax.set_title(parameters(branches[0].problem, scales), loc="left", fontsize=8.5)
+    shown = parameters(branches[0].problem, scales)
+    ax.set_title(shown if beside is None else in_lines(shown, LONGEST_LINE), loc="left", fontsize=8.5)
     if beside is not None and window is not None:
         _enlarged(ax, beside, look, window)
     return ax
 
 
 PALE = 0.35
+
+LONGEST_LINE = 80
+"""Characters that stand above the whole diagram without reaching over the panel beside it."""
 
 
 class _Look:

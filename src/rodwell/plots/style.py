@@ -131,6 +131,15 @@ def parameters(problem: Problem, scales: Scales | None = None) -> str:
     return ",  ".join([*parts, ends_text(problem)])
 
 
+def in_lines(text: str, longest: int) -> str:
+    """Break what :func:`parameters` says into lines of at most so many characters, between two of its parts."""
+    lines = [""]
+    for part in text.split(",  "):
+        joined = f"{lines[-1]},  {part}" if lines[-1] else part
+        lines[-1:] = [joined] if len(joined) <= longest or not lines[-1] else [f"{lines[-1]},", part]
+    return "\n".join(lines)
+
+
 def new_axes(size: tuple[float, float] = SIZE, nrows: int = 1, index: int = 1) -> Any:
     """Return axes of a new figure (no pyplot, no global state): number ``index`` of ``nrows`` below each other."""
     import matplotlib as mpl  # noqa: PLC0415
