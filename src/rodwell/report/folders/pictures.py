@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 
@@ -12,13 +12,11 @@ from rodwell.analysis.branch.solution import Solution
 from rodwell.answers.data.along import along, shown
 from rodwell.answers.result.answer import Answer
 from rodwell.answers.result.assessment import Assessment
-from rodwell.answers.result.beyond import Beyond
 from rodwell.case.about import About
 from rodwell.case.case import Case
 from rodwell.plots.along import plot_along, upright
 from rodwell.plots.bifurcation import plot_bifurcation
 from rodwell.plots.cylinder import plot_cylinder_moments
-from rodwell.plots.paths.beyond import plot_beyond
 from rodwell.plots.profiles import plot_modes, plot_wall_loads
 from rodwell.plots.rod3d import plot_rod
 from rodwell.plots.sections import name_sections, plot_string
@@ -26,8 +24,10 @@ from rodwell.plots.sketch import plot_sketch
 from rodwell.plots.style import RC
 from rodwell.plots.units import axis
 from rodwell.report.folders.figures import as_png, png_and_svg
-from rodwell.report.reports.beyond import PICTURE
 from rodwell.report.reports.front import LOGO
+
+if TYPE_CHECKING:
+    from rodwell.answers.result.beyond import Beyond
 
 Drawn = dict[str, dict[str, bytes]]
 """What each picture is in each format, by name and suffix."""
@@ -66,6 +66,10 @@ def draw_rod(answer: Answer) -> Drawn:
 
 def draw_beyond(case: Case, found: Beyond) -> Drawn:
     """Draw what happens beyond lift-off, where it could be followed."""
+    # what follows rods off the wall is imported for those only that are
+    from rodwell.plots.paths.beyond import plot_beyond  # noqa: PLC0415
+    from rodwell.report.reports.beyond import PICTURE  # noqa: PLC0415
+
     with mpl.rc_context(RC):
         return {PICTURE: png_and_svg(plot_beyond(case, found))}
 
