@@ -17,6 +17,9 @@ ROUND_OFF = 1e-12
 MISSED = -1e-9
 """A condition on contact below this does not hold."""
 
+MOST_ATTEMPTS = 40
+"""How often a state that is asked for is sought, in ever smaller steps from a known one."""
+
 
 def around(
     run: Sequence[PatternedState], value: float, control: Control
@@ -42,7 +45,7 @@ def state_at(near: Sequence[PatternedState], value: float, control: Control, pat
     """
     missed = ""
     for known in near:
-        state = control.at(known, value)
+        state = control.at(known, value, MOST_ATTEMPTS)
         if state is None or any(one.value <= MISSED for one in conditions(state)):
             continue
         found = contact_state(state)

@@ -25,10 +25,6 @@ NAMES = ("force", "shortening")
 """What can be controlled: the end force (in B/L²), or the shortening (in L)."""
 
 
-MOST_ATTEMPTS = 40
-"""How often a state at a load is sought, in ever smaller steps from a known one."""
-
-
 @dataclass(frozen=True)
 class Control:
     """The controlled quantity, by name.
@@ -105,10 +101,13 @@ class Control:
             return fixed_load(chain, value)
         return fixed_work(chain, value / self.unit, -self.compliance / self.unit)
 
-    def at(self, state: PatternedState, value: float) -> PatternedState | None:
-        """The state of the same pattern where the controlled quantity has a value; None if it is not found."""
+    def at(self, state: PatternedState, value: float, attempts: int = 1) -> PatternedState | None:
+        """The state of the same pattern where the controlled quantity has a value; None if it is not found.
+
+        ``attempts`` as of :func:`~rodwell.analysis.off_wall.arrange.at_load`.
+        """
         if self.by_force:
-            return at_load(state, value, MOST_ATTEMPTS)
+            return at_load(state, value, attempts)
         model, along = state.model, tangent_in_load(state.solved, -1.0)
         found = solve(model, state.solved.shape, self.row(state.solved.shape.chain, value))[1]
         if found is None:

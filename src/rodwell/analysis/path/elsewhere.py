@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodwell.analysis.beyond.between import MISSED
 from rodwell.analysis.off_wall.arrange import needs_new_elements, solved, with_new_elements
 from rodwell.analysis.off_wall.certificate import LIMIT
 from rodwell.analysis.off_wall.changes import changed
@@ -42,9 +43,6 @@ SHORTER, SHORTEST = 0.4, 1e-3
 
 LOCATED = 1e-4
 """Part of a step to which the place is located at which a condition on contact vanishes."""
-
-MET = -1e-9
-"""A condition on contact above this is met, as along a load path."""
 
 PARTS = (1.0, 0.5, 0.25, 0.1)
 """First lengths of a gap, or a contact, with which a new pattern is tried, as parts of the usual one."""
@@ -247,7 +245,7 @@ def _broken(state: PatternedState) -> list[Condition]:
     """Conditions on contact that do not hold: of several of one kind on one stretch the first."""
     found: dict[tuple[str, int], Condition] = {}
     for one in conditions(state):
-        if one.value < MET:
+        if one.value < MISSED:
             found.setdefault((one.kind, one.number), one)
     return list(found.values())
 
