@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bad_commands import Run
 
 from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.special import LIFT_OFF, SpecialPoint
@@ -18,7 +19,6 @@ from rodwell.answers.data.tables import MISSES, answer_tables
 from rodwell.answers.result.answer import answer
 from rodwell.answers.result.missed import missed
 from rodwell.case.case import Case
-from rodwell.cli.main import main
 from rodwell.report.reports.case import case_report
 from rodwell.studies.well import screening
 
@@ -48,17 +48,6 @@ def lift_off_missed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Branch, "meets_tolerance", rough)
 
 
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    monkeypatch.setattr("sys.argv", ["rodwell", *arguments])
-    code: Any = 0
-    try:
-        main()
-    except SystemExit as end:
-        code = end.code
-    out, err = capsys.readouterr()
-    return code, out, err
-
-
 BRANCHES = {
     "liftoff": ["liftoff", *ROD],
     "liftoff-json": ["liftoff", *ROD, "--json"],
@@ -75,10 +64,8 @@ BRANCHES = {
 
 @pytest.mark.parametrize("command", BRANCHES.values(), ids=BRANCHES.keys())
 @pytest.mark.usefixtures("files", "lift_off_missed", "nothing_drawn")
-def test_a_lift_off_that_misses_its_tolerance(
-    command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    code, out, err = run(monkeypatch, capsys, *command)
+def test_a_lift_off_that_misses_its_tolerance(command: list[str], rodwell: Run) -> None:
+    code, out, err = rodwell(*command)
     assert code == 3
     assert err.startswith("rodwell: tolerance missed: ")
     assert "lift-off" in err or "lifts off" in err
@@ -89,8 +76,8 @@ def test_a_lift_off_that_misses_its_tolerance(
 
 @pytest.mark.parametrize("command", BRANCHES.values(), ids=BRANCHES.keys())
 @pytest.mark.usefixtures("files", "nothing_drawn")
-def test_all_is_well(command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(monkeypatch, capsys, *command)[::2] == (0, "")
+def test_all_is_well(command: list[str], rodwell: Run) -> None:
+    assert rodwell(*command)[::2] == (0, "")
 
 
 OTHERS = {
@@ -107,13 +94,11 @@ VALUES: dict[str, Any] = {
 
 @pytest.mark.parametrize("name", OTHERS)
 @pytest.mark.usefixtures("files")
-def test_other_numbers_that_miss_their_tolerance(
-    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_other_numbers_that_miss_their_tolerance(name: str, monkeypatch: pytest.MonkeyPatch, rodwell: Run) -> None:
     owner, what, command = OTHERS[name]
-    assert run(monkeypatch, capsys, *command)[::2] == (0, "")
+    assert rodwell(*command)[::2] == (0, "")
     monkeypatch.setattr(owner, what, VALUES[name], raising=False)
-    code, out, err = run(monkeypatch, capsys, *command)
+    code, out, err = rodwell(*command)
     assert code == 3
     assert out
     assert err.startswith("rodwell: tolerance missed: ")
@@ -147,18 +132,18 @@ def test_without_a_miss_there_is_no_remark() -> None:
 
 @pytest.mark.parametrize("json", [[], ["--json"]])
 def test_a_station_whose_load_misses_its_tolerance(
-    json: list[str], files: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    json: list[str], files: Path, monkeypatch: pytest.MonkeyPatch, rodwell: Run
 ) -> None:
     (files / "well.csv").write_text("MD [m],Inclination [deg]\n0,60\n100,61\n", encoding="utf-8")
     line = ["screen", "well.csv", "--case", str(ROOT / "examples" / "well-string.toml"), *json]
-    assert run(monkeypatch, capsys, *line)[0] == 0
+    assert rodwell(*line)[0] == 0
 
     def rough(*arguments: Any) -> Loads:
         loads = loads_at(*arguments)
         return replace(loads, errors=0.02 * loads.values)
 
     monkeypatch.setattr(screening, "loads_at", rough)
-    code, out, err = run(monkeypatch, capsys, *line)
+    code, out, err = rodwell(*line)
     assert code == 3
     assert err == "rodwell: tolerance missed: critical load at station 1 ± 2 %, and 1 more (rtol 0.001)\n"
     assert ("stations_missing_the_tolerance" in out) == bool(json)
