@@ -80,9 +80,10 @@ def diagram(
     check_writable(out)
     from rodwell.analysis.branch.diagram import diagram as compute  # noqa: PLC0415
     from rodwell.analysis.branch.missed import missed  # noqa: PLC0415
-    from rodwell.report.folders.branches import write_diagram  # noqa: PLC0415
+    from rodwell.report.folders.beside import beside  # noqa: PLC0415
+    from rodwell.report.folders.branches import drawing_diagrams, write_diagram  # noqa: PLC0415
 
-    with told() as ready, progress_bar(not as_json, "critical loads") as tell:
+    with told() as ready, beside(drawing_diagrams) as start, progress_bar(not as_json, "critical loads") as tell:
         result = compute(
             problem,
             modes=modes,
@@ -97,7 +98,7 @@ def diagram(
         )
         ready(lambda written: tell_diagram(result, out if written else None, as_json=as_json))
         tell("figure and data", 1.0)
-        write_diagram(result, out)
+        write_diagram(result, out, start)
     check_missed([what for branch in result for what in missed(branch)], rtol)
 
 

@@ -6,6 +6,7 @@ what takes longest, with all that it calls.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numba
@@ -16,8 +17,9 @@ from rodwell.analysis.discrete.choices import DEGREE, POINTS_OF_BRANCH
 from rodwell.analysis.discrete.measures import state_numbers
 from rodwell.compiling import second_process
 from rodwell.compiling.cache import on_disk
+from rodwell.numerics.continuation.prediction import expected
 from rodwell.numerics.continuation.softest import softest
-from rodwell.numerics.equilibria.newton import Tolerances, newton
+from rodwell.numerics.equilibria.newton import Tolerances, inverse_iteration, newton
 from rodwell.numerics.splines.assembly import variation
 from rodwell.numerics.splines.records import Discretisation
 from rodwell.physics.on_wall.model import RodOnCylinder
@@ -59,10 +61,16 @@ KERNELS: tuple[tuple[Any, tuple[Any, ...]], ...] = (
             *(_VECTOR, _VECTOR, _VECTOR, types.float64, _VECTOR, _VECTOR),  # frozen, covector, c, lam, tangent, new_row
         ),
     ),
-    (softest, (_MATRIX, _POSITIONS, _POSITIONS, _MATRIX, types.boolean, types.int64, _MATRIX)),
     (variation, (_MESH, _VECTOR, _VECTOR, _VECTOR, _VECTOR)),  # c, parameters, rates, v
 )
-"""Kernels and the types of their arguments: the only ones with which they are called."""
+"""Kernels that the second process compiles, and types of their arguments: the only ones with which they are called."""
+
+MEANWHILE: tuple[tuple[Any, tuple[Any, ...]], ...] = (
+    (softest, (_MATRIX, _POSITIONS, _POSITIONS, _MATRIX, types.boolean, types.int64, _MATRIX)),
+    (inverse_iteration, (_MATRIX, _POSITIONS, _POSITIONS, _MATRIX, types.int64, _VECTOR)),
+    (expected, (_VECTOR, _VECTOR, _MATRIX, _VECTOR, types.float64, types.float64)),
+)
+"""The same of those that every branch needs soon after them: the first process compiles these while it waits."""
 
 
 def done() -> bool:
@@ -80,7 +88,7 @@ def begin(problem: Problem | None = None) -> None:
     if not hasattr(newton, "overloads"):  # NUMBA_DISABLE_JIT: a plain function
         return
     if not newton.overloads and newton.stats.cache_path is not None and not done():
-        second_process.begin(__name__)
+        second_process.begin(__name__, [partial(kernel.compile, arguments) for kernel, arguments in MEANWHILE])
 
 
 def main() -> None:

@@ -47,7 +47,7 @@ class Predictor:
         here = self.last
         if self.count > 2:
             first = MOST_POINTS - self.count
-            c, lam = _expected(
+            c, lam = expected(
                 self.places[first:], self.lams[first:], self.coefficients[first:], here.row, here.row_lam, length
             )
             return np.asarray(c), float(lam)
@@ -61,7 +61,7 @@ class Predictor:
 
 
 @kernel
-def _expected(places, lams, coefficients, row, row_lam, length):
+def expected(places, lams, coefficients, row, row_lam, length):
     """Polynomial through points (k, n) at ``places`` (k,), ``length`` ahead of the last along the covector ``row``."""
     k, n = coefficients.shape
     along, shares = np.empty(k), np.empty(k)

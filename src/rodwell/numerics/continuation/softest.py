@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rodwell.compiling.kernels import kernel
-from rodwell.compiling.second_process import wait_for
 from rodwell.numerics.continuation.location import LocationError, Segment
 from rodwell.numerics.equilibria.family import Family
 from rodwell.numerics.equilibria.newton import dot, symmetrise
@@ -72,7 +71,6 @@ class SoftestEigenvalues:
         if factors is None:
             factors = family.held.restrict(family.assemble(state.c, state.lam)[2])
             factorise(factors)
-        wait_for("softest")
         gram, held, follows = family.mesh.gram, family.mesh.held, family.mesh.follows
         even, odd = softest(gram, held, follows, factors, space.symmetric, iterations, self.vectors)
         return float(even), float(odd)

@@ -196,13 +196,20 @@ def tabulate_anywhere(local_tag, knots, places, orders):
     local = len(local_tag)
     table, spans = np.empty((places.size, orders, local)), np.empty(places.size, np.int64)
     x, out = np.empty((1, AT_ONCE)), np.empty((MOST_ORDERS, local, AT_ONCE))
-    for q in range(places.size):
-        x[:] = places[q]
-        spans[q] = find_span(knots, local - 1, places[q])
-        side_by_side(local_tag, knots, spans[q], x, out)
-        for order in range(orders):
-            for a in range(local):
-                table[q, order, a] = out[order, a, 0]
+    begin = 0
+    while begin < places.size:
+        span, count = find_span(knots, local - 1, places[begin]), 1
+        while count < min(AT_ONCE, places.size - begin) and knots[span] <= places[begin + count] < knots[span + 1]:
+            count += 1  # neighbours on one span are computed side by side
+        for q in range(AT_ONCE):
+            x[0, q] = places[begin + min(q, count - 1)]
+        side_by_side(local_tag, knots, span, x, out)
+        for q in range(count):
+            spans[begin + q] = span
+            for order in range(orders):
+                for a in range(local):
+                    table[begin + q, order, a] = out[order, a, q]
+        begin += count
     return table, spans
 
 

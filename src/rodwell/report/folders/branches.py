@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib as mpl
-
+from rodwell.analysis.branch.branch import Branch
 from rodwell.analysis.branch.diagram import Diagram
 from rodwell.analysis.curves.curve import Curve
-from rodwell.plots.bifurcation import plot_bifurcation
-from rodwell.plots.curves import plot_curves
-from rodwell.plots.style import RC
+from rodwell.analysis.straight.critical import CriticalLoads
 from rodwell.quantities.table import Cell, Table
-from rodwell.report.folders.figures import save_figure
+from rodwell.report.folders.beside import Start, Work
 from rodwell.store.folder import whole_folder
 from rodwell.store.netcdf import write_branches
 from rodwell.store.netcdf import write_curves as write_curves_netcdf
@@ -21,15 +18,18 @@ from rodwell.store.tables import write_csv
 from rodwell.store.text import write_json
 
 
-def write_diagram(diagram: Diagram, out: Path) -> tuple[str, ...]:
+def write_diagram(diagram: Diagram, out: Path, start: Start | None = None) -> tuple[str, ...]:
     """Write figure, branches (NetCDF) and special points (JSON) of a diagram to ``out``: all files, or none.
 
-    States off the wall, where branches leave it, are in the NetCDF file and in a table (CSV). Returns the names of the
-    files.
+    ``start`` starts a second process for :func:`drawing_diagrams`; without it the figure is drawn here. States off the
+    wall, where branches leave it, are in the NetCDF file and in a table (CSV). Returns the names of the files.
     """
+    shown = [branch for branch in diagram.branches if branch.parameter == "force"], diagram.critical
+    pictures = start(*shown) if start else lambda: drawing_diagrams()(*shown)
     with whole_folder(out) as folder:
-        _draw_diagram(diagram, folder)
         write_branches(diagram, folder / "branches.nc")
+        for suffix, content in pictures().items():
+            (folder / f"diagram.{suffix}").write_bytes(content)
         write_json(diagram.as_dict(), folder / "diagram.json")
         if any(branch.beyond is not None for branch in diagram.branches):
             write_csv(off_wall_table(diagram), folder / "off-wall.csv")
@@ -61,14 +61,31 @@ def write_curves(curves: Sequence[Curve], out: Path) -> tuple[str, ...]:
         return tuple(sorted(file.name for file in folder.iterdir()))
 
 
-def _draw_diagram(diagram: Diagram, folder: Path) -> None:
-    """Draw a bifurcation diagram as PNG and SVG: end curvature, or energy for a coil, against compression."""
-    with mpl.rc_context(RC):
-        shown = [branch for branch in diagram.branches if branch.parameter == "force"]
-        save_figure(plot_bifurcation(shown, diagram.critical).figure, folder / "diagram")
+def drawing_diagrams() -> Work:
+    """Ready to draw bifurcation diagrams as PNG and SVG (bytes, by suffix): what that takes is imported.
+
+    They show end curvature, or energy for a coil, against compression.
+    """
+    import matplotlib as mpl  # noqa: PLC0415 - half a second, in the second process
+
+    from rodwell.plots.bifurcation import plot_bifurcation  # noqa: PLC0415
+    from rodwell.plots.style import RC  # noqa: PLC0415
+    from rodwell.report.folders.figures import png_and_svg  # noqa: PLC0415
+
+    def draw(branches: Sequence[Branch], critical: CriticalLoads) -> dict[str, bytes]:
+        with mpl.rc_context(RC):
+            return png_and_svg(plot_bifurcation(branches, critical).figure)
+
+    return draw
 
 
 def _draw_curves(curves: Sequence[Curve], folder: Path) -> None:
     """Draw curves as PNG and SVG."""
+    import matplotlib as mpl  # noqa: PLC0415 - half a second, when there are curves to draw
+
+    from rodwell.plots.curves import plot_curves  # noqa: PLC0415
+    from rodwell.plots.style import RC  # noqa: PLC0415
+    from rodwell.report.folders.figures import save_figure  # noqa: PLC0415
+
     with mpl.rc_context(RC):
         save_figure(plot_curves(curves).figure, folder / "curves")
