@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rodwell.numerics.splines.lanes import on_lanes
-from rodwell.numerics.splines.products import dots, subtract
+from rodwell.numerics.splines.products import add_element, congruence, dots, subtract
 from rodwell.physics.on_wall.model import RodOnCylinder
 
 ULP = np.finfo(float).eps
@@ -29,6 +29,9 @@ class TwoFields(NamedTuple):
 
     first: int = 0
     second: int = 0
+
+
+ONE = Anything()
 
 
 def compiled(formula: Any, model: Any) -> Any:
@@ -158,3 +161,32 @@ def test_a_multiple_subtracted_touches_what_it_should() -> None:
         expected[3 : 3 + count] -= 2.0 * x[1 : 1 + count]
         run(out, x, count)
         np.testing.assert_allclose(out, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize(("local", "points"), [(5, 3), (10, 8)])
+def test_products_over_an_element_and_where_they_are_added(local: int, points: int) -> None:
+    rng = np.random.default_rng(local)
+    table, terms = rng.standard_normal((4 * points, 3, local)), rng.standard_normal((17, points))
+    terms[8:] = (terms[8:] + terms[8:].reshape(3, 3, points).transpose(1, 0, 2).reshape(9, points)) / 2.0
+    product, start = np.full((local + 2, local), np.nan), 6
+    known = rng.standard_normal((2, 40)), rng.standard_normal((40, local))
+    (gradient, mixed), band = known[0].copy(), known[1].copy()
+
+    @numba.njit
+    def run(tags: Any, first: int, to: int, table: Any, terms: Any, product: Any, sums: Any, band: Any) -> None:
+        congruence(ONE, tags, table, first, terms, 0, 0, product)
+        add_element(tags, product, to, sums[0], sums[1], band)
+
+    run(((0,) * local, (0,) * points), 2 * points, start, table, terms, product, (gradient, mixed), band)
+    own = table[2 * points : 3 * points]
+    hessian = np.einsum("qda,dkq,qkb->ab", own, terms[8:].reshape(3, 3, points), own)
+    above = np.triu_indices(local)
+    np.testing.assert_allclose(product[:local][above], hessian[above], rtol=1e-12, atol=1e-12)
+    for row, rows, before, after in ((0, terms[2:5], known[0][0], gradient), (1, terms[5:8], known[0][1], mixed)):
+        expected = np.einsum("dq,qdb->b", rows, own)
+        np.testing.assert_allclose(product[local + row], expected, rtol=1e-12, atol=1e-12)
+        before[start : start + local] += expected
+        np.testing.assert_allclose(after, before, rtol=1e-12, atol=1e-12)
+    for b in range(local):
+        known[1][start + b, : local - b] += hessian[b, b:]
+    np.testing.assert_allclose(band, known[1], rtol=1e-12, atol=1e-12)

@@ -48,6 +48,17 @@ def test_factorisation_gives_solution_and_inertia(sizes: tuple[int, int, int]) -
     assert b == pytest.approx(x, rel=1e-5, abs=1e-5)
 
 
+def test_a_pivot_that_vanishes_counts_as_positive_and_tiny() -> None:
+    """Of the stiffness of a chain that is held nowhere the last pivot is nothing: it may move as a whole."""
+    chain = np.array([[1.0, -1.0], [2.0, -1.0], [1.0, 0.0]])
+    factors = chain.copy()
+    assert banded.factorise(factors) == 0
+    assert 0.0 < factors[2, 0] < 1e-12
+    moved = np.array([1.0, 0.0, 0.0])
+    banded.solve(factors, moved)
+    assert moved / moved[0] == pytest.approx(1.0, abs=1e-12)
+
+
 def rod_system(c: np.ndarray, space: SplineSpace, p: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
     gradient, mixed = np.empty(space.size), np.empty(space.size)
     band = np.empty((space.size, space.degree + 1))
@@ -121,7 +132,7 @@ def test_a_ramp_beside_the_spline_is_the_spline_of_the_sum() -> None:
 
 
 class TwoBeams(NamedTuple):
-    """Two coupled fields, to show that assembly takes any number of them: e = ½(a″² + 4 b″²) + a′b + ½ a b′²."""
+    """Two coupled fields, to show that assembly takes any number of them: e = ½(a″² + 4 b″²) + a′b + ½ a b′² − p (a b + b′)."""
 
     a: int = 0
     b: int = 0
@@ -136,8 +147,13 @@ class TwoBeams(NamedTuple):
         hessian[0][4] = hessian[4][0] = u[4]
         hessian[1][3] = hessian[3][1] = 1.0
         hessian[2][2], hessian[4][4], hessian[5][5] = 1.0, u[0], 4.0
-        energy = 0.5 * (u[2] ** 2 + 4.0 * u[5] ** 2) + u[1] * u[3] + 0.5 * u[0] * u[4] ** 2
-        return energy, 0.0, (0.5 * u[4] ** 2, u[3], u[2], u[1], u[0] * u[4], 4.0 * u[5]), [0.0] * 6, hessian
+        p, zero = parameters[0], 0.0 * u[0]
+        hessian[0][3] = hessian[3][0] = zero - p
+        work = u[0] * u[3] + u[4]
+        energy = 0.5 * (u[2] ** 2 + 4.0 * u[5] ** 2) + u[1] * u[3] + 0.5 * u[0] * u[4] ** 2 - p * work
+        gradient = 0.5 * u[4] ** 2 - p * u[3], u[3], u[2], u[1] - p * u[0], u[0] * u[4] - p, 4.0 * u[5]
+        mixed = -rates[0] * u[3], zero, zero, -rates[0] * u[0], zero - rates[0], zero
+        return energy, -rates[0] * work, gradient, mixed, hessian
 
 
 def test_assembly_of_two_coupled_fields() -> None:
@@ -145,14 +161,15 @@ def test_assembly_of_two_coupled_fields() -> None:
     space = SplineSpace(np.array([0.0, 0.3, 0.55, 1.0]), 4)
     n = 2 * space.size
     c = np.random.default_rng(5).standard_normal(n)
-    p, rates = np.zeros(1), np.zeros(1)
+    rates = np.array([2.0])
 
-    def system(x: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    def system(x: np.ndarray, p: float = 0.7) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
         gradient, mixed, band = np.empty(n), np.empty(n), np.empty((n, 2 * (space.degree + 1)))
-        energy, _ = assemble(discretised(TwoBeams(), space), x, p, rates, gradient, mixed, band)
-        return energy, gradient, dense(band)
+        energy, _ = assemble(discretised(TwoBeams(), space), x, np.array([p]), rates, gradient, mixed, band)
+        return energy, gradient, dense(band), mixed
 
-    _, gradient, hessian = system(c)
+    _, gradient, hessian, mixed = system(c)
+    assert mixed == pytest.approx(system(c, 1.7)[1] - system(c, -0.3)[1], rel=1e-12, abs=1e-12)  # twice dg/dp
     h = 1e-6
     for i in range(n):
         shift = np.zeros(n)

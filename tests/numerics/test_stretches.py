@@ -61,6 +61,8 @@ def test_a_way_downhill_is_joined_from_where_it_lingered_last() -> None:
     assert way.passes(np.array([5.0, 0.9e-3]))
     assert not way.passes(np.array([5.0, 1.1e-3]))
     assert not way.passes(np.array([0.01, 0.3]))
+    slow = way_from(places, np.array([9.0, 1.0, 0.1, 1.0, 1.0]), end)  # ten times as long for the third step
+    assert slow.places[0] == pytest.approx([2.0, 0.0])
 
 
 @pytest.mark.parametrize("bend", [-3.0, 0.5, 8.0])

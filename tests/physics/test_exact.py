@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rodwell import Problem, coil, critical_loads
 from rodwell.errors import NotConvergedError
 from rodwell.physics import exact
-from rodwell.physics.exact.twisted import twisted_loads
+from rodwell.physics.exact.twisted import SERIES, _rest, twisted_loads
 
 PI2 = math.pi**2
 
@@ -240,3 +240,11 @@ def test_equal_energy_of_coils_that_the_solver_finds() -> None:
 def test_loads_of_a_twisted_rod_without_twist_are_those_of_the_column(ends: str, wavenumbers: list[float]) -> None:
     """Roots of sin k, and of sin ½k (½k cos ½k − sin ½k) (Timoshenko & Gere, *Theory of Elastic Stability*, 2.4)."""
     assert twisted_loads(0.0, 3, ends) == pytest.approx([-k * k for k in wavenumbers], rel=1e-9)
+
+
+@given(st.floats(-SERIES, SERIES))
+def test_series_of_the_determinant_is_its_closed_form(k: float) -> None:
+    with mpmath.workdps(60):
+        x = mpmath.mpf(k)
+        exact_value = (x * mpmath.cos(x / 2) - 2 * mpmath.sin(x / 2)) / x**3 if abs(k) > 1e-12 else -mpmath.mpf(1) / 12
+        assert _rest(k) == pytest.approx(float(exact_value), rel=1e-14)
