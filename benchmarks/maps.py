@@ -1,6 +1,7 @@
 """Maps beside a plain loop: rate, processor time, memory of a worker, size of a store.
 
-    python benchmarks/maps.py [--rounds 12] [--cells 128] [--many 20000]
+    python benchmarks/maps.py [--rounds 12] [--cells 128]
+    python benchmarks/maps.py --memory 100000    cells of one worker, in about half an hour
 
 In each round the same random problems are computed by a plain loop on a pool of two processes and by ``rodwell.map`` on
 a cluster of Dask with two workers, one after the other; both stand ready before. The loop does what a cell does: it
@@ -45,6 +46,7 @@ from rodwell.studies.maps.question import asked
 from rodwell.studies.maps.workers import Workers, working
 
 OUT = Path(__file__).parent / "results" / "maps.md"
+MEMORY = OUT.with_stem("maps_memory")
 FLAT = rodwell.Problem(15.0, 90.0)
 PIECE = 8
 """Problems that the loop gives out at a time."""
@@ -169,23 +171,36 @@ def chunks_a_second(latency: float) -> float:
     return rate
 
 
+def write_memory(cells: int) -> None:
+    """Memory of a worker that computes a map, ten times on the way."""
+    over = {"weight": np.linspace(5.0, 200.0, cells // 100), "alpha": np.linspace(30.0, 90.0, 100)}
+    rows, each = [], cells // 1000
+    with working(1) as single:
+        for part in range(10):
+            some = over | {"weight": over["weight"][part * each : (part + 1) * each]}
+            rodwell.map(FLAT, "lift-off", over=some, halvings=0, workers=single)
+            (size,) = (size for _, size in of_all(single.executor.submit, 1).values())
+            rows.append(f"| {(part + 1) * each * 100:,} | {size:.0f} |")
+            print(rows[-1], flush=True)
+    head = f"`python benchmarks/maps.py --memory {cells}`, {datetime.date.today().isoformat()}, {platform.machine()}, "
+    head += f"Python {platform.python_version()}: one worker, lift-off loads (γ 5 to 200, α 30° to 90°)."
+    MEMORY.write_text("\n".join([head, "", "| Cells | Memory, MB |", "| --- | --- |", *rows, ""]), encoding="utf-8")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--rounds", type=int, default=12)
     parser.add_argument("--cells", type=int, default=128)
-    parser.add_argument(
-        "--many", type=int, default=20_000, help="Cells after which the memory of workers is looked at."
-    )
+    parser.add_argument("--memory", type=int, help="Look at the memory of a worker while it computes so many cells.")
     given = parser.parse_args()
+    if given.memory:
+        write_memory(given.memory)
+        return
     judged([(15.0, 90.0)])
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as pool, working(2) as team, working(1) as single:
         list(pool.map(judged, [[(15.0, 90.0)]] * 16))
         one_round(pool, team, single, 64, 0)
         rounds = [one_round(pool, team, single, given.cells, 1 + i) for i in range(given.rounds)]
-        early = max(size for _, size in of_all(team.executor.submit, 2).values())
-        over = {"weight": np.linspace(5.0, 200.0, given.many // 100), "alpha": np.linspace(30.0, 90.0, 100)}
-        rodwell.map(FLAT, "lift-off", over=over, halvings=0, workers=team)
-        late = max(size for _, size in of_all(team.executor.submit, 2).values())
 
     def median(of: Any) -> str:
         values = sorted(of(one) for one in rounds)
@@ -208,8 +223,6 @@ def main() -> None:
         f"| … loop that does not judge | {median(lambda r: 1e3 * r['bare cpu'])} |",
         f"| … workers | {median(lambda r: 1e3 * r['map cpu'])} |",
         f"| … client and scheduler | {median(lambda r: 1e3 * r['map client'])} |",
-        f"| memory of a worker, MB, after the rounds | {early:.0f} |",
-        f"| … after {given.many} cells more | {late:.0f} |",
         "", "Stores, with digits that do not compress:", "",
         "| Cells of the map | Cells a chunk | Bytes a cell | Writing a chunk, s of processor time |",
         "| --- | --- | --- | --- |",

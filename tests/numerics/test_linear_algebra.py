@@ -132,7 +132,7 @@ def test_a_ramp_beside_the_spline_is_the_spline_of_the_sum() -> None:
 
 
 class TwoBeams(NamedTuple):
-    """Two coupled fields, to show that assembly takes any number of them: e = ½(a″² + 4 b″²) + a′b + ½ a b′² − p (a b + b′)."""
+    """Two coupled fields, since assembly takes any number: e = ½(a″² + 4 b″²) + a′b + ½ a b′² − p (a b + b′)."""
 
     a: int = 0
     b: int = 0

@@ -136,6 +136,16 @@ def test_pitchforks_of_the_straight_pendulum(straight: Trace) -> None:
     assert [f.point.lam for f in found] == pytest.approx([(k * np.pi) ** 2 for k in (1, 2, 3, 4)], rel=1e-13)
 
 
+def test_a_step_along_the_tangent_goes_as_far_as_asked_and_meets_the_branch(buckled: Trace) -> None:
+    family, state = buckled.meshes[5].coarse, buckled.points[5].coarse
+    for length in (0.1, -0.1):
+        there = family.step(state, length)
+        assert there is not None
+        assert state.along(there) == pytest.approx(length, rel=1e-12)
+        slope, amplitude = there.space.evaluate(there.c, np.array([0.0, 0.5]), 2)[[1, 0], [0, 1]]
+        assert 0.5 * slope**2 == pytest.approx(there.lam * (1.0 - np.cos(amplitude)), rel=1e-8)  # first integral
+
+
 @pytest.mark.parametrize("load", LOADS)
 def test_buckled_pendulum_at_given_loads(buckled: Trace, load: float) -> None:
     """½u'² = λ(cos u − cos a), so √λ = 2K(k) with k = sin(a/2); SciPy's K and E are functions of m = k²."""

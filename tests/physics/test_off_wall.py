@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from rodwell.physics.off_wall import _density, parameters
 from rodwell.physics.off_wall._density import hole_density
 from rodwell.physics.off_wall.forces import radially_at_wall
+from rodwell.physics.off_wall.linear import torque_density, turned_curvature
 from rodwell.physics.on_wall import parameters as wall
 from rodwell.physics.on_wall._density import rod_density
 
@@ -87,3 +88,13 @@ def test_radial_moment_and_force_at_the_wall_are_derivatives_of_the_energy_off_i
     assert at[0][0] == pytest.approx(second @ out, rel=1e-12)
     assert at[1][0] == pytest.approx((at[0][1] - at[0][2]) / (2.0 * h), rel=1e-8)
     assert -at[2][0] == pytest.approx(shear @ out + 4.0 * second @ around, rel=1e-7)
+
+
+@given(st.tuples(rates, rates, rates, rates), st.floats(-8.0, 8.0))
+def test_bending_and_torque_are_the_square_of_a_turned_curvature(fields: tuple[float, ...], twist: float) -> None:
+    """|u″ + ½iT₁u′|² = |u″|² + T₁(x′y″ − y′x″) + ¼T₁²|u′|², with u = x + iy."""
+    x1, y1, x2, y2 = fields
+    slope, bend = np.array([x1 + 1j * y1]), np.array([x2 + 1j * y2])
+    square = x2**2 + y2**2 + twist * (x1 * y2 - y1 * x2) + 0.25 * twist**2 * (x1**2 + y1**2)
+    assert np.abs(turned_curvature(slope, bend, twist)) ** 2 == pytest.approx(square, rel=1e-12, abs=1e-11)
+    assert torque_density(slope, bend) == pytest.approx(x1 * y2 - y1 * x2, rel=1e-14, abs=1e-14)
