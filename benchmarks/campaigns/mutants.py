@@ -176,8 +176,8 @@ def page(summary: resumable.Result) -> str:
     lines = [
         f"`python benchmarks/campaigns/mutants.py --count {summary['count']}`, seed {summary['seed']}, "
         f"{summary['date']}, {summary['machine']}. Of {summary['changes that can be made']:,} changes of physics, "
-        f"numerics and units that cosmic-ray can make, {summary['count']} were drawn; {summary['no program']} are no "
-        f"program, {summary['programs']} were tested.", "",
+        f"numerics and units that cosmic-ray can make, {summary['count']} were drawn; of these {summary['no program']} "
+        f"{'is' if summary['no program'] == 1 else 'are'} no program; {summary['programs']} were tested.", "",
         "| | |", "| --- | --- |",
         f"| noticed by the quickest tests of the room | {summary['killed at first']} "
         f"({summary['share killed at first']:.1%}) |",
