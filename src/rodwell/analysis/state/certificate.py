@@ -208,7 +208,7 @@ def _moment_at_steps(solution: Equilibrium, size: float) -> float:
 
 def _scaled(terms: tuple[Any, ...], sizes: tuple[FloatArray, ...] = ()) -> float:
     """Largest size of the sum of the terms, divided by the largest of the terms and of further ``sizes``."""
-    stacked = np.empty((len(terms) + len(sizes), max(np.size(term) for term in terms)))
+    stacked = np.empty((len(terms) + len(sizes), max(getattr(term, "size", 1) for term in terms)))
     for row, term in zip(stacked, (*terms, *sizes), strict=True):
         row[:] = term  # some are constants
     left = np.abs(stacked[: len(terms)].sum(axis=0)).max()
@@ -250,7 +250,7 @@ def _work_and_energy(solution: Equilibrium, load: Load) -> float:
     s = space.points
     b, q, lever = (rod.stiffness(s), rod.weight(s), rod.lever(s)) if solution.problem.sections else (1.0, 1.0, s - 1.0)
     y, y1, y2 = shape(solution.meshes.fine, state, space.points, 3)
-    u, u1, u2 = space.evaluate(state.tangent, space.points, 3)
+    u, u1, u2 = space.at_points(state.tangent)
     cos, D, angle = np.sqrt(1.0 - y1**2), load.clearance, y / load.clearance
     turn = u1 / cos  # δη
     bend = -(u2 + y1 * y2 * u1 / cos**2) / cos  # δω₂ = −(δη)′

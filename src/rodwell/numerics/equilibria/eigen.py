@@ -121,10 +121,8 @@ def lowest(
     previous, history, kept = np.full(count, np.inf), [np.inf], 0
     for iteration in range(1, MOST_ITERATIONS + 1):
         moved = block[kept:]
-        for step in range(STEPS if kept == 0 else 1):  # once some are kept the others would turn into them
-            if step > 0:  # after the last one, the Rayleigh–Ritz step makes them so
-                moved = _independent(moved)
-            moved = _inverse_step(factors, gram if right is None else right, moved)
+        for _ in range(STEPS if kept == 0 else 1):  # once some are kept the others would turn into them
+            moved = _independent(_inverse_step(factors, gram if right is None else right, moved))
         values, block = _rayleigh_ritz(np.concatenate([block[:kept], moved]), quadrature)
         if len(values) < count:
             raise EigenError("the vectors that are iterated became dependent")

@@ -131,7 +131,7 @@ def strands(x: Fifteen, load: Load) -> Strands:
         F11=(x.F1, (x.M3 - w3) / D, lam * w3, -lam / D, x.T2 * sin / D),  # (52)
         F12=(-w2 * lever, -taper * w3),  # (53)
         F13=(x.F3, -(x.M1 + T1) / D, -lam * w1, x.T2 * cos / D),  # (54)
-        F21=(w3 * cos / D, -x.M3 * cos / D, -(x.M1 + T1) * sin / D, lam * cos / D),  # (56): the constant h
+        F21=cylinder_tension(x, load),
         F22=(x.F2, w2 * lever, taper * w3),  # (57)
         F23=((x.M1 + T1) * cos / D, -(x.M3 - w3) * sin / D, -x.T2 / D),  # (58)
         p=(  # (55)
@@ -143,10 +143,16 @@ def strands(x: Fifteen, load: Load) -> Strands:
     )
 
 
+def cylinder_tension(x: Fifteen, load: Load) -> Terms:
+    """The cylinder's force F₁⁽²⁾ along its axis, the constant h: (56)."""
+    sin, cos, D = np.sin(x.eta), np.cos(x.eta), load.clearance
+    return x.omega3 * cos / D, -x.M3 * cos / D, -(x.M1 + load.twist) * sin / D, x.lam * cos / D
+
+
 def moments(x: Fifteen, mu_rate: Any, load: Load) -> dict[str, Terms]:
     """(37)–(39) as sums that vanish; ``mu_rate`` is μ′ and h the constant of (56)."""
     sin, cos = np.sin(x.eta), np.cos(x.eta)
-    D, h = load.clearance, sum(strands(x, load).F21)
+    D, h = load.clearance, sum(cylinder_tension(x, load))
     lam_cos = 2.0 * x.lam * sin * cos
     return {
         "(37)": (-x.M1, -load.twist, -D * h * sin, lam_cos, D * mu_rate, x.T2 * cos),
